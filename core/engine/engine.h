@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "physics/sphere.h"
+#include "scenario/hard_scene.h"
+
+namespace slipcheck {
+
+/// Stands for the substrate where a contact names two bodies.
+inline constexpr int kSubstrate = -1;
+
+/// Two bodies that exchanged a normal impulse during the step that ended with a frame.
+struct Touch {
+  int first = 0;              ///< body
+  int second = kSubstrate;    ///< body, > first, or kSubstrate
+  double normal_impulse = 0;  ///< summed over the pair's contact points [N s], > 0
+};
+
+/// The world at the end of one step.
+struct Frame {
+  std::vector<BodyState> bodies;
+  std::vector<Touch> touches;
+};
+
+/// A setting as the engine applied it.
+using Setting = std::variant<bool, double, std::string>;
+
+/// What an engine made of a scene.
+struct Applied {
+  std::map<std::string, Setting> settings;    ///< by name; SI
+  std::vector<std::string> not_represented;   ///< what of the scene the engine cannot express
+};
+
+/// What an engine is.
+struct EngineInfo {
+  std::string engine;                 ///< "bullet"
+  std::string version;                ///< "3.24"
+  std::string precision;              ///< "single" or "double"
+  std::vector<std::string> profiles;  ///< known by name
+};
+
+/// The engine cannot run this scene or profile; the message is the reason.
+class Refused : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What an engine's adapter implements; it runs in a worker process of its own (worker.h).
+/// It only steps and reports states: observables are computed elsewhere, by one function for all.
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  virtual EngineInfo info() const = 0;
+
+  /// Prepares for a scene under a named profile with steps of `time_step` [s], > 0. May be called
+  /// again for another scene. Throws Refused.
+  virtual Applied configure(const HardScene& scene, const std::string& profile,
+                            double time_step) = 0;
+
+  /// A fresh world, nothing left of an earlier one, with the bodies in these states.
+  virtual void start(std::span<const BodyState> states) = 0;
+
+  /// One step of the configured length, and nothing else: its CPU time is measured.
+  virtual void step() = 0;
+
+  /// The state after the last step, into `frame` (its storage is reused).
+  virtual void read(Frame& frame) const = 0;
+};
+
+}  // namespace slipcheck

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace slipcheck {
+
+using Vector2 = Eigen::Vector2d;
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+
+/// The substrate's unit normal k̂; the plane is z = 0 in its own frame.
+inline const Vector3 kUp = Vector3::UnitZ();
+
+}  // namespace slipcheck

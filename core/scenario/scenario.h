@@ -1,0 +1,232 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "physics/sphere.h"
+#include "physics/vector.h"
+
+namespace slipcheck {
+
+/// Where in a file something stands, both counted from 1; 0 where unknown.
+struct Location {
+  int line = 0;
+  int column = 0;
+};
+
+// One scene, format version 1 (docs/scenario-format.md). The fields are the YAML keys; all values
+// are SI (angles in radians) whatever the file's units, and all defaults stand here.
+
+struct Material {
+  std::optional<double> density;        ///< [kg/m³], > 0; needed unless every body has a mass
+  std::optional<double> young_modulus;  ///< Y [Pa], > 0
+  std::optional<double> poisson_ratio;  ///< ν [-], in (−1, 0.5]
+};
+
+// --- normal contact models -----------------------------------------------------------------------
+
+enum class EndsAt { zero_overlap, zero_force };
+
+/// ε = min(1, coefficient (g/speed)^−exponent).
+struct BridgesRestitution {
+  double coefficient = 0.32;  ///< [-], > 0
+  double exponent = 0.234;    ///< [-], >= 0
+  double speed = 0.01;        ///< [m/s], > 0
+};
+/// ε over the impact speed from the viscoelastic model and the materials (B 24).
+struct ViscoelasticRestitution {};
+
+struct HardNormal {
+  std::variant<double, BridgesRestitution, ViscoelasticRestitution> restitution = 1.0;  ///< [0, 1]
+};
+/// K (2). Exactly one of each pair is given.
+struct LinearNormal {
+  std::optional<double> restitution;     ///< e_n [-], (0, 1]
+  std::optional<double> damping_rate;    ///< γ_N [1/s], >= 0
+  std::optional<double> collision_time;  ///< t_col [s], > 0
+  std::optional<double> stiffness;       ///< k [N/m], > 0
+  EndsAt ends_at = EndsAt::zero_overlap;
+};
+struct HertzNormal {
+  EndsAt ends_at = EndsAt::zero_overlap;
+};
+/// K (B1): F = modulus ξ^alpha + viscosity ξ^gamma ξ̇.
+struct PowerNormal {
+  double modulus = 0;    ///< [N/m^alpha], > 0
+  double viscosity = 0;  ///< [N s/m^(1+gamma)], >= 0
+  double alpha = 1.5;    ///< [-], >= 1 (β of K B1)
+  double gamma = 0.5;    ///< [-], >= 0
+  EndsAt ends_at = EndsAt::zero_overlap;
+};
+struct ViscoelasticNormal {
+  enum class Form { expanded, compact };             ///< B (24), B (25)
+  std::optional<double> dissipation_time;            ///< A of B (23) [s], >= 0
+  std::optional<std::pair<double, double>> viscosity;  ///< η1, η2 of B (23) [Pa s], >= 0
+  Form form = Form::expanded;
+  EndsAt ends_at = EndsAt::zero_overlap;
+};
+using NormalModel =
+    std::variant<HardNormal, LinearNormal, HertzNormal, PowerNormal, ViscoelasticNormal>;
+
+// --- tangential contact models -------------------------------------------------------------------
+
+struct NoTangential {};
+/// K (4), (6); also Haff-Werner, B (39). Exactly one of the first two is given.
+struct ViscousTangential {
+  std::optional<double> damping_rate;   ///< γ_S [1/s], >= 0
+  std::optional<double> damping_ratio;  ///< γ_S/γ_N [-], >= 0
+  double friction = 0;                  ///< ν_s [-], >= 0
+};
+/// B (35), (37). Exactly one of friction and roughness_factor, exactly one kind of size.
+struct AsperityTangential {
+  enum class Form { printed, passive };
+  std::optional<double> friction;                ///< μ [-], >= 0
+  std::optional<double> roughness_factor;        ///< α in μ = α √ζ0 [m^−1/2], >= 0
+  std::optional<double> asperity_size;           ///< ζ0 [m], > 0
+  std::optional<double> relative_asperity_size;  ///< ζ0/R_eff [-], > 0
+  Form form = Form::printed;
+};
+/// L (5)-(12).
+struct HardTangential {
+  double friction = 0;                ///< μ [-], >= 0
+  double tangential_restitution = 0;  ///< β0 [-], in [−1, 1]
+};
+using TangentialModel =
+    std::variant<NoTangential, ViscousTangential, AsperityTangential, HardTangential>;
+
+/// A body pair, or a body and floor, wall or lid of a container.
+struct BodyContact {
+  std::string first, second;  ///< materials; second may be "floor", "wall", "lid"
+  NormalModel normal;
+  TangentialModel tangential = NoTangential{};
+};
+
+// --- contact with the substrate ------------------------------------------------------------------
+
+struct SubstrateFriction {
+  double static_ = 0;  ///< μ_s [-], >= kinetic
+  double kinetic = 0;  ///< μ_k [-], >= 0
+};
+struct RollingLaw {
+  /// (speed [m/s], μ_r [-]) with rising speeds, linear between and constant outside; one point is a
+  /// constant. Never empty.
+  std::vector<std::pair<double, double>> table = {{0, 0}};
+  bool while_sliding = false;
+};
+struct Drilling {
+  enum class Model { none, uncoupled, coupled };
+  Model model = Model::none;
+  std::optional<double> contact_radius;  ///< a_c [m], > 0; none: Hertzian, from the material
+};
+struct MaterialOnSubstrate {
+  std::string material;
+  SubstrateFriction friction;
+  RollingLaw rolling;
+  Drilling drilling;
+  double restitution = 0;  ///< [-], in [0, 1]
+};
+
+// --- surroundings --------------------------------------------------------------------------------
+
+struct StillMotion {};
+struct ConstantMotion {
+  Vector2 velocity = Vector2::Zero();  ///< [m/s]
+};
+/// x_S(t) = amplitude sin(2π frequency t + phase).
+struct OscillatingMotion {
+  Vector2 amplitude = Vector2::Zero();  ///< [m]
+  double frequency = 0;                 ///< [Hz], > 0
+  double phase = 0;                     ///< [rad]
+};
+/// Positions x_S at rising times, linear between them.
+struct TableMotion {
+  struct Point {
+    double time = 0;                     ///< [s]
+    Vector2 position = Vector2::Zero();  ///< [m]
+  };
+  std::vector<Point> table;
+};
+using Motion = std::variant<StillMotion, ConstantMotion, OscillatingMotion, TableMotion>;
+
+struct Substrate {
+  std::optional<Vector2> periodic;  ///< lengths of the periodic cell [m], > 0
+  double tilt = 0;                  ///< [rad], in [0, π/2), downhill along −y
+  bool confined = false;            ///< bodies never leave the plane
+  Motion motion = StillMotion{};
+};
+
+/// L's vertical two-dimensional box; positions are (x, 0, z), z up from the floor's mean height.
+struct Container {
+  enum class Walls { fixed, moving };
+  double width = 0;              ///< [m], > 0
+  double floor_amplitude = 0;    ///< [m], >= 0
+  double floor_frequency = 0;    ///< [Hz], >= 0
+  Walls walls = Walls::fixed;    ///< moving: with the floor
+  std::optional<double> height;  ///< closed by a lid at this height [m], > 0
+};
+
+struct Body {
+  std::string name;
+  std::string material;
+  Sphere sphere;
+  BodyState initial;
+};
+
+// --- what is run and compared --------------------------------------------------------------------
+
+struct Run {
+  enum class Until { rolling, rest, time };
+  Until until = Until::rolling;
+  double time = 0;    ///< [s], where until is `time`
+  double limit = 60;  ///< simulated time after which `until` has failed [s], > 0
+  std::optional<std::int64_t> periods;  ///< of the floor, for a container
+  std::int64_t discard = 0;             ///< periods before the first sample
+  bool sample_phase_zero = false;
+};
+
+struct Tolerance {
+  double value = 0;  ///< >= 0; relative, or absolute for restitution coefficients
+  /// The file gave a unit (an extension): the value is absolute, in SI.
+  bool absolute = false;
+};
+
+struct EngineRequest {
+  enum class Precision { single_, double_ };
+  std::string engine;
+  Precision precision = Precision::double_;
+  std::string profile = "default";
+  std::vector<double> rates;  ///< steps per second [Hz], > 0
+};
+
+struct Compare {
+  enum class Reference { automatic, event, contact };
+  Reference reference = Reference::automatic;
+  std::vector<EngineRequest> engines;
+  std::map<std::string, Tolerance> tolerance;  ///< by observable, without the body's name
+};
+
+struct Scenario {
+  std::string name;
+  std::string title;
+  std::string source;
+  Vector3 gravity = Vector3(0, 0, -9.80665);  ///< in the substrate's frame [m/s²]
+  std::map<std::string, Material> materials;
+  std::vector<BodyContact> contacts;
+  std::vector<MaterialOnSubstrate> substrate_contacts;
+  std::variant<Substrate, Container> surroundings;
+  std::vector<Body> bodies;
+  Run run;
+  Compare compare;
+
+  std::string file;    ///< as it was named by the user
+  std::string sha256;  ///< of the file's bytes, in hex
+  /// Where each key stands in the file, by its path, as in "contacts[0].normal.model".
+  std::map<std::string, Location> locations;
+};
+
+}  // namespace slipcheck
