@@ -8,26 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "physics/sphere.h"
+#include "physics/frame.h"
 #include "scenario/hard_scene.h"
 
 namespace slipcheck {
-
-/// Stands for the substrate where a contact names two bodies.
-inline constexpr int kSubstrate = -1;
-
-/// Two bodies that exchanged a normal impulse during the step that ended with a frame.
-struct Touch {
-  int first = 0;              ///< body
-  int second = kSubstrate;    ///< body, > first, or kSubstrate
-  double normal_impulse = 0;  ///< summed over the pair's contact points [N s], > 0
-};
-
-/// The world at the end of one step.
-struct Frame {
-  std::vector<BodyState> bodies;
-  std::vector<Touch> touches;
-};
 
 /// A setting as the engine applied it.
 using Setting = std::variant<bool, double, std::string>;

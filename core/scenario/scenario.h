@@ -104,6 +104,7 @@ struct BodyContact {
   std::string first, second;  ///< materials; second may be "floor", "wall", "lid"
   NormalModel normal;
   TangentialModel tangential = NoTangential{};
+  std::string path;  ///< of its keys in the file, as in "contacts[0]"
 };
 
 // --- contact with the substrate ------------------------------------------------------------------
@@ -129,6 +130,7 @@ struct MaterialOnSubstrate {
   RollingLaw rolling;
   Drilling drilling;
   double restitution = 0;  ///< [-], in [0, 1]
+  std::string path;        ///< of its keys in the file, as in "contacts[1]"
 };
 
 // --- surroundings --------------------------------------------------------------------------------

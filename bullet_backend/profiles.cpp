@@ -1,0 +1,104 @@
+#include "bullet_backend/profiles.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+#include "bullet_backend/coefficients.h"
+#include "engine/engine.h"
+
+namespace slipcheck::bullet {
+namespace {
+
+const std::map<std::string, Profile>& profiles() {
+  static const std::map<std::string, Profile> by_name = {
+      {"default", Profile::default_},
+      {"naive", Profile::naive},
+  };
+  return by_name;
+}
+
+bool depends_on_speed(const PairContact& pair) {
+  return std::holds_alternative<PowerLawRestitution>(pair.restitution);
+}
+
+bool bounces(const PairContact& pair) {
+  return depends_on_speed(pair) || std::get<double>(pair.restitution) > 0;
+}
+
+/// Slip is neither kept (β0 = −1) nor just stopped (β0 = 0): Bullet's friction can only stop it.
+bool reverses_slip(const PairContact& pair) {
+  const double beta0 = pair.tangential_restitution;
+  return pair.friction > 0 && beta0 != 0 && beta0 != -1;
+}
+
+/// What the scene's bodies need of the engine, each found on any of them.
+struct Needs {
+  bool static_friction = false, rolling = false, rolling_table = false, drilling = false;
+  bool bounce = false, bounce_law = false, reversed_slip = false, cut_torque = false;
+};
+
+Needs needs_of(const HardScene& scene, double time_step) {
+  Needs needs;
+  const PairCoefficients coefficients(scene, time_step);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const SubstrateContact& ground = scene.on_substrate(i);
+    needs.static_friction |= ground.static_friction != ground.kinetic_friction;
+    needs.rolling |= !ground.rolling.is_zero();
+    needs.rolling_table |= !ground.rolling.is_constant();
+    needs.drilling |= ground.drilling_length > 0;
+    needs.bounce |= ground.restitution > 0;
+    needs.cut_torque |= coefficients.is_cut(static_cast<int>(i)) &&
+                        (!ground.rolling.is_zero() || ground.drilling_length > 0);
+    for (std::size_t j = 0; j < i; ++j) {
+      const PairContact& pair = scene.between(i, j);
+      needs.bounce |= bounces(pair);
+      needs.bounce_law |= depends_on_speed(pair);
+      needs.reversed_slip |= reverses_slip(pair);
+    }
+  }
+  return needs;
+}
+
+}  // namespace
+
+std::vector<std::string> profile_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, profile] : profiles()) names.push_back(name);
+  return names;
+}
+
+Profile parse_profile(const std::string& name) {
+  const auto found = profiles().find(name);
+  if (found != profiles().end()) return found->second;
+  const auto contract_names = {"physical", "tuned", "fast"};
+  const bool is_in_contract =
+      std::find(contract_names.begin(), contract_names.end(), name) != contract_names.end();
+  throw Refused(fmt::format("bullet has no profile '{}'{}; it has: {}", name,
+                            is_in_contract ? " yet" : "", fmt::join(profile_names(), ", ")));
+}
+
+std::vector<std::string> not_represented(const HardScene& scene, Profile profile,
+                                         double time_step) {
+  const Needs needs = needs_of(scene, time_step);
+  const bool naive = profile == Profile::naive;
+  std::vector<std::string> missing;
+  const auto note = [&](bool condition, const char* what) {
+    if (condition) missing.emplace_back(what);
+  };
+  note(needs.static_friction, "static friction (one coefficient for sticking and sliding)");
+  note(needs.rolling, "rolling friction only while rolling (it acts while sliding too)");
+  note(needs.rolling, "rolling friction alike in all headings (up to 1.41 times on diagonals)");
+  note(needs.bounce, "restitution below 0.2 m/s");
+  note(needs.reversed_slip, "tangential restitution (friction only stops the slip)");
+  note(scene.confined, "confinement to the plane");
+  note(needs.rolling_table && naive, "rolling friction that depends on the speed");
+  note(needs.bounce_law && naive, "restitution that depends on the impact speed");
+  note(needs.cut_torque && naive, "rolling and drilling torque of normal impulses above 1 N s");
+  note(needs.cut_torque && !naive, "rolling and drilling torque of a load other than the weight");
+  return missing;
+}
+
+}  // namespace slipcheck::bullet

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace slipcheck {
+
+/// Exit codes of the command line; others build on them.
+enum ExitCode {
+  kWithinTolerance = 0,
+  kDeviates = 1,
+  kBadInput = 2,
+  kEngineFailed = 3,
+  kInterrupted = 130,
+};
+
+// Each adds its command to the program. The command's callback leaves its exit code in `exit_code`.
+void add_run_command(CLI::App& app, int& exit_code);
+void add_explain_command(CLI::App& app, int& exit_code);
+void add_list_command(CLI::App& app, int& exit_code);
+void add_schema_command(CLI::App& app, int& exit_code);
+
+}  // namespace slipcheck

@@ -1,0 +1,200 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/commands.h"
+#include "engine/engine_registry.h"
+#include "engine/remote_engine.h"
+#include "scenario/fault.h"
+#include "scenario/load.h"
+#include "scenario/observable_names.h"
+#include "scenario/schema.h"
+
+namespace slipcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// Asks every worker on this machine who it is; engines that are known but not built are listed too.
+Json list_engines() {
+  Json list = Json::array();
+  const std::vector<EngineExecutable> found = find_engines();
+  for (const EngineExecutable& executable : found) {
+    Json entry{{"engine", executable.engine}, {"precision", executable.precision}};
+    try {
+      const EngineInfo info = RemoteEngine(executable.path).info();
+      entry["version"] = info.version;
+      entry["profiles"] = info.profiles;
+      entry["status"] = "ok";
+    } catch (const WorkerFailure& failure) {
+      entry["status"] = "crashed";
+      entry["reason"] = failure.what();
+    }
+    list.push_back(std::move(entry));
+  }
+  for (const std::string& engine : known_engines())
+    if (std::none_of(found.begin(), found.end(),
+                     [&](const EngineExecutable& e) { return e.engine == engine; }))
+      list.push_back(Json{{"engine", engine}, {"status", "skipped"}, {"reason", "not installed"}});
+  return list;
+}
+
+/// Bundled scenes lie beside the program, in its share folder, or in the source tree.
+fs::path scenario_directory() {
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  for (const fs::path& directory :
+       {program / "scenarios", program.parent_path() / "share/slipcheck/scenarios"})
+    if (fs::is_directory(directory, ignored)) return directory;
+  return SLIPCHECK_SCENARIO_DIR;
+}
+
+Json list_scenarios() {
+  Json list = Json::array();
+  std::set<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(scenario_directory(), ignored))
+    if (entry.path().extension() == ".yaml") files.insert(entry.path());
+  for (const fs::path& file : files) {
+    try {
+      const Scenario scenario = load_scenario(file);
+      list.push_back(Json{{"name", scenario.name},
+                          {"title", scenario.title},
+                          {"bodies", scenario.bodies.size()},
+                          {"file", fs::proximate(file, ignored).string()}});
+    } catch (const BadScenario& bad) {
+      fmt::print(stderr, "{}\n", bad.what());
+    }
+  }
+  return list;
+}
+
+Json list_observables() {
+  Json list = Json::array();
+  for (const ObservableName& observable : observable_names()) {
+    const char* scope = observable.scope == ObservableScope::body   ? "body"
+                        : observable.scope == ObservableScope::pair ? "pair"
+                                                                    : "all";
+    list.push_back(Json{{"name", observable.name},
+                        {"of", scope},
+                        {"unit", observable.dimension.si},
+                        {"vector", observable.is_vector},
+                        {"meaning", observable.doc}});
+  }
+  return list;
+}
+
+/// What make_hard_scene() takes.
+bool event_solves(const std::string& key, const std::string& model) {
+  static const std::set<std::pair<std::string, std::string>> solved = {
+      {"normal", "hard"},   {"tangential", "none"},    {"tangential", "hard"},
+      {"drilling", "none"}, {"drilling", "uncoupled"}, {"motion", "still"}};
+  return solved.count({key, model}) > 0;
+}
+
+/// The alternatives of every key of the format that names a model, from the format's own schema.
+void collect_models(const nlohmann::json& node, const std::string& key, Json& list) {
+  if (node.is_array()) {
+    for (const auto& item : node) collect_models(item, key, list);
+    return;
+  }
+  if (!node.is_object()) return;
+  const auto properties = node.find("properties");
+  if (properties != node.end())
+    for (const char* selector : {"model", "kind"})
+      if (properties->contains(selector) && (*properties)[selector].contains("const")) {
+        const auto model = (*properties)[selector]["const"].get<std::string>();
+        Json parameters = Json::array();
+        for (const auto& [name, rule] : properties->items())
+          if (name != selector) parameters.push_back(name);
+        list.push_back(Json{{"key", key},
+                            {"model", model},
+                            {"solver", event_solves(key, model) ? Json("event") : Json()},
+                            {"parameters", std::move(parameters)}});
+      }
+  for (const auto& [name, child] : node.items()) {
+    if (name == "properties") {
+      for (const auto& [property, rule] : child.items()) collect_models(rule, property, list);
+    } else {
+      collect_models(child, key, list);
+    }
+  }
+}
+
+Json list_models() {
+  Json list = Json::array();
+  collect_models(scenario_schema(), "", list);
+  return list;
+}
+
+std::string cell(const Json& value) {
+  if (value.is_null()) return "-";
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_array()) {
+    std::string text;
+    for (const auto& item : value) text += (text.empty() ? "" : ", ") + cell(item);
+    return text;
+  }
+  return value.dump();
+}
+
+void print_table(const Json& list) {
+  std::vector<std::string> columns;
+  for (const auto& row : list)
+    for (const auto& [key, value] : row.items())
+      if (std::find(columns.begin(), columns.end(), key) == columns.end()) columns.push_back(key);
+  std::vector<std::size_t> widths;
+  for (const std::string& column : columns) {
+    std::size_t width = column.size();
+    for (const auto& row : list)
+      if (row.contains(column)) width = std::max(width, cell(row[column]).size());
+    widths.push_back(width);
+  }
+  const auto print_row = [&](const auto& text_of) {
+    std::string line;
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      line += fmt::format("{:<{}}  ", text_of(columns[c]), widths[c]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    fmt::print("{}\n", line);
+  };
+  print_row([](const std::string& column) { return column; });
+  for (const auto& row : list)
+    print_row([&](const std::string& column) {
+      return row.contains(column) ? cell(row[column]) : std::string();
+    });
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("list", "List the engines, scenarios, observables or models there are");
+  auto what = std::make_shared<std::string>();
+  auto as_json = std::make_shared<bool>(false);
+  command->add_option("WHAT", *what, "engines, scenarios, observables or models")
+      ->required()
+      ->check(CLI::IsMember({"engines", "scenarios", "observables", "models"}));
+  command->add_flag("--json", *as_json, "As JSON");
+  command->add_flag("-q,--quiet", "Say nothing but the result");
+  command->footer("Example:\n  slipcheck list observables --json");
+  command->callback([what, as_json, &exit_code] {
+    const Json list = *what == "engines"       ? list_engines()
+                      : *what == "scenarios"   ? list_scenarios()
+                      : *what == "observables" ? list_observables()
+                                               : list_models();
+    if (*as_json)
+      fmt::print("{}\n", list.dump(2));
+    else
+      print_table(list);
+    exit_code = kWithinTolerance;
+  });
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "app/commands.h"
+#include "report/context.h"
+#include "scenario/fault.h"
+#include "scenario/hard_scene.h"
+
+int main(int argc, char** argv) {
+  using namespace slipcheck;
+  CLI::App app{
+      "Slipcheck holds physics engines against a reference of spheres that collide, slide and roll."};
+  app.set_version_flag("--version", fmt::format("slipcheck {} ({}, {})", context().version,
+                                                context().commit, context().build));
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 all within tolerance, 1 something deviates, 2 bad input, 3 an engine failed,\n"
+      "130 interrupted.\n\nExample:\n  slipcheck run scenarios/symmetric-30cms.yaml --phases 64");
+  int exit_code = kWithinTolerance;
+  add_run_command(app, exit_code);
+  add_explain_command(app, exit_code);
+  add_list_command(app, exit_code);
+  add_schema_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Help and version end well; everything else is bad input.
+    return app.exit(error) == 0 ? kWithinTolerance : kBadInput;
+  } catch (const BadScenario& bad) {
+    fmt::print(stderr, "{}\n", bad.what());
+    return kBadInput;
+  } catch (const Unsupported& unsupported) {
+    fmt::print(stderr, "{}\n", unsupported.what());
+    return kBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "slipcheck: {}\n", error.what());
+    return kBadInput;
+  }
+  return exit_code;
+}

@@ -1,0 +1,54 @@
+#include "app/progress_bar.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
+
+namespace slipcheck {
+
+bool is_plain_terminal(int file_descriptor) {
+  const char* no_colour = std::getenv("NO_COLOR");
+  return isatty(file_descriptor) == 1 && (!no_colour || *no_colour == '\0');
+}
+
+ProgressBar::ProgressBar(std::string label, bool shown) : label_(std::move(label)) {
+  if (!shown) return;
+  ticker_ = std::jthread([this](const std::stop_token& stop) {
+    using namespace std::chrono_literals;
+    const auto begin = std::chrono::steady_clock::now();
+    std::mutex mutex;
+    std::condition_variable_any stopped;
+    std::unique_lock lock(mutex);
+    bool drawn = false;
+    auto pause = 1000ms;
+    while (!stopped.wait_for(lock, stop, pause, [&] { return stop.stop_requested(); })) {
+      draw(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+      drawn = true;
+      pause = 200ms;
+    }
+    if (drawn) fmt::print(stderr, "\r\x1b[K");
+    std::fflush(stderr);
+  });
+}
+
+ProgressBar::~ProgressBar() = default;
+
+void ProgressBar::set(std::size_t done, std::size_t total) {
+  done_ = done;
+  total_ = total;
+}
+
+void ProgressBar::draw(double seconds) const {
+  constexpr std::size_t width = 30;
+  const std::size_t total = total_, done = done_;
+  const std::size_t filled = total > 0 ? width * done / total : 0;
+  fmt::print(stderr, "\r\x1b[K{} [{:█<{}}{:·<{}}] {}/{}  {:.0f} s", label_, "", filled, "",
+             width - filled, done, total, seconds);
+  std::fflush(stderr);
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/load_files.h"
+#include "app/progress_bar.h"
+#include "harness/scene_run.h"
+#include "report/context.h"
+#include "report/files.h"
+#include "report/html_report.h"
+#include "report/json_report.h"
+#include "report/table.h"
+
+namespace slipcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunArguments {
+  std::vector<std::string> files;
+  std::string json, html, directory;
+  RunOptions options;
+  std::size_t memory_limit = 2048;  // MiB
+  bool all = false, quiet = false;
+};
+
+/// What cannot be written in the end is refused before anything runs.
+void check_output(const std::string& option, const fs::path& path, bool is_directory) {
+  std::error_code ignored;
+  if (is_directory) {
+    if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
+      throw std::runtime_error(fmt::format("{}: must be a directory, got {}", option, path.string()));
+    return;
+  }
+  const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(parent, ignored))
+    throw std::runtime_error(
+        fmt::format("{}: its directory must exist, got {}", option, path.string()));
+  if (access(parent.c_str(), W_OK) != 0)
+    throw std::runtime_error(
+        fmt::format("{}: its directory must be writable, got {}", option, path.string()));
+  if (fs::is_directory(path, ignored))
+    throw std::runtime_error(fmt::format("{}: must be a file, got {}", option, path.string()));
+}
+
+int terminal_width() {
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return 100;
+}
+
+int exit_code_of(const std::vector<SceneRecord>& scenes) {
+  if (interrupted()) return kInterrupted;
+  int code = kWithinTolerance;
+  for (const SceneRecord& scene : scenes) {
+    if (scene.verdict() == Verdict::failed) return kEngineFailed;
+    if (scene.verdict() == Verdict::deviates) code = kDeviates;
+  }
+  return code;
+}
+
+void write_results(const RunArguments& arguments, const std::vector<SceneRecord>& scenes,
+                   const std::string& command) {
+  if (arguments.json == "-")
+    fmt::print("{}\n", json_of(scenes).dump(2));
+  else if (!arguments.json.empty())
+    write_file_atomically(arguments.json, json_of(scenes).dump(2) + "\n");
+  if (!arguments.html.empty()) write_file_atomically(arguments.html, html_of(scenes, command));
+  if (!arguments.directory.empty()) {
+    const fs::path directory = arguments.directory;
+    fs::create_directories(directory);
+    for (const SceneRecord& scene : scenes)
+      write_file_atomically(directory / (scene.scenario.name + ".json"),
+                            json_of(scene).dump(2) + "\n");
+    write_file_atomically(directory / "report.html", html_of(scenes, command));
+  }
+}
+
+void print_warnings(const std::vector<SceneRecord>& scenes) {
+  for (const SceneRecord& scene : scenes)
+    for (const EngineRecord& run : scene.runs)
+      if (run.status != EngineRecord::Status::ok)
+        fmt::print(stderr, "{}: {} {} {} at {:g} Hz {}: {}\n", scene.scenario.name, run.engine,
+                   run.precision, run.profile, run.rate, name_of(run.status), run.reason);
+}
+
+int run(RunArguments& arguments) {
+  if (!arguments.json.empty() && arguments.json != "-")
+    check_output("--json", arguments.json, false);
+  if (!arguments.html.empty()) check_output("--html", arguments.html, false);
+  if (!arguments.directory.empty()) check_output("--out", arguments.directory, true);
+  std::vector<Scenario> scenarios = load_files(arguments.files);
+
+  watch_for_interrupts();
+  arguments.options.stop = &interrupted();
+  arguments.options.limits.memory = arguments.memory_limit << 20;
+  if (is_debug_build() && !arguments.quiet)
+    fmt::print(stderr, "warning: this is a debug build; its run times say nothing\n");
+  std::vector<SceneRecord> scenes;
+  {
+    ProgressBar bar("running", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
+    arguments.options.progress = [&](std::size_t done, std::size_t total) { bar.set(done, total); };
+    scenes = run_scenes(std::move(scenarios), arguments.options);
+  }
+  const std::string command =
+      fmt::format("slipcheck run {} --phases {}", fmt::join(arguments.files, " "),
+                  arguments.options.phases);
+  write_results(arguments, scenes, command);
+  if (!arguments.quiet) {
+    if (arguments.json != "-") {
+      TableStyle style;
+      style.colour = is_plain_terminal(STDOUT_FILENO);
+      style.width = terminal_width();
+      style.all_observables = arguments.all;
+      for (const SceneRecord& scene : scenes) fmt::print("{}\n", table_of(scene, style));
+      fmt::print("{}\n", summary_of(scenes, style));
+    }
+    print_warnings(scenes);
+    if (interrupted()) fmt::print(stderr, "interrupted: what had finished is kept\n");
+  }
+  return exit_code_of(scenes);
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "run", "Run scenes in the reference and in engines and print how far they are apart");
+  auto arguments = std::make_shared<RunArguments>();
+  command->add_option("FILE", arguments->files, "Scenario files")->required();
+  command->add_option("--json", arguments->json, "Write the result file here; - is stdout");
+  command->add_option("--html", arguments->html, "Write one self-contained page here");
+  command->add_option("--out", arguments->directory,
+                      "Write a result folder: a JSON file for each scene, and report.html");
+  command
+      ->add_option("--phases", arguments->options.phases,
+                   "Runs in each engine's ensemble, by where in a step the first contact falls")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--workers", arguments->options.workers,
+                      "Engines at work at once; 0: one for each core")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command->add_option("--time-limit", arguments->options.time_limit,
+                      "Wall-clock seconds for one run of an engine")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--memory-limit", arguments->memory_limit, "MiB for one engine")
+      ->check(CLI::Range(16, 1 << 20))
+      ->capture_default_str();
+  command->add_flag("--all", arguments->all, "Show every observable, not only those with a tolerance");
+  command->add_flag("-q,--quiet", arguments->quiet, "No table, no progress; the exit code tells");
+  command->footer(
+      "Examples:\n"
+      "  slipcheck run scenarios/symmetric-30cms.yaml --phases 64\n"
+      "  slipcheck run scenarios/*.yaml --out results/today\n"
+      "  slipcheck run scene.yaml --json - | jq .verdict");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace slipcheck

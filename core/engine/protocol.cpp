@@ -1,0 +1,217 @@
+#include "engine/protocol.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "engine/cbor.h"
+#include "engine/scene_json.h"
+
+namespace slipcheck::protocol {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kTouchBytes = 4 + 4 + 8;  // first, second, normal impulse
+constexpr std::uint32_t kSubstrateOnWire = 0xffffffff;
+
+Bytes pack(const json& message) {
+  Bytes bytes(kPrefix);
+  json::to_cbor(message, bytes);
+  const std::size_t length = bytes.size() - kPrefix;
+  if (length > kMaxMessage) {
+    throw std::length_error(fmt::format("a message of {} bytes is too long", length));
+  }
+  for (std::size_t k = 0; k < kPrefix; ++k) bytes[k] = static_cast<std::uint8_t>(length >> (8 * k));
+  return bytes;
+}
+
+// --- frames --------------------------------------------------------------------------------------
+
+json to_json(const Frames& reply) {
+  const std::size_t count = reply.frames.size();
+  const std::size_t bodies = count == 0 ? 0 : reply.frames.front().bodies.size();
+  Bytes states, touch_counts, touches;
+  states.reserve(count * bodies * kStateBytes);
+  touch_counts.reserve(4 * count);
+  for (const Frame& frame : reply.frames) {
+    for (const BodyState& state : frame.bodies) append_state(states, state);
+    append_u32(touch_counts, static_cast<std::uint32_t>(frame.touches.size()));
+    for (const Touch& touch : frame.touches) {
+      append_u32(touches, static_cast<std::uint32_t>(touch.first));
+      append_u32(touches, touch.second == kSubstrate ? kSubstrateOnWire
+                                                     : static_cast<std::uint32_t>(touch.second));
+      append_f64(touches, touch.normal_impulse);
+    }
+  }
+  return {{"type", "frames"},
+          {"count", count},
+          {"bodies", bodies},
+          {"cpu_seconds", reply.cpu_seconds},
+          {"states", json::binary(std::move(states))},
+          {"touch_counts", json::binary(std::move(touch_counts))},
+          {"touches", json::binary(std::move(touches))}};
+}
+
+Touch read_touch(const std::uint8_t* at, std::size_t bodies) {
+  const std::uint32_t first = read_u32(at);
+  const std::uint32_t second = read_u32(at + 4);
+  const bool valid =
+      first < bodies && (second == kSubstrateOnWire || (second > first && second < bodies));
+  if (!valid)
+    throw Rubbish(fmt::format("a touch of {} and {} among {} bodies", first, second, bodies));
+  const double impulse = read_f64(at + 8);
+  if (impulse <= 0) throw Rubbish(fmt::format("a touch's normal impulse is {}, not > 0", impulse));
+  return {static_cast<int>(first),
+          second == kSubstrateOnWire ? kSubstrate : static_cast<int>(second), impulse};
+}
+
+Frames frames_from_json(const Fields& fields) {
+  const std::size_t count = fields.count("count", kMaxMessage);
+  const std::size_t bodies = fields.count("bodies", kMaxMessage);
+  const Bytes& states = fields.bytes("states");
+  const Bytes& touch_counts = fields.bytes("touch_counts");
+  const Bytes& touches = fields.bytes("touches");
+  if (count == 0 || bodies == 0) throw Rubbish("frames without a step or a body");
+  if (states.size() / kStateBytes / bodies != count ||
+      states.size() % (bodies * kStateBytes) != 0) {
+    throw Rubbish(
+        fmt::format("{} bytes of states for {} steps of {} bodies", states.size(), count, bodies));
+  }
+  if (touch_counts.size() != 4 * count) throw Rubbish("touch_counts is not 4 bytes for each step");
+
+  Frames reply;
+  reply.cpu_seconds = fields.number("cpu_seconds", 0);
+  reply.frames.resize(count);
+  const std::uint8_t* state = states.data();
+  std::size_t touch = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    Frame& frame = reply.frames[n];
+    frame.bodies.reserve(bodies);
+    for (std::size_t i = 0; i < bodies; ++i, state += kStateBytes) {
+      frame.bodies.push_back(read_state(state));
+    }
+    const std::size_t here = read_u32(touch_counts.data() + 4 * n);
+    if (here > (touches.size() - touch) / kTouchBytes) throw Rubbish("touches end early");
+    frame.touches.reserve(here);
+    for (std::size_t k = 0; k < here; ++k, touch += kTouchBytes) {
+      frame.touches.push_back(read_touch(touches.data() + touch, bodies));
+    }
+  }
+  if (touch != touches.size()) throw Rubbish("more touches than touch_counts says");
+  return reply;
+}
+
+// --- the other messages --------------------------------------------------------------------------
+
+json to_json(const Hello& request) { return {{"type", "hello"}, {"protocol", request.version}}; }
+json to_json(const Configure& request) {
+  return {{"type", "configure"},
+          {"scene", scene_to_json(request.scene)},
+          {"profile", request.profile},
+          {"time_step", request.time_step}};
+}
+json to_json(const Start& request) {
+  return {{"type", "start"}, {"states", json::binary(pack_states(request.states))}};
+}
+json to_json(const Step& request) { return {{"type", "step"}, {"count", request.count}}; }
+json to_json(const Quit&) { return {{"type", "quit"}}; }
+
+json to_json(const Welcome& reply) {
+  return {{"type", "welcome"},
+          {"protocol", reply.version},
+          {"engine", reply.info.engine},
+          {"version", reply.info.version},
+          {"precision", reply.info.precision},
+          {"profiles", reply.info.profiles}};
+}
+json to_json(const Configured& reply) {
+  json settings = json::object();
+  for (const auto& [name, setting] : reply.applied.settings) {
+    std::visit([&, &key = name](const auto& value) { settings[key] = value; }, setting);
+  }
+  return {{"type", "configured"},
+          {"settings", std::move(settings)},
+          {"not_represented", reply.applied.not_represented}};
+}
+json to_json(const Refusal& reply) { return {{"type", "refused"}, {"reason", reply.reason}}; }
+json to_json(const Started&) { return {{"type", "started"}}; }
+json to_json(const Failed& reply) { return {{"type", "failed"}, {"reason", reply.reason}}; }
+
+Applied applied_from_json(const Fields& fields) {
+  Applied applied;
+  for (const auto& [name, value] : fields.object("settings").items()) {
+    require_utf8(name, "the name of a setting");
+    if (value.is_boolean()) {
+      applied.settings[name] = value.get<bool>();
+    } else if (value.is_number()) {
+      applied.settings[name] = value.get<double>();
+    } else if (value.is_string()) {
+      require_utf8(value.get_ref<const std::string&>(), "a setting");
+      applied.settings[name] = value.get<std::string>();
+    } else {
+      throw Rubbish(fmt::format("the setting {} is no number, text, true or false", name));
+    }
+  }
+  applied.not_represented = fields.texts("not_represented");
+  return applied;
+}
+
+}  // namespace
+
+Bytes encode(const Request& request) {
+  return pack(std::visit([](const auto& each) { return to_json(each); }, request));
+}
+
+Bytes encode(const Reply& reply) {
+  return pack(std::visit([](const auto& each) { return to_json(each); }, reply));
+}
+
+std::size_t body_length(std::span<const std::uint8_t, kPrefix> prefix) {
+  const std::size_t length = read_u32(prefix.data());
+  if (length > kMaxMessage) {
+    throw Rubbish(fmt::format("a message of {} bytes, more than {}", length, kMaxMessage));
+  }
+  return length;
+}
+
+Request decode_request(std::span<const std::uint8_t> body) {
+  const json message = read_cbor(body);
+  const Fields fields(message, "request");
+  const std::string type = fields.text("type");
+  if (type == "hello") return Hello{fields.count("protocol", 1000)};
+  if (type == "configure") {
+    return Configure{scene_from_json(fields.object("scene")), fields.text("profile"),
+                     fields.number("time_step", std::numeric_limits<double>::min())};
+  }
+  if (type == "start") return Start{unpack_states(fields.bytes("states"), "request.states")};
+  if (type == "step") {
+    const Step step{fields.count("count", kMaxMessage)};
+    if (step.count == 0) throw Rubbish("request.count is 0");
+    return step;
+  }
+  if (type == "quit") return Quit{};
+  throw Rubbish(fmt::format("there is no request '{}'", type));
+}
+
+Reply decode_reply(std::span<const std::uint8_t> body) {
+  const json message = read_cbor(body);
+  const Fields fields(message, "reply");
+  const std::string type = fields.text("type");
+  if (type == "frames") return frames_from_json(fields);
+  if (type == "welcome") {
+    return Welcome{fields.count("protocol", 1000),
+                   {fields.text("engine"), fields.text("version"), fields.text("precision"),
+                    fields.texts("profiles")}};
+  }
+  if (type == "configured") return Configured{applied_from_json(fields)};
+  if (type == "refused") return Refusal{fields.text("reason")};
+  if (type == "started") return Started{};
+  if (type == "failed") return Failed{fields.text("reason")};
+  throw Rubbish(fmt::format("there is no reply '{}'", type));
+}
+
+}  // namespace slipcheck::protocol

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/engine.h"
+#include "engine/fields.h"
+
+/// What the harness and a worker say to each other over the worker's standard input and output:
+/// one request, one reply. docs/engine-protocol.md words it for other languages.
+namespace slipcheck::protocol {
+
+inline constexpr std::size_t kVersion = 1;
+inline constexpr std::size_t kMaxMessage = std::size_t{64} << 20;  ///< of a message's body [bytes]
+inline constexpr std::size_t kPrefix = 4;  ///< the body's length before it, u32 little-endian
+
+// --- requests ------------------------------------------------------------------------------------
+
+struct Hello {
+  std::size_t version = kVersion;
+};
+struct Configure {
+  HardScene scene;
+  std::string profile;
+  double time_step = 0;  ///< [s], > 0
+};
+struct Start {
+  std::vector<BodyState> states;
+};
+struct Step {
+  std::size_t count = 1;  ///< >= 1
+};
+struct Quit {};
+using Request = std::variant<Hello, Configure, Start, Step, Quit>;
+
+// --- replies -------------------------------------------------------------------------------------
+
+struct Welcome {
+  std::size_t version = kVersion;
+  EngineInfo info;
+};
+struct Configured {
+  Applied applied;
+};
+struct Refusal {
+  std::string reason;
+};
+struct Started {};
+struct Frames {
+  std::vector<Frame> frames;
+  double cpu_seconds = 0;  ///< that the steps took [s], >= 0
+};
+/// The request was not understood or the engine threw.
+struct Failed {
+  std::string reason;
+};
+using Reply = std::variant<Welcome, Configured, Refusal, Started, Frames, Failed>;
+
+/// A whole message, prefix included. A message longer than kMaxMessage throws std::length_error.
+Bytes encode(const Request& request);
+Bytes encode(const Reply& reply);
+
+/// The length of the body that follows a prefix; throws Rubbish beyond kMaxMessage.
+std::size_t body_length(std::span<const std::uint8_t, kPrefix> prefix);
+
+/// A message's body, checked in full: types, ranges, indices, sizes. Throws Rubbish and nothing
+/// else. States may hold any float64: an engine that blows up is no breach of the protocol.
+Request decode_request(std::span<const std::uint8_t> body);
+Reply decode_reply(std::span<const std::uint8_t> body);
+
+}  // namespace slipcheck::protocol

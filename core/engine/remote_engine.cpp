@@ -1,0 +1,92 @@
+#include "engine/remote_engine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "engine/scene_json.h"
+
+namespace slipcheck {
+
+using Clock = WorkerProcess::Clock;
+using Status = WorkerFailure::Status;
+
+namespace {
+
+// Long enough that the exchange costs little beside the steps, short enough that the first frames
+// come soon and a slow engine is not taken for a dead one.
+constexpr std::size_t kReplySize = std::size_t{1} << 20;
+
+/// Steps in one request: in a dense layer each body touches the substrate and three others.
+std::size_t steps_at_once(std::size_t bodies) {
+  const std::size_t frame = bodies * (protocol::kStateBytes + 4 * 16) + 4;
+  return std::max<std::size_t>(1, kReplySize / frame);
+}
+
+}  // namespace
+
+RemoteEngine::RemoteEngine(const std::filesystem::path& executable, const WorkerLimits& limits,
+                           const std::atomic<bool>* stop)
+    : process_(executable, limits, stop), run_limit_(std::numeric_limits<double>::infinity()) {
+  auto welcome = ask<protocol::Welcome>(protocol::Hello{});
+  if (welcome.version != protocol::kVersion) {
+    process_.fail(Status::crashed,
+                  fmt::format("speaks protocol {}, not {}", welcome.version, protocol::kVersion));
+  }
+  info_ = std::move(welcome.info);
+}
+
+template <class Expected>
+Expected RemoteEngine::ask(const protocol::Request& request) {
+  const protocol::Bytes body = process_.exchange(protocol::encode(request), deadline_);
+  protocol::Reply reply;
+  try {
+    reply = protocol::decode_reply(body);
+  } catch (const protocol::Rubbish& rubbish) {
+    process_.fail(Status::crashed, fmt::format("spoke rubbish: {}", rubbish.what()));
+  }
+  if (auto* refusal = std::get_if<protocol::Refusal>(&reply)) throw Refused(refusal->reason);
+  if (auto* failed = std::get_if<protocol::Failed>(&reply)) {
+    process_.fail(Status::crashed, fmt::format("failed: {}", failed->reason));
+  }
+  auto* expected = std::get_if<Expected>(&reply);
+  if (expected == nullptr) process_.fail(Status::crashed, "spoke rubbish: not the reply asked for");
+  return std::move(*expected);
+}
+
+Applied RemoteEngine::configure(const HardScene& scene, const std::string& profile,
+                                double time_step) {
+  deadline_ = Clock::time_point::max();
+  auto reply = ask<protocol::Configured>(protocol::Configure{scene, profile, time_step});
+  bodies_ = scene.bodies.size();
+  return std::move(reply.applied);
+}
+
+void RemoteEngine::start(std::span<const BodyState> states) {
+  deadline_ = Clock::time_point::max();
+  if (run_limit_ < 1e8) {  // an infinite one has no Clock::duration
+    deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                   std::chrono::duration<double>(run_limit_));
+  }
+  ask<protocol::Started>(protocol::Start{{states.begin(), states.end()}});
+}
+
+double RemoteEngine::advance(std::size_t steps, const std::function<void(const Frame&)>& callback) {
+  double cpu_seconds = 0;
+  const std::size_t most = steps_at_once(bodies_);
+  while (steps > 0) {
+    const std::size_t count = std::min(steps, most);
+    const auto reply = ask<protocol::Frames>(protocol::Step{count});
+    if (reply.frames.size() != count || reply.frames.front().bodies.size() != bodies_) {
+      process_.fail(Status::crashed, "spoke rubbish: not the frames asked for");
+    }
+    cpu_seconds += reply.cpu_seconds;
+    for (const Frame& frame : reply.frames) callback(frame);
+    steps -= count;
+  }
+  return cpu_seconds;
+}
+
+}  // namespace slipcheck

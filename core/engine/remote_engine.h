@@ -1,0 +1,56 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "engine/engine.h"
+#include "engine/protocol.h"
+#include "engine/worker_process.h"
+
+namespace slipcheck {
+
+/// An engine in a worker process of its own. Every member function throws WorkerFailure when the
+/// worker crashes, hangs, takes too much memory or breaks the protocol, and Interrupted when the
+/// stop flag is set; afterwards the worker is gone and alive() is false.
+class RemoteEngine {
+ public:
+  /// Starts the executable and asks who it is.
+  explicit RemoteEngine(const std::filesystem::path& executable, const WorkerLimits& limits = {},
+                        const std::atomic<bool>* stop = nullptr);
+
+  const EngineInfo& info() const { return info_; }
+
+  /// Engine::configure over there; throws Refused with the engine's reason, and the worker lives.
+  Applied configure(const HardScene& scene, const std::string& profile, double time_step);
+
+  /// A fresh world with one state for each body of the configured scene. The time limit of the run
+  /// counts from here.
+  void start(std::span<const BodyState> states);
+
+  /// Takes `steps` steps and hands over the frame after each, in order and on this thread. A
+  /// callback that throws leaves the worker alive, further on by up to a MiB of frames.
+  /// Returns the CPU time that the engine took for its steps [s].
+  double advance(std::size_t steps, const std::function<void(const Frame&)>& callback);
+
+  /// Wall-clock time that a run may take, from start() to the last frame [s], > 0; infinite unless
+  /// set.
+  void limit_run(double seconds) { run_limit_ = seconds; }
+
+  bool alive() { return process_.alive(); }
+  pid_t pid() const { return process_.pid(); }
+
+ private:
+  template <class Expected>
+  Expected ask(const protocol::Request& request);
+
+  WorkerProcess process_;
+  EngineInfo info_;
+  std::size_t bodies_ = 0;
+  double run_limit_;
+  WorkerProcess::Clock::time_point deadline_ = WorkerProcess::Clock::time_point::max();
+};
+
+}  // namespace slipcheck

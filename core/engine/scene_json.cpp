@@ -1,0 +1,191 @@
+#include "engine/scene_json.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace slipcheck::protocol {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr double kTiny = std::numeric_limits<double>::min();  // stands for "> 0"
+constexpr double kHuge = std::numeric_limits<double>::max();
+
+json to_json(const RollingFriction& rolling) {
+  json table = json::array();
+  for (const RollingFriction::Point& point : rolling.points()) {
+    table.push_back({point.speed, point.coefficient});
+  }
+  return table;
+}
+
+RollingFriction rolling_from_json(const json& table, const std::string& place) {
+  std::vector<RollingFriction::Point> points;
+  for (const json& row : table) {
+    if (!row.is_array() || row.size() != 2 || !row[0].is_number() || !row[1].is_number()) {
+      throw Rubbish(fmt::format("{}: a point is not [speed, coefficient]", place));
+    }
+    const RollingFriction::Point point = {row[0].get<double>(), row[1].get<double>()};
+    const bool in_range = std::isfinite(point.speed) && point.speed >= 0 &&
+                          std::isfinite(point.coefficient) && point.coefficient >= 0;
+    if (!in_range) throw Rubbish(fmt::format("{}: a point is out of range", place));
+    if (!points.empty() && point.speed <= points.back().speed) {
+      throw Rubbish(fmt::format("{}: the speeds do not rise", place));
+    }
+    points.push_back(point);
+  }
+  if (points.empty()) throw Rubbish(fmt::format("{} has no point", place));
+  return RollingFriction(std::move(points));
+}
+
+json to_json(const RestitutionLaw& law) {
+  if (const double* e = std::get_if<double>(&law)) return *e;
+  const auto& power = std::get<PowerLawRestitution>(law);
+  return {{"coefficient", power.coefficient}, {"exponent", power.exponent}, {"speed", power.speed}};
+}
+
+RestitutionLaw restitution_from_json(const Fields& pair) {
+  if (!pair.member("restitution").is_object()) return pair.number("restitution", 0, 1);
+  const Fields power(pair.object("restitution"), pair.place_of("restitution"));
+  return PowerLawRestitution{power.number("coefficient", kTiny), power.number("exponent", 0),
+                             power.number("speed", kTiny)};
+}
+
+}  // namespace
+
+void append_u32(Bytes& bytes, std::uint32_t value) {
+  for (int shift = 0; shift < 32; shift += 8) {
+    bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+  }
+}
+
+void append_f64(Bytes& bytes, double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  for (int shift = 0; shift < 64; shift += 8) {
+    bytes.push_back(static_cast<std::uint8_t>(bits >> shift));
+  }
+}
+
+void append_state(Bytes& bytes, const BodyState& state) {
+  for (const Vector3* v : {&state.position, &state.velocity, &state.angular_velocity}) {
+    for (int k = 0; k < 3; ++k) append_f64(bytes, (*v)[k]);
+  }
+}
+
+std::uint32_t read_u32(const std::uint8_t* at) {
+  std::uint32_t value = 0;
+  for (int k = 0; k < 4; ++k) value |= static_cast<std::uint32_t>(at[k]) << (8 * k);
+  return value;
+}
+
+double read_f64(const std::uint8_t* at) {
+  std::uint64_t bits = 0;
+  for (int k = 0; k < 8; ++k) bits |= static_cast<std::uint64_t>(at[k]) << (8 * k);
+  return std::bit_cast<double>(bits);
+}
+
+BodyState read_state(const std::uint8_t* at) {
+  BodyState state;
+  for (Vector3* v : {&state.position, &state.velocity, &state.angular_velocity}) {
+    for (int k = 0; k < 3; ++k, at += 8) (*v)[k] = read_f64(at);
+  }
+  return state;
+}
+
+Bytes pack_states(std::span<const BodyState> states) {
+  Bytes bytes;
+  bytes.reserve(states.size() * kStateBytes);
+  for (const BodyState& state : states) append_state(bytes, state);
+  return bytes;
+}
+
+std::vector<BodyState> unpack_states(const Bytes& bytes, const std::string& place) {
+  if (bytes.size() % kStateBytes != 0) {
+    throw Rubbish(
+        fmt::format("{} has {} bytes, no multiple of {}", place, bytes.size(), kStateBytes));
+  }
+  std::vector<BodyState> states;
+  states.reserve(bytes.size() / kStateBytes);
+  for (std::size_t at = 0; at < bytes.size(); at += kStateBytes) {
+    states.push_back(read_state(bytes.data() + at));
+  }
+  return states;
+}
+
+json scene_to_json(const HardScene& scene) {
+  json bodies = json::array();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Sphere& body = scene.bodies[i];
+    bodies.push_back({{"radius", body.radius},
+                      {"mass", body.mass},
+                      {"shape_factor", body.shape_factor},
+                      {"material", scene.material[i]}});
+  }
+  json substrate = json::array();
+  for (const SubstrateContact& contact : scene.substrate) {
+    substrate.push_back({{"static_friction", contact.static_friction},
+                         {"kinetic_friction", contact.kinetic_friction},
+                         {"rolling", to_json(contact.rolling)},
+                         {"drilling_length", contact.drilling_length},
+                         {"restitution", contact.restitution}});
+  }
+  json pairs = json::array();
+  for (const PairContact& pair : scene.pairs) {
+    pairs.push_back({{"restitution", to_json(pair.restitution)},
+                     {"friction", pair.friction},
+                     {"tangential_restitution", pair.tangential_restitution}});
+  }
+  return {
+      {"bodies", std::move(bodies)},       {"initial", json::binary(pack_states(scene.initial))},
+      {"substrate", std::move(substrate)}, {"pairs", std::move(pairs)},
+      {"gravity", scene.gravity},          {"confined", scene.confined}};
+}
+
+HardScene scene_from_json(const json& object) {
+  const Fields fields(object, "scene");
+  HardScene scene;
+  for (const json& each : fields.list("substrate")) {
+    const Fields contact(each, fmt::format("scene.substrate[{}]", scene.substrate.size()));
+    SubstrateContact out;
+    out.kinetic_friction = contact.number("kinetic_friction", 0);
+    out.static_friction = contact.number("static_friction", out.kinetic_friction);
+    out.rolling = rolling_from_json(contact.list("rolling"), contact.place_of("rolling"));
+    out.drilling_length = contact.number("drilling_length", 0);
+    out.restitution = contact.number("restitution", 0, 1);
+    scene.substrate.push_back(std::move(out));
+  }
+  if (scene.substrate.empty()) throw Rubbish("scene.substrate is empty");
+
+  for (const json& each : fields.list("bodies")) {
+    const Fields body(each, fmt::format("scene.bodies[{}]", scene.bodies.size()));
+    scene.bodies.push_back({body.number("radius", kTiny, kHuge), body.number("mass", kTiny, kHuge),
+                            body.number("shape_factor", kTiny, kHuge)});
+    scene.material.push_back(body.count("material", scene.substrate.size() - 1));
+  }
+  if (scene.bodies.empty()) throw Rubbish("scene.bodies is empty");
+
+  for (const json& each : fields.list("pairs")) {
+    const Fields pair(each, fmt::format("scene.pairs[{}]", scene.pairs.size()));
+    scene.pairs.push_back({restitution_from_json(pair), pair.number("friction", 0),
+                           pair.number("tangential_restitution", -1, 1)});
+  }
+  if (scene.pairs.size() != scene.substrate.size() * scene.substrate.size()) {
+    throw Rubbish(fmt::format("scene.pairs has {} entries for {} materials", scene.pairs.size(),
+                              scene.substrate.size()));
+  }
+  scene.initial = unpack_states(fields.bytes("initial"), "scene.initial");
+  if (scene.initial.size() != scene.bodies.size()) {
+    throw Rubbish(fmt::format("scene.initial has {} states for {} bodies", scene.initial.size(),
+                              scene.bodies.size()));
+  }
+  scene.gravity = fields.number("gravity", 0);
+  scene.confined = fields.flag("confined");
+  return scene;
+}
+
+}  // namespace slipcheck::protocol

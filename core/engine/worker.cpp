@@ -1,0 +1,165 @@
+#include "engine/worker.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <exception>
+#include <new>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/protocol.h"
+
+namespace slipcheck {
+namespace {
+
+using protocol::Bytes;
+
+/// The protocol's own copies of standard input and output.
+class Connection {
+ public:
+  Connection() : in_(dup(STDIN_FILENO)), out_(dup(STDOUT_FILENO)) {
+    const int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    dup2(null, STDIN_FILENO);
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+    close(null);
+  }
+
+  /// The next message's body; nothing at the end of the input, even in the middle of a message.
+  std::optional<Bytes> receive() {
+    std::array<std::uint8_t, protocol::kPrefix> prefix;
+    if (!read_all(prefix)) return std::nullopt;
+    Bytes body(protocol::body_length(prefix));
+    if (!read_all(body)) return std::nullopt;
+    return body;
+  }
+
+  /// False when nobody listens any more.
+  bool send(const Bytes& message) {
+    std::size_t sent = 0;
+    while (sent < message.size()) {
+      const ssize_t n = write(out_, message.data() + sent, message.size() - sent);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return false;
+      sent += static_cast<std::size_t>(n);
+    }
+    return true;
+  }
+
+ private:
+  bool read_all(std::span<std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t n = read(in_, bytes.data(), bytes.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return false;
+      bytes = bytes.subspan(static_cast<std::size_t>(n));
+    }
+    return true;
+  }
+
+  int in_;
+  int out_;
+};
+
+/// CPU time of the whole process, in case the engine has threads of its own [s].
+double cpu_seconds() {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Answers requests in the only order that makes sense: configure, start, step.
+class Worker {
+ public:
+  explicit Worker(Engine& engine) : engine_(engine) {}
+
+  protocol::Reply answer(const protocol::Request& request) {
+    try {
+      return std::visit([this](const auto& each) { return handle(each); }, request);
+    } catch (const Refused& refused) {
+      return protocol::Refusal{refused.what()};
+    } catch (const std::bad_alloc&) {
+      return protocol::Failed{"out of memory"};
+    } catch (const std::exception& error) {
+      return protocol::Failed{error.what()};
+    }
+  }
+
+ private:
+  protocol::Reply handle(const protocol::Hello&) {
+    return protocol::Welcome{protocol::kVersion, engine_.info()};
+  }
+
+  protocol::Reply handle(const protocol::Configure& request) {
+    bodies_ = 0;
+    started_ = false;
+    Applied applied = engine_.configure(request.scene, request.profile, request.time_step);
+    bodies_ = request.scene.bodies.size();
+    return protocol::Configured{std::move(applied)};
+  }
+
+  protocol::Reply handle(const protocol::Start& request) {
+    if (bodies_ == 0) return protocol::Failed{"start before configure"};
+    if (request.states.size() != bodies_) return protocol::Failed{"wrong number of states"};
+    engine_.start(request.states);
+    started_ = true;
+    return protocol::Started{};
+  }
+
+  protocol::Reply handle(const protocol::Step& request) {
+    if (!started_) return protocol::Failed{"step before start"};
+    protocol::Frames reply;
+    reply.frames.resize(request.count);
+    for (Frame& frame : reply.frames) frame.bodies.reserve(bodies_);
+    const double before = cpu_seconds();
+    for (Frame& frame : reply.frames) {
+      engine_.step();
+      engine_.read(frame);
+    }
+    reply.cpu_seconds = cpu_seconds() - before;
+    return reply;
+  }
+
+  protocol::Reply handle(const protocol::Quit&) { return protocol::Started{}; }  // never sent
+
+  Engine& engine_;
+  std::size_t bodies_ = 0;  // 0: not configured
+  bool started_ = false;
+};
+
+Bytes encode_or_fail(const protocol::Reply& reply) {
+  try {
+    return protocol::encode(reply);
+  } catch (const std::exception& error) {  // too long, or text that is no UTF-8
+    return protocol::encode(protocol::Reply(protocol::Failed{error.what()}));
+  }
+}
+
+}  // namespace
+
+int run_worker(Engine& engine) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  signal(SIGPIPE, SIG_IGN);  // a harness that is gone shows as a failed write
+  Connection connection;
+  Worker worker(engine);
+  try {
+    while (const std::optional<Bytes> body = connection.receive()) {
+      const protocol::Request request = protocol::decode_request(*body);
+      if (std::holds_alternative<protocol::Quit>(request)) return 0;
+      if (!connection.send(encode_or_fail(worker.answer(request)))) return 0;
+    }
+    return 0;
+  } catch (const protocol::Rubbish& rubbish) {  // nothing after it can be trusted
+    connection.send(protocol::encode(protocol::Reply(protocol::Failed{rubbish.what()})));
+    return 1;
+  }
+}
+
+}  // namespace slipcheck

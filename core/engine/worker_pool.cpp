@@ -1,0 +1,90 @@
+#include "engine/worker_pool.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace slipcheck {
+namespace {
+
+using Status = JobResult::Status;
+
+Status status_of(const WorkerFailure& failure) {
+  return failure.status() == WorkerFailure::Status::timed_out ? Status::timed_out : Status::crashed;
+}
+
+/// One thread's workers, at most one for each executable.
+class Workers {
+ public:
+  Workers(const WorkerLimits& limits, const std::atomic<bool>* stop)
+      : limits_(limits), stop_(stop) {}
+
+  JobResult run(const EngineJob& job) {
+    if (stop_ != nullptr && *stop_) return {Status::skipped, "interrupted", nullptr};
+    try {
+      job.work(engine_for(job.executable));
+      return {Status::ok, "", nullptr};
+    } catch (const WorkerFailure& failure) {
+      return {status_of(failure), failure.what(), std::current_exception()};
+    } catch (const Interrupted& interrupted) {
+      return {Status::skipped, interrupted.what(), std::current_exception()};
+    } catch (const Refused& refused) {
+      return {Status::skipped, refused.what(), std::current_exception()};
+    } catch (const std::exception& error) {
+      return {Status::failed, error.what(), std::current_exception()};
+    } catch (...) {
+      return {Status::failed, "threw something that is no exception", std::current_exception()};
+    }
+  }
+
+ private:
+  RemoteEngine& engine_for(const std::filesystem::path& executable) {
+    std::unique_ptr<RemoteEngine>& engine = engines_[executable];
+    if (!engine || !engine->alive()) {
+      engine.reset();
+      engine = std::make_unique<RemoteEngine>(executable, limits_, stop_);
+    }
+    engine->limit_run(std::numeric_limits<double>::infinity());  // an earlier job's is void
+    return *engine;
+  }
+
+  WorkerLimits limits_;
+  const std::atomic<bool>* stop_;
+  std::map<std::filesystem::path, std::unique_ptr<RemoteEngine>> engines_;
+};
+
+}  // namespace
+
+WorkerPool::WorkerPool(std::size_t threads, const WorkerLimits& limits)
+    : threads_(threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency())),
+      limits_(limits) {}
+
+std::vector<JobResult> WorkerPool::run_all(const std::vector<EngineJob>& jobs,
+                                           const Progress& progress,
+                                           const std::atomic<bool>* stop) const {
+  std::vector<JobResult> results(jobs.size());
+  std::atomic<std::size_t> next = 0;
+  std::mutex reporting;
+  std::size_t done = 0;
+
+  // Workers die with the thread that started them, so each thread keeps its own.
+  const auto loop = [&] {
+    Workers workers(limits_, stop);
+    for (std::size_t i = next++; i < jobs.size(); i = next++) {
+      results[i] = workers.run(jobs[i]);
+      const std::scoped_lock lock(reporting);
+      ++done;
+      if (progress) progress(done, jobs.size());
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t k = 0; k < std::min(threads_, jobs.size()); ++k) threads.emplace_back(loop);
+  }
+  return results;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "engine/fields.h"
+
+namespace slipcheck {
+
+/// The worker is of no more use; what() is the reason, for the user.
+class WorkerFailure : public std::runtime_error {
+ public:
+  enum class Status { crashed, timed_out };  ///< as in the result file
+
+  WorkerFailure(Status status, const std::string& reason)
+      : std::runtime_error(reason), status_(status) {}
+  Status status() const { return status_; }
+
+ private:
+  Status status_;
+};
+
+/// The user asked to stop while a worker was at work.
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted") {}
+};
+
+struct WorkerLimits {
+  std::size_t memory = std::size_t{2} << 30;  ///< resident [bytes], > 0
+  double reply = 10;                          ///< for each reply [s], > 0
+};
+
+/// A worker seen from the harness: a child process in a process group of its own, with pipes to its
+/// standard streams. Every way in which it can fail ends in WorkerFailure with a reason; the
+/// child is always killed with its group and reaped. Not for use by two threads at once, and
+/// the worker lives no longer than the thread that made it (PR_SET_PDEATHSIG is by thread).
+class WorkerProcess {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Throws WorkerFailure if it cannot be started. `stop`, where given, is looked at while waiting.
+  WorkerProcess(std::filesystem::path executable, const WorkerLimits& limits,
+                const std::atomic<bool>* stop = nullptr);
+  ~WorkerProcess();
+  WorkerProcess(const WorkerProcess&) = delete;
+  WorkerProcess& operator=(const WorkerProcess&) = delete;
+
+  /// Sends a message (prefix included) and returns the body of the reply, at the latest after
+  /// limits.reply seconds or at `deadline`, whichever comes first. Throws WorkerFailure and
+  /// Interrupted, and then the worker is gone.
+  protocol::Bytes exchange(const protocol::Bytes& message,
+                           Clock::time_point deadline = Clock::time_point::max());
+
+  /// Ends the worker because of something in its reply: throws WorkerFailure with that reason.
+  [[noreturn]] void fail(WorkerFailure::Status status, const std::string& reason);
+
+  /// Whether another exchange has a chance. A worker that died meanwhile is noticed.
+  bool alive();
+
+  pid_t pid() const { return pid_; }
+
+ private:
+  struct Exchange;
+
+  [[noreturn]] void fail_because_gone();
+  void check_memory();
+  void drain_errors();
+  void send_some(Exchange& exchange);
+  void receive_some(Exchange& exchange);
+  bool has_exited(std::chrono::milliseconds patience) const;
+  int kill_and_reap();
+  std::string last_words() const;
+
+  std::filesystem::path executable_;
+  WorkerLimits limits_;
+  const std::atomic<bool>* stop_;
+  pid_t pid_ = -1;  // -1: gone and reaped
+  int in_ = -1;     // the child's standard input, a socket: writing to it raises no SIGPIPE
+  int out_ = -1;
+  int err_ = -1;
+  std::string errors_;  // the last of what the child wrote to its standard error
+  Clock::time_point memory_checked_;
+  bool memory_exceeded_ = false;
+};
+
+}  // namespace slipcheck

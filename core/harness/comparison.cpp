@@ -1,0 +1,163 @@
+#include "harness/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/observables.h"
+#include "scenario/observable_names.h"
+
+namespace slipcheck {
+namespace {
+
+double median(std::vector<double> values) {
+  const std::size_t half = values.size() / 2;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half),
+                   values.end());
+  const double upper = values[half];
+  if (values.size() % 2 == 1) return upper;
+  const double lower =
+      *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half));
+  return 0.5 * (lower + upper);
+}
+
+/// "i.final_velocity.x" is of "i", named "final_velocity.x".
+struct FullName {
+  std::string owner, observable;
+  explicit FullName(const std::string& name)
+      : owner(name.substr(0, name.find('.'))), observable(name.substr(name.find('.') + 1)) {}
+};
+
+/// By how much each phase is off, and what that is relative to.
+struct Differences {
+  std::vector<double> by_phase;
+  double scale = 0;  ///< of a relative error
+  double uncertainty = 0;
+};
+
+using Ensemble = std::map<std::string, EnsembleValue>;
+
+Differences scalar_differences(const UncertainValue& reference, const EnsembleValue& ensemble) {
+  Differences differences;
+  for (double value : ensemble.values)
+    if (!std::isnan(value)) differences.by_phase.push_back(std::abs(value - reference.value));
+  differences.scale = std::abs(reference.value);
+  differences.uncertainty = reference.uncertainty;
+  return differences;
+}
+
+const Body* find_body(const Scenario& scenario, const std::string& name) {
+  for (const Body& body : scenario.bodies)
+    if (body.name == name) return &body;
+  return nullptr;
+}
+
+/// Differences of a vector (its bare name) or of one component, on the scale of the vector's length;
+/// a position's scale is the way from the start.
+Differences vector_differences(const Scenario& scenario, const ReferenceResult& reference,
+                               const Ensemble& ensemble, const std::string& name,
+                               const ObservableName& observable) {
+  const FullName full(name);
+  const std::string vector = full.owner + "." + std::string(observable.name);
+  Differences differences;
+  Vector3 length = Vector3::Zero();
+  const Body* body = find_body(scenario, full.owner);
+  std::vector<double> squares;
+  for (int k = 0; k < 3; ++k) {
+    const std::string component = vector + "." + "xyz"[k];
+    const UncertainValue& value = reference.observables.at(component);
+    length[k] = value.value;
+    if (observable.name == "final_position" && body) length[k] -= body->initial.position[k];
+    differences.uncertainty = std::max(differences.uncertainty, value.uncertainty);
+    if (name != vector && name != component) continue;
+    const auto found = ensemble.find(component);
+    if (found == ensemble.end()) continue;
+    const Differences one = scalar_differences(value, found->second);
+    squares.resize(one.by_phase.size());
+    for (std::size_t p = 0; p < squares.size(); ++p)
+      squares[p] += one.by_phase[p] * one.by_phase[p];
+  }
+  for (double square : squares) differences.by_phase.push_back(std::sqrt(square));
+  differences.scale = length.norm();
+  return differences;
+}
+
+Deviation deviation(const Scenario& scenario, const ReferenceResult& reference,
+                    const Ensemble& ensemble, const std::string& name) {
+  Deviation result;
+  const std::string observable_name = FullName(name).observable;
+  const ObservableName* observable = find_observable(observable_name);
+  if (const auto found = scenario.compare.tolerance.find(observable_name);
+      found != scenario.compare.tolerance.end()) {
+    result.tolerance = found->second.value;
+    result.absolute = found->second.absolute;
+  }
+  result.absolute |= observable && observable->is_restitution;
+
+  const UncertainValue& expected = reference.observables.at(name);
+  const auto found = ensemble.find(name);
+  const bool is_vector = observable && observable->is_vector;
+  Differences differences;
+  if (found != ensemble.end())
+    differences = is_vector
+                      ? vector_differences(scenario, reference, ensemble, name, *observable)
+                      : scalar_differences(expected, found->second);
+  if (differences.by_phase.empty()) {
+    result.median = result.max = kNotObserved;
+    result.reason = "no run of the engine shows it";
+  } else {
+    const double scale = result.absolute ? 1 : differences.scale;
+    result.median = median(differences.by_phase);
+    result.max = *std::max_element(differences.by_phase.begin(), differences.by_phase.end());
+    // Zero within the reference's own uncertainty: a relative error has no meaning.
+    const bool is_zero = !result.absolute && scale <= 10 * differences.uncertainty;
+    if (is_zero && result.max > 10 * differences.uncertainty) {
+      result.median = result.max = kNotObserved;
+      result.reason = "the reference is 0: a tolerance with a unit compares it";
+    } else if (is_zero) {
+      result.median = result.max = 0;
+    } else {
+      result.median /= scale;
+      result.max /= scale;
+    }
+    if (found->second.missing > 0)
+      result.reason = std::to_string(found->second.missing) + " of " +
+                      std::to_string(found->second.values.size()) + " phases do not show it";
+  }
+  result.within = !result.tolerance || (result.reason.empty() && result.max <= *result.tolerance);
+  return result;
+}
+
+}  // namespace
+
+std::map<std::string, EnsembleValue> ensemble_values(
+    const std::vector<std::map<std::string, double>>& phases) {
+  std::map<std::string, EnsembleValue> ensemble;
+  for (std::size_t p = 0; p < phases.size(); ++p)
+    for (const auto& [name, value] : phases[p]) {
+      auto& values = ensemble[name].values;
+      values.resize(phases.size(), kNotObserved);
+      values[p] = value;
+    }
+  for (auto& [name, value] : ensemble) {
+    std::vector<double> shown;
+    for (double v : value.values)
+      if (!std::isnan(v)) shown.push_back(v);
+    value.missing = value.values.size() - shown.size();
+    value.median = median(shown);
+    const auto [low, high] = std::minmax_element(shown.begin(), shown.end());
+    value.min = *low;
+    value.max = *high;
+  }
+  return ensemble;
+}
+
+std::map<std::string, Deviation> deviations(const Scenario& scenario,
+                                            const ReferenceResult& reference,
+                                            const Ensemble& ensemble) {
+  std::map<std::string, Deviation> result;
+  for (const auto& [name, value] : reference.observables)
+    result[name] = deviation(scenario, reference, ensemble, name);
+  return result;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "harness/record.h"
+
+namespace slipcheck {
+
+/// The ensemble's observables, by name, from each phase's named values: the names that the reference
+/// has or any phase has.
+std::map<std::string, EnsembleValue> ensemble_values(
+    const std::vector<std::map<std::string, double>>& phases);
+
+/// Holds an ensemble against the reference. Every observable of the reference gets a deviation, and
+/// a verdict where the scene gives a tolerance.
+std::map<std::string, Deviation> deviations(const Scenario& scenario,
+                                            const ReferenceResult& reference,
+                                            const std::map<std::string, EnsembleValue>& ensemble);
+
+}  // namespace slipcheck

@@ -1,0 +1,171 @@
+#include "harness/engine_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "harness/comparison.h"
+#include "harness/observer.h"
+#include "harness/phases.h"
+
+namespace slipcheck {
+namespace {
+
+/// A body this many times faster than the scene can make it has been blown off.
+constexpr double kExploded = 1e3;
+
+/// A state of an engine that no comparison can be made with.
+struct Unstable {
+  std::string reason;
+};
+
+/// Follows one run of an engine and decides when it has ended.
+class PhaseRun {
+ public:
+  PhaseRun(const EnsembleTask& task, double step, double start)
+      : scene_(*task.scene),
+        end_(run_end(*task.scenario)),
+        scale_(speed_scale(scene_, scene_.initial)),
+        step_(step),
+        start_(start),
+        observer_(scene_, step, scale_) {
+    Frame frame;
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
+      if (scene_.initial[i].position.z() <= scene_.bodies[i].radius * (1 + 1e-12))
+        frame.touches.push_back({static_cast<int>(i), kSubstrate, 1});
+    frame.bodies = scene_.initial;
+    observer_.take(0, frame);
+    if (start > 0) {
+      frame.bodies = states_at(scene_, start);
+      observer_.take(start, frame);
+    }
+  }
+
+  /// The end of one more step.
+  void take(const Frame& frame) {
+    if (ended_) return;
+    ++steps_;
+    time_ = start_ + static_cast<double>(steps_) * step_;
+    check(frame);
+    observer_.take(time_, frame);
+    ended_ = has_ended(frame);
+  }
+
+  bool ended() const { return ended_; }
+  bool reached() const { return reached_; }
+  double time() const { return time_; }
+  Observables observables() const { return observer_.finish(end_time_); }
+
+ private:
+  void check(const Frame& frame) const {
+    // Falling adds to what the bodies bring with them.
+    const double fastest = kExploded * (scale_ + scene_.gravity * time_);
+    for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
+      const BodyState& s = frame.bodies[i];
+      if (!s.position.allFinite() || !s.velocity.allFinite() || !s.angular_velocity.allFinite())
+        throw Unstable{fmt::format("body {} has a state that is not finite at t = {:.6g} s", i,
+                                   time_)};
+      if (s.velocity.norm() > fastest)
+        throw Unstable{fmt::format("body {} moves at {:.3g} m/s at t = {:.6g} s, {} times faster "
+                                   "than anything in the scene",
+                                   i, s.velocity.norm(), time_, kExploded)};
+    }
+  }
+
+  bool has_ended(const Frame& frame) {
+    if (end_.until == Run::Until::time) {
+      end_time_ = end_.time;
+      reached_ = time_ >= end_.time;
+      return reached_;
+    }
+    if (end_.until == Run::Until::rest && observer_.everything_rests()) {
+      end_time_ = observer_.last_stop();
+      return reached_ = true;
+    }
+    if (end_.until == Run::Until::rolling && !observer_.anything_slides_or_flies() &&
+        !collides_again(frame)) {
+      end_time_ = observer_.last_slide_end();
+      return reached_ = true;
+    }
+    end_time_ = time_;
+    return time_ >= end_.limit;
+  }
+
+  /// Whether bodies that all roll now will meet: the reference's solver looks ahead.
+  bool collides_again(const Frame& frame) {
+    if (time_ <= next_look_) return true;
+    std::vector<BodyState> states = frame.bodies;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      states[i].position.z() = scene_.bodies[i].radius;
+      states[i].velocity.z() = 0;
+      const double spin = states[i].angular_velocity.z();
+      states[i].angular_velocity =
+          rolling_angular_velocity(states[i].velocity, scene_.bodies[i].radius);
+      states[i].angular_velocity.z() = spin;
+    }
+    // What closes slower than this is no collision (Observer).
+    const double next =
+        EventSolver(scene_, states).next_collision(end_.limit - time_, 2e-3 * scale_);
+    next_look_ = time_ + next;
+    return std::isfinite(next);
+  }
+
+  const HardScene& scene_;
+  RunEnd end_;
+  double scale_, step_, start_;
+  Observer observer_;
+  std::size_t steps_ = 0;
+  double time_ = 0, end_time_ = 0;
+  double next_look_ = -std::numeric_limits<double>::infinity();
+  bool ended_ = false, reached_ = false;
+};
+
+/// Few enough steps for little waste after the end, many enough for few messages.
+std::size_t steps_at_once(double expected_time, double step) {
+  return static_cast<std::size_t>(std::clamp(expected_time / step / 16, 16.0, 4096.0));
+}
+
+}  // namespace
+
+void run_ensemble(RemoteEngine& engine, const EnsembleTask& task, EngineRecord& record) {
+  const double step = 1 / record.rate;
+  record.version = engine.info().version;
+  record.applied = engine.configure(*task.scene, record.profile, step);
+
+  const auto names = body_names(*task.scenario);
+  const auto starts = phase_starts(task.reference->first_contact, step, task.phases);
+  const std::size_t chunk = steps_at_once(task.reference->run.end_time, step);
+  std::vector<std::map<std::string, double>> seen;
+  std::size_t unfinished = 0;
+  try {
+    for (double start : starts) {
+      PhaseRun run(task, step, start);
+      engine.start(states_at(*task.scene, start));
+      while (!run.ended()) {
+        record.cpu_seconds += engine.advance(chunk, [&](const Frame& frame) { run.take(frame); });
+        record.steps += chunk;
+      }
+      if (!run.reached()) ++unfinished;
+      seen.push_back(named_values(run.observables(), names));
+      ++record.phases;
+    }
+  } catch (const Unstable& unstable) {
+    record.status = EngineRecord::Status::unstable;
+    record.reason = unstable.reason;
+    return;
+  }
+  record.status = EngineRecord::Status::ok;
+  record.observables = ensemble_values(seen);
+  record.errors = deviations(*task.scenario, *task.reference, record.observables);
+  if (unfinished > 0)
+    record.warnings.push_back(
+        fmt::format("{} of {} phases had not ended at the limit of {} s", unfinished, seen.size(),
+                    task.scenario->run.limit));
+  if (std::isfinite(task.reference->first_contact) && task.reference->first_contact < step)
+    record.warnings.push_back(
+        "the first contact falls inside the first step: its phases cover a part of a step only");
+}
+
+}  // namespace slipcheck

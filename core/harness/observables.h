@@ -1,0 +1,56 @@
+#pragma once
+
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "physics/vector.h"
+
+namespace slipcheck {
+
+inline constexpr double kNotObserved = std::numeric_limits<double>::quiet_NaN();
+inline const Vector3 kVectorNotObserved = Vector3::Constant(kNotObserved);
+
+// What a run shows, defined in docs/observables.md. What did not happen is NaN. Times and distances
+// count from the end of the body's last collision with another body, or from the start.
+
+struct BodyObservables {
+  double sliding_time = kNotObserved;      ///< time spent sliding [s]
+  double sliding_distance = kNotObserved;  ///< length of the displacement while it slides [m]
+  Vector3 velocity_after_collision = kVectorNotObserved;          ///< v^f [m/s]
+  Vector3 slip_after_collision = kVectorNotObserved;              ///< u^f [m/s]
+  Vector3 angular_velocity_after_collision = kVectorNotObserved;  ///< Ω^f [rad/s]
+  Vector3 rolling_velocity = kVectorNotObserved;                  ///< v^s [m/s]
+  double energy_change_sliding = kNotObserved;    ///< |v^f|² − |v^s|² [m²/s²]
+  double momentum_change_sliding = kNotObserved;  ///< (v^f − v^s)·n, n away from the other [m/s]
+  double stopping_time = kNotObserved;            ///< [s]
+  double stopping_distance = kNotObserved;        ///< [m]
+  double spin_stopping_time = kNotObserved;       ///< until Ω_z = 0 [s]
+  double lift_off_speed = kNotObserved;           ///< v^z [m/s]
+  double jump_height = kNotObserved;              ///< h^z [m]
+  double flight_time = kNotObserved;              ///< t^z [s]
+  Vector3 final_position = kVectorNotObserved;          ///< [m]
+  Vector3 final_velocity = kVectorNotObserved;          ///< [m/s]
+  Vector3 final_angular_velocity = kVectorNotObserved;  ///< [rad/s]
+};
+
+struct PairObservables {
+  int first = 0;
+  int second = 0;                                ///< body, > first, or kSubstrate
+  double restitution = kNotObserved;             ///< normal: −g'/g of the centres
+  double tangential_restitution = kNotObserved;  ///< ε^T: g' = +ε^T g at the contact point
+  double effective_restitution = kNotObserved;   ///< once neither slides
+};
+
+struct Observables {
+  std::vector<BodyObservables> bodies;
+  std::vector<PairObservables> pairs;  ///< that collided, in order of the bodies
+};
+
+/// Values by their full name, "i.sliding_time", "i.final_velocity.x", "i-j.restitution". A vector's
+/// bare name is its length. NaN is left out.
+std::map<std::string, double> named_values(const Observables& observables,
+                                           const std::vector<std::string>& body_names);
+
+}  // namespace slipcheck

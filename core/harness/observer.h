@@ -1,0 +1,125 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "harness/observables.h"
+#include "physics/frame.h"
+#include "scenario/hard_scene.h"
+
+namespace slipcheck {
+
+/// Below what a quantity counts as zero, for one body.
+struct Resolution {
+  double slip = 0;   ///< [m/s]
+  double speed = 0;  ///< [m/s]
+  double spin = 0;   ///< about the vertical [rad/s]
+};
+
+/// A quantity that falls towards zero and is seen at some instants only: slip, speed, spin.
+/// Remembers how fast it fell, so that its zero is found inside a step.
+class FallingQuantity {
+ public:
+  void reset() { rate_ = 0; }
+  /// It was `before` and is `after` at the end of an interval `dt` [s], > 0.
+  void fall(double before, double after, double dt) { rate_ = (before - after) / dt; }
+  /// When it reached zero, counted from the start of an interval `dt` at which it was `before` and
+  /// in which it came to count as zero. The end of the interval where no rate is known.
+  double time_to_zero(double before, double dt) const;
+
+ private:
+  double rate_ = 0;
+};
+
+/// Turns the frames of a run, of the reference or of an engine, into observables while it goes on;
+/// nothing grows with the run's length.
+///
+/// The reference shows its frames at the events themselves (`step` = 0). An engine shows one frame
+/// a step; what ends inside a step is found by extrapolating the last two frames, and the state
+/// after a collision is traced back to the start of the step that applied the impulse. What counts
+/// as zero is half of what friction takes in a step, since friction stops a body inside a step.
+///
+/// A contact of two bodies is a collision if it closes faster than 7 % of the pair's fastest
+/// collision so far and 0.1 % of the scene's speed; weaker ones are rattling.
+class Observer final : public FrameSink {
+ public:
+  /// step [s], >= 0; speed_scale [m/s] as of event_solver.h.
+  Observer(const HardScene& scene, double step, double speed_scale);
+
+  void take(double time, const Frame& frame) override;
+
+  bool anything_slides_or_flies() const;
+  bool everything_rests() const;
+  /// When the last body stopped to slide, or came to rest [s].
+  double last_slide_end() const;
+  double last_stop() const;
+
+  /// The observables of a run that ended at `end` [s], in the last interval or after it.
+  Observables finish(double end) const;
+
+ private:
+  struct Body {
+    Resolution zero;
+    double origin_time = 0;
+    Vector3 origin = Vector3::Zero();
+    bool supported = true, sliding = false, resting = false, spinning = false;
+    bool collided_now = false;
+    FallingQuantity slip, speed, spin;
+    double slide_end = 0, slide_time = 0;
+    Vector3 slide = Vector3::Zero();
+    Vector3 rolling_velocity = kVectorNotObserved;
+    double stop_time = kNotObserved, spin_stop_time = kNotObserved;
+    Vector3 stop_position = kVectorNotObserved;
+    bool spun = false;
+    bool jumping = false;
+    double lift_off_time = 0, lift_off_speed = kNotObserved, lift_off_height = 0;
+    double peak = 0, flight_time = kNotObserved;
+    // The last collision.
+    bool collided = false;
+    BodyState after;
+    Vector3 away = Vector3::Zero();  ///< n from the other body
+    double fall_speed = 0;           ///< of the last landing, for the pair with the substrate
+    double landing_restitution = kNotObserved;
+    double fastest_landing = 0;
+  };
+  struct Pair {
+    int first, second;
+    double fastest = 0;    ///< approach of its collisions so far [m/s]
+    bool touching = false, colliding = false, pending = false;
+    bool collided = false;
+    Vector3 n = Vector3::Zero();
+    double approach = 0;
+    Vector3 tangential = Vector3::Zero();
+    double time = 0, after_time = 0;
+    BodyState after_first, after_second;
+    double restitution = kNotObserved, tangential_restitution = kNotObserved;
+    double effective = kNotObserved;
+    bool touched_now = false;
+  };
+
+  void begin(double time, const Frame& frame);
+  void note_touches(double t0, double t1, const Frame& frame);
+  void note_collision(Pair& pair, const Touch& touch, double t0, double t1, const Frame& frame);
+  void settle_pairs(double t0, double t1, const Frame& frame);
+  void follow_sliding(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
+  void follow_stopping(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
+  void follow_flight(Body& body, std::size_t i, bool supported, double t0, double t1,
+                     const Frame& frame);
+  void follow_landing(Body& body, std::size_t i, bool supported, const Frame& frame);
+  void settle_effective_restitution(double t0, double t1, const Frame& frame);
+  BodyState traced_back(int body, const BodyState& after, double from, double to, double t0,
+                        double t1, const Frame& frame) const;
+  Vector3 slip_of(std::size_t i, const BodyState& state) const;
+  Pair& pair_of(int first, int second);
+
+  const HardScene* scene_;
+  double step_;
+  double speed_scale_;
+  bool started_ = false;
+  double time_ = 0, time_before_ = 0;
+  Frame last_, before_last_;
+  std::vector<Body> bodies_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace slipcheck

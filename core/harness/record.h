@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/engine.h"
+#include "harness/reference_run.h"
+#include "scenario/scenario.h"
+
+namespace slipcheck {
+
+/// One observable over the phases of an engine's ensemble.
+struct EnsembleValue {
+  double median = 0, min = 0, max = 0;
+  std::vector<double> values;  ///< by phase; NaN where a phase has none
+  std::size_t missing = 0;     ///< how many phases have none; median, min, max are of the others
+};
+
+/// An observable's deviation from the reference: relative, absolute for restitution coefficients and
+/// where the tolerance has a unit; of a vector relative to the reference's length. NaN with a reason
+/// where it is undefined.
+struct Deviation {
+  double median = 0;  ///< of the absolute deviations over the phases
+  double max = 0;
+  std::optional<double> tolerance;
+  bool absolute = false;
+  bool within = true;
+  std::string reason;
+};
+
+/// One engine at one rate on one scene.
+struct EngineRecord {
+  enum class Status { ok, unstable, crashed, timed_out, skipped };
+
+  std::string engine, version, precision, profile;
+  double rate = 0;  ///< [Hz]
+  Status status = Status::skipped;
+  std::string reason;      ///< why not ok
+  double cpu_seconds = 0;  ///< of the stepping alone, all phases
+  std::size_t steps = 0;   ///< of all phases
+  std::size_t phases = 0;
+  std::map<std::string, EnsembleValue> observables;
+  std::map<std::string, Deviation> errors;
+  Applied applied;
+  std::vector<std::string> warnings;
+
+  bool within() const;
+};
+
+enum class Verdict { within, deviates, failed };
+
+/// A scene with all that was found out about it.
+struct SceneRecord {
+  Scenario scenario;
+  ReferenceResult reference;
+  std::vector<EngineRecord> runs;
+
+  Verdict verdict() const;
+};
+
+const char* name_of(EngineRecord::Status status);
+const char* name_of(Verdict verdict);
+
+}  // namespace slipcheck

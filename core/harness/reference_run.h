@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reference/event_solver.h"
+#include "scenario/hard_scene.h"
+#include "scenario/scenario.h"
+
+namespace slipcheck {
+
+struct UncertainValue {
+  double value = 0;
+  double uncertainty = 0;  ///< >= 0, in the value's unit
+};
+
+/// What the reference says of a scene.
+struct ReferenceResult {
+  std::string solver = "event";
+  double cpu_seconds = 0;  ///< of the one run that the values come from
+  std::map<std::string, UncertainValue> observables;
+  std::map<std::string, double> closed_form;  ///< where one applies
+  EventRun run;
+  double first_contact = 0;  ///< time of the first collision or landing [s], maybe infinite
+  std::vector<std::string> warnings;
+};
+
+/// Solves a scene. The uncertainty is the spread over runs under all three rounding modes, in which
+/// also the cut-offs for vanishing rebounds differ by half, and never less than two units in the
+/// last place: what depends on rounding (a rack of balls struck at once) shows.
+ReferenceResult run_reference(const HardScene& scene, const RunEnd& end,
+                              const std::vector<std::string>& body_names);
+
+RunEnd run_end(const Scenario& scenario);
+std::vector<std::string> body_names(const Scenario& scenario);
+
+}  // namespace slipcheck

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "physics/sphere.h"
+
+namespace slipcheck {
+
+// Kondic's closed forms, in their corrected versions (docs/model.md lists the misprints), for a
+// level, still substrate and no rolling friction. They hold whatever the law of the contact.
+
+/// From a sliding start to rolling, given the state v^f, Ω^f in which the sliding begins.
+///
+/// The slip u^f = v^f + R k̂×Ω^f falls at (1+A) μ_k g along itself, so
+///   t^s = |u^f|/((1+A) μ_k g),  v^s = v^f − u^f/(1+A),  displacement (v^f + v^s) t^s/2,
+///   ΔE = |v^f|² − |v^s|²  (per unit mass, times 2),  Δp = v^f − v^s.
+struct SlideToRoll {
+  /// kinetic_friction, gravity [m/s²]: > 0.
+  SlideToRoll(const Sphere& sphere, double kinetic_friction, double gravity, const Vector3& velocity,
+              const Vector3& angular_velocity);
+
+  Vector3 slip;              ///< u^f [m/s]
+  double sliding_time;       ///< t^s [s]
+  Vector3 rolling_velocity;  ///< v^s [m/s]
+  Vector3 displacement;      ///< [m]
+  double sliding_distance;   ///< s [m], its length
+  double energy_change;      ///< ΔE [m²/s²]
+  Vector3 momentum_change;   ///< Δp per unit mass [m/s]
+};
+
+/// Two equal spheres that roll along one line and collide centrally, K Sec. IV. Velocities are
+/// signed along the line; Ω stands for RΩ = v of rolling.
+struct HeadOnCollision {
+  double A = 2.5;            ///< m R²/I [-]
+  double restitution = 1;    ///< e_n [-], in [0, 1]
+  /// c in ΔΩ = −c (Ω_i + Ω_j) by the vertical rubbing of the pair, K (55): 0 for smooth spheres,
+  /// ½ (1 − e^(−2C)) for viscous rubbing on confined spheres, ½ (1 + β0) for hard sticking ones.
+  double spin_exchange = 0;
+
+  /// v^f_i = ½[(1 − e) v_i + (1 + e) v_j].
+  double velocity_after(double v_i, double v_j) const;
+  /// R Ω^f_i = v_i − c (v_i + v_j).
+  double surface_velocity_after(double v_i, double v_j) const;
+  /// u^f_i = −½ (1 + e)(v_i − v_j) + c (v_i + v_j), K (62) corrected.
+  double slip_after(double v_i, double v_j) const;
+  /// v^s_i = v^f_i − u^f_i/(1 + A).
+  double rolling_velocity(double v_i, double v_j) const;
+  /// e_eff = (A e_n − 1)/(1 + A): what is left of the relative velocity once neither slides.
+  /// Rubbing turns both spheres by the same ΔΩ and drops out.
+  double effective_restitution() const;
+  /// v_i/v_j for which sphere i slides back to where it was struck, K (61) corrected; −6 for smooth
+  /// elastic solid spheres.
+  double zero_sliding_distance_ratio() const;
+  /// K (44): s of each of two spheres that meet at v and −v, v_rel = 2v [m/s].
+  double symmetric_sliding_distance(double v_rel, double kinetic_friction, double gravity) const;
+};
+
+}  // namespace slipcheck

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "physics/sphere.h"
+
+namespace slipcheck {
+
+/// Stands for the substrate where a contact names two bodies.
+inline constexpr int kSubstrate = -1;
+
+/// Two bodies that exchanged a normal impulse since the frame before.
+struct Touch {
+  int first = 0;              ///< body
+  int second = kSubstrate;    ///< body, > first, or kSubstrate
+  double normal_impulse = 0;  ///< summed over the pair's contact points [N s], > 0
+};
+
+/// The world at one instant: at the end of an engine's step, or at an event of the reference.
+struct Frame {
+  std::vector<BodyState> bodies;
+  std::vector<Touch> touches;
+};
+
+/// Takes the frames of a run one after the other.
+class FrameSink {
+ public:
+  virtual ~FrameSink() = default;
+  /// `time` [s] never falls; two frames of one time are the state before and after an event.
+  virtual void take(double time, const Frame& frame) = 0;
+};
+
+}  // namespace slipcheck

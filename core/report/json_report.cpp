@@ -1,0 +1,166 @@
+#include "report/json_report.h"
+
+#include <cmath>
+
+#include "report/context.h"
+#include "report/selection.h"
+#include "report/text.h"
+
+namespace slipcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Adds to what stands beside a null, or to why a run is not ok.
+void add_reason(Json& object, const std::string& reason) {
+  if (reason.empty()) return;
+  Json& text = object["reason"];
+  text = text.is_string() ? text.get<std::string>() + "; " + valid_utf8(reason)
+                          : valid_utf8(reason);
+}
+
+const char* kind_of(double value) {
+  return std::isnan(value) ? "is not a number" : value > 0 ? "is infinite" : "is minus infinite";
+}
+
+/// JSON has no words for what is not finite: null, with a reason beside it.
+void put(Json& object, const std::string& key, double value, const std::string& reason = {}) {
+  if (std::isfinite(value)) {
+    object[key] = value;
+  } else {
+    object[key] = nullptr;
+    add_reason(object, reason.empty() ? key + " " + kind_of(value) : reason);
+  }
+}
+
+Json strings(const std::vector<std::string>& texts) {
+  Json list = Json::array();
+  for (const std::string& text : texts) list.push_back(valid_utf8(text));
+  return list;
+}
+
+Json reference_json(const SceneRecord& scene) {
+  const ReferenceResult& reference = scene.reference;
+  Json json;
+  json["solver"] = reference.solver;
+  put(json, "cpu_seconds", reference.cpu_seconds);
+  put(json, "end_time", reference.run.end_time);
+  json["collisions"] = reference.run.collisions;
+
+  // In alphabetical order, what is absent between what is shown.
+  std::map<std::string, Json> observables;
+  for (const auto& [name, value] : reference.observables) {
+    Json& entry = observables[name];
+    put(entry, "value", value.value);
+    put(entry, "uncertainty", value.uncertainty,
+        std::isinf(value.uncertainty)
+            ? "the uncertainty is unbounded: another rounding does not show the observable"
+            : "");
+  }
+  for (const auto& [name, reason] : absent_observables(scene))
+    observables[name] = {{"value", nullptr}, {"uncertainty", nullptr}, {"reason", reason}};
+  json["observables"] = Json::object();
+  for (auto& [name, entry] : observables) json["observables"][name] = std::move(entry);
+
+  json["closed_form"] = Json::object();
+  for (const auto& [name, value] : reference.closed_form) put(json["closed_form"], name, value);
+  json["warnings"] = strings(reference.warnings);
+  return json;
+}
+
+Json ensemble_json(const EnsembleValue& ensemble, bool with_values) {
+  Json json;
+  put(json, "median", ensemble.median);
+  put(json, "min", ensemble.min);
+  put(json, "max", ensemble.max);
+  if (ensemble.missing > 0) json["missing"] = ensemble.missing;
+  if (with_values) {
+    json["values"] = Json::array();
+    bool any_null = false;
+    for (double value : ensemble.values) {
+      json["values"].push_back(std::isfinite(value) ? Json(value) : Json(nullptr));
+      any_null |= !std::isfinite(value);
+    }
+    if (any_null) add_reason(json, "null where a phase does not show it");
+  }
+  return json;
+}
+
+Json deviation_json(const Deviation& deviation) {
+  Json json;
+  put(json, "median", deviation.median, deviation.reason.empty() ? "" : " ");
+  put(json, "max", deviation.max, deviation.reason.empty() ? "" : " ");
+  if (!deviation.reason.empty()) json["reason"] = valid_utf8(deviation.reason);
+  if (deviation.tolerance) put(json, "tolerance", *deviation.tolerance);
+  if (deviation.absolute) json["absolute"] = true;
+  json["within"] = deviation.within;
+  return json;
+}
+
+void put_setting(Json& settings, const std::string& name, const Setting& setting) {
+  if (const double* number = std::get_if<double>(&setting)) {
+    put(settings, name, *number);
+  } else if (const bool* flag = std::get_if<bool>(&setting)) {
+    settings[name] = *flag;
+  } else {
+    settings[name] = valid_utf8(std::get<std::string>(setting));
+  }
+}
+
+Json run_json(const Scenario& scenario, const EngineRecord& run) {
+  Json json;
+  json["engine"] = valid_utf8(run.engine);
+  json["version"] = valid_utf8(run.version);
+  json["precision"] = run.precision;
+  json["profile"] = valid_utf8(run.profile);
+  put(json, "rate", run.rate);
+  json["status"] = name_of(run.status);
+  if (run.status != EngineRecord::Status::ok)
+    add_reason(json, run.reason.empty() ? "not known" : run.reason);
+  put(json, "cpu_seconds", run.cpu_seconds);
+  json["steps"] = run.steps;
+  json["phases"] = run.phases;
+  json["observables"] = Json::object();
+  for (const auto& [name, ensemble] : run.observables)
+    json["observables"][name] = ensemble_json(ensemble, has_tolerance(scenario, name));
+  json["errors"] = Json::object();
+  for (const auto& [name, deviation] : run.errors) json["errors"][name] = deviation_json(deviation);
+  json["not_represented"] = strings(run.applied.not_represented);
+  json["applied"] = Json::object();
+  for (const auto& [name, setting] : run.applied.settings)
+    put_setting(json["applied"], valid_utf8(name), setting);
+  json["warnings"] = strings(run.warnings);
+  return json;
+}
+
+}  // namespace
+
+Json json_of(const SceneRecord& scene) {
+  const Context& circumstances = context();
+  const Scenario& scenario = scene.scenario;
+  Json json;
+  json["schema"] = "slipcheck-result/1";
+  json["slipcheck"] = {{"version", circumstances.version},
+                       {"commit", circumstances.commit},
+                       {"build", circumstances.build}};
+  json["scenario"] = {{"name", valid_utf8(scenario.name)},
+                      {"title", valid_utf8(scenario.title)},
+                      {"file", valid_utf8(scenario.file)},
+                      {"sha256", scenario.sha256}};
+  json["reference"] = reference_json(scene);
+  json["runs"] = Json::array();
+  for (const EngineRecord& run : scene.runs) json["runs"].push_back(run_json(scenario, run));
+  json["verdict"] = name_of(scene.verdict());
+  return json;
+}
+
+Json json_of(const std::vector<SceneRecord>& scenes) {
+  if (scenes.size() == 1) return json_of(scenes.front());
+  Json json;
+  json["schema"] = "slipcheck-results/1";
+  json["results"] = Json::array();
+  for (const SceneRecord& scene : scenes) json["results"].push_back(json_of(scene));
+  return json;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,248 @@
+#include "scenario/assemble.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "scenario/check.h"
+#include "scenario/fill.h"
+#include "scenario/overlap.h"
+
+namespace slipcheck {
+namespace {
+
+/// Round-off that positions and radii from a file may carry.
+constexpr double kRoundOff = 1e-12;
+
+double mass_of(const WrittenScene& written, const std::string& material, double radius,
+               const std::string& path, Reading& reading) {
+  const auto found = written.materials.find(material);
+  if (found == written.materials.end()) return 0;
+  if (!found->second.density) {
+    if (reading.has("materials." + material + ".density")) return 0;  // read with a fault
+    reading.fault_at(path, "needs a mass, as its material " + material + " has no density");
+    return 0;
+  }
+  const double mass = *found->second.density * 4 / 3 * std::numbers::pi * radius * radius * radius;
+  if (!(mass >= 1e-30 && mass <= 1e30)) {
+    reading.fault_at(path, "must have a mass between 1e-30 and 1e30 kg");
+  }
+  return mass;
+}
+
+/// [x, y] or [x, y, z] over a substrate, [x, z] in a container.
+Vector3 vector_of(const std::vector<double>& written, bool in_container, double third) {
+  if (in_container) return {written[0], 0, written[1]};
+  return {written[0], written[1], written.size() == 3 ? written[2] : third};
+}
+
+Vector3 spin_of(const WrittenBody& body, const Vector3& sliding, bool in_container,
+                Reading& reading) {
+  const std::string path = body.path + ".spin";
+  const std::vector<double>& values = body.spin.values;
+  switch (body.spin.kind) {
+    case SpinKind::none:
+      return Vector3::Zero();
+    case SpinKind::rolling:
+      if (in_container) reading.fault_at(path, "must be none or a number in a container");
+      return rolling_angular_velocity(sliding, body.sphere.radius);
+    case SpinKind::given:
+      break;
+  }
+  if (values.size() == 1) {
+    if (!in_container) reading.fault_at(path, "must be none, rolling or [ωx, ωy, ωz]");
+    return {0, values[0], 0};
+  }
+  if (in_container && (values[0] != 0 || values[2] != 0)) {
+    reading.fault_at(path, "must be about y alone in a container");
+  }
+  return {values[0], values[1], values[2]};
+}
+
+void check_place(Body& body, const WrittenScene& written, const std::string& path,
+                 Reading& reading) {
+  const double radius = body.sphere.radius;
+  double& z = body.initial.position.z();
+  if (std::abs(z - radius) <= kRoundOff * radius) z = radius;
+  const std::string position = path + ".position";
+  if (z < radius) {
+    reading.fault_at(position, written.container ? "must be at least the radius above the floor"
+                                                 : "must be at least the radius above z = 0");
+  }
+  if (written.substrate && written.substrate->confined) {
+    if (z > radius) reading.fault_at(position, "must rest on a confined substrate");
+    if (body.initial.velocity.z() != 0) {
+      reading.fault_at(path + ".velocity", "must be horizontal on a confined substrate");
+    }
+  }
+  if (written.container) {
+    const Container& box = *written.container;
+    const double x = body.initial.position.x();
+    const double slack = kRoundOff * box.width;
+    if (box.width > 0 && (x < radius - slack || x > box.width - radius + slack)) {
+      reading.fault_at(position, "must be at least the radius away from both walls");
+    }
+    if (box.height && z > *box.height - radius + kRoundOff * *box.height) {
+      reading.fault_at(position, "must be at least the radius below the lid");
+    }
+  }
+}
+
+Body resolve(const WrittenBody& written_body, const WrittenScene& written, Reading& reading) {
+  const bool in_container = written.container.has_value();
+  Body body{written_body.name, written_body.material, written_body.sphere, {}};
+  const double radius = body.sphere.radius;
+  body.sphere.mass = written_body.mass ? *written_body.mass
+                                       : mass_of(written, body.material, radius,
+                                                 written_body.path, reading);
+  for (const auto& [key, values] : {std::pair(".position", &written_body.position),
+                                    std::pair(".velocity", &written_body.velocity)}) {
+    if (in_container && values->size() != 2) {
+      reading.fault_at(written_body.path + key, "must be [x, z] in a container");
+      return body;
+    }
+  }
+  body.initial.position = vector_of(written_body.position, in_container, radius);
+  body.initial.velocity = vector_of(written_body.velocity, in_container, 0);
+  Vector3 sliding = body.initial.velocity;
+  if (written.substrate) {
+    const Vector2 substrate = initial_velocity(written.substrate->motion);
+    sliding -= Vector3(substrate.x(), substrate.y(), 0);
+  }
+  body.initial.angular_velocity = spin_of(written_body, sliding, in_container, reading);
+  check_place(body, written, written_body.path, reading);
+  return body;
+}
+
+/// Spheres of a fill, once what stands explicitly is in place.
+std::vector<Body> resolve(const Fill& fill, const WrittenScene& written,
+                          const std::vector<Body>& others, Reading& reading) {
+  const double density_check =
+      mass_of(written, fill.material, fill.least_radius, fill.path, reading);
+  if (density_check == 0) return {};
+  if (written.container && fill.spin == SpinKind::rolling) {
+    reading.fault_at(fill.path + ".spin", "must be none in a container");
+  }
+  std::vector<Body> bodies = expand(fill, written, others, reading);
+  for (Body& body : bodies) {
+    const double radius = body.sphere.radius;
+    body.sphere.mass = mass_of(written, fill.material, radius, fill.path, reading);
+    if (fill.spin == SpinKind::rolling && written.substrate) {
+      const Vector2 substrate = initial_velocity(written.substrate->motion);
+      body.initial.angular_velocity = rolling_angular_velocity(
+          body.initial.velocity - Vector3(substrate.x(), substrate.y(), 0), radius);
+    }
+  }
+  return bodies;
+}
+
+void resolve_bodies(const WrittenScene& written, Scenario& scenario, Reading& reading) {
+  std::vector<Body> explicit_bodies;
+  std::vector<std::string> paths;
+  for (const auto& entry : written.bodies) {
+    const auto* body = std::get_if<WrittenBody>(&entry);
+    if (!body || !body->complete) continue;
+    explicit_bodies.push_back(resolve(*body, written, reading));
+    paths.push_back(body->path);
+  }
+  check_overlaps(explicit_bodies, paths, written.substrate ? written.substrate->periodic
+                                                           : std::nullopt, reading);
+  if (!reading.faults().empty()) return;  // a fill might only repeat them
+
+  std::vector<Body> placed = explicit_bodies;
+  auto next = explicit_bodies.begin();
+  const auto add_fill = [&](const Fill& fill) {
+    const std::vector<Body> filled = resolve(fill, written, placed, reading);
+    placed.insert(placed.end(), filled.begin(), filled.end());
+    scenario.bodies.insert(scenario.bodies.end(), filled.begin(), filled.end());
+  };
+  for (const auto& entry : written.bodies) {
+    if (const auto* fill = std::get_if<Fill>(&entry)) {
+      add_fill(*fill);
+    } else {
+      scenario.bodies.push_back(*next++);
+    }
+  }
+  for (const Fill& fill : written.fill) add_fill(fill);
+}
+
+Run resolve_run(const WrittenScene& written) {
+  Run run;
+  const WrittenRun& from = written.run;
+  run.until = from.until.value_or(Run::Until::time);
+  run.time = from.time;
+  run.periods = from.periods;
+  run.discard = from.discard.value_or(0);
+  run.sample_phase_zero = from.sample_phase_zero.value_or(false);
+  if (from.periods && written.container && written.container->floor_frequency > 0) {
+    run.time = static_cast<double>(*from.periods) / written.container->floor_frequency;
+  }
+  // A time that is asked for is also the limit, unless a longer one is given.
+  run.limit = from.limit.value_or(run.until == Run::Until::time ? run.time : run.limit);
+  return run;
+}
+
+}  // namespace
+
+Vector2 initial_velocity(const Motion& motion) {
+  if (const auto* constant = std::get_if<ConstantMotion>(&motion)) return constant->velocity;
+  if (const auto* wave = std::get_if<OscillatingMotion>(&motion)) {
+    return wave->amplitude * (2 * std::numbers::pi * wave->frequency * std::cos(wave->phase));
+  }
+  if (const auto* points = std::get_if<TableMotion>(&motion)) {
+    const auto& table = points->table;
+    for (std::size_t i = 0; i + 1 < table.size(); ++i) {
+      if (table[i].time <= 0 && table[i + 1].time > 0) {
+        return (table[i + 1].position - table[i].position) / (table[i + 1].time - table[i].time);
+      }
+    }
+  }
+  return Vector2::Zero();
+}
+
+Scenario assemble(const WrittenScene& written, Reading& reading) {
+  check_names(written, reading);
+  check_contacts(written, reading);
+  check_surroundings(written, reading);
+  check_run(written, reading);
+
+  Scenario scenario;
+  scenario.name = written.name;
+  scenario.title = written.title;
+  scenario.source = written.source;
+  scenario.materials = written.materials;
+  double tilt = 0;
+  if (written.container) {
+    scenario.surroundings = *written.container;
+  } else if (written.substrate) {
+    scenario.surroundings = *written.substrate;
+    tilt = written.substrate->tilt;
+  }
+  scenario.gravity = tilt == 0 ? Vector3(0, 0, -written.gravity)
+                               : Vector3(0, -written.gravity * std::sin(tilt),
+                                         -written.gravity * std::cos(tilt));
+  for (const WrittenContact& contact : written.contacts) {
+    if (contact.between.size() != 2) continue;
+    const bool swapped = is_reserved_name(contact.between[0]);
+    const std::string& first = contact.between[swapped ? 1 : 0];
+    const std::string& second = contact.between[swapped ? 0 : 1];
+    if (contact.on_substrate) {
+      MaterialOnSubstrate& on = scenario.substrate_contacts.emplace_back(contact.substrate);
+      on.material = first;
+      on.path = contact.path;
+    } else {
+      BodyContact& pair = scenario.contacts.emplace_back(contact.body);
+      pair.first = first;
+      pair.second = second;
+      pair.path = contact.path;
+    }
+  }
+  resolve_bodies(written, scenario, reading);
+  scenario.run = resolve_run(written);
+  scenario.compare = written.compare;
+  return scenario;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,46 @@
+#include "scenario/load.h"
+
+#include <utility>
+
+#include "scenario/assemble.h"
+#include "scenario/file_text.h"
+#include "scenario/reading.h"
+#include "scenario/scene_rules.h"
+#include "scenario/yaml_tree.h"
+
+namespace slipcheck {
+namespace {
+
+/// What `units` says; a fault in it is noted when its turn comes.
+UnitSystem units_of(const YamlNode& root, const std::string& file) {
+  UnitSystem units = UnitSystem::si;
+  Reading ignored(file, units);
+  if (const YamlNode* node = root.find("units")) units_rule().read(*node, ignored, units);
+  return units;
+}
+
+}  // namespace
+
+Scenario parse_scenario(std::string_view text, const std::string& file) {
+  const YamlPointer root = parse_yaml(checked_text(text, file), file);
+  Reading reading(file, units_of(*root, file));
+  WrittenScene written;
+  if (is_mapping(*root)) {
+    scene_rule().read(*root, reading, written);
+  } else {
+    reading.fault(*root, "must be a scene, a mapping that begins with slipcheck: 1");
+    reading.throw_faults();
+  }
+  Scenario scenario = assemble(written, reading);
+  reading.throw_faults();
+  scenario.file = file;
+  scenario.sha256 = sha256_hex(text);
+  scenario.locations = reading.locations();
+  return scenario;
+}
+
+Scenario load_scenario(const std::filesystem::path& file) {
+  return parse_scenario(read_file(file), file.string());
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "scenario/observable_names.h"
+#include "scenario/record.h"
+#include "scenario/scene_rules.h"
+
+namespace slipcheck {
+namespace {
+
+/// {observable: tolerance}, with a unit absolute.
+Rule<Tolerance> tolerance_rule(const ObservableName& observable) {
+  // A pure number, or a share in %, is relative whatever the observable's dimension.
+  const Dimension dimension = observable.dimension;
+  const bool has_dimension = dimension.mass != 0 || dimension.length != 0 || dimension.time != 0;
+  const Rule<double> relative = number(kPureNumber, kNotNegative);
+  const Rule<double> absolute = number(dimension, kNotNegative);
+  return {[=](const YamlNode& node, Reading& reading, Tolerance& target) {
+            if (has_dimension && is_scalar(node)) {
+              try {
+                const bool has_unit = parse_quantity(node.text, dimension).has_unit;
+                target.absolute = has_unit;
+              } catch (const BadQuantity&) {
+                try {
+                  parse_quantity(node.text, kPureNumber);
+                } catch (const BadQuantity&) {
+                  reading.fault(node, fmt::format("must be a number, a share as in \"1 %\" or {} "
+                                                  "as in \"{}\"",
+                                                  with_article(dimension), dimension.example));
+                  return false;
+                }
+              }
+            }
+            return (target.absolute ? absolute : relative).read(node, reading, target.value);
+          },
+          relative.schema};
+}
+
+Rule<std::map<std::string, Tolerance>> tolerances_rule() {
+  using Tolerances = std::map<std::string, Tolerance>;
+  Record<Tolerances> record;
+  for (const ObservableName& observable : observable_names()) {
+    const Rule<Tolerance> rule = tolerance_rule(observable);
+    std::vector<std::string> names = {std::string(observable.name)};
+    if (observable.is_vector) {
+      for (const char* component : {".x", ".y", ".z"}) names.push_back(names[0] + component);
+    }
+    for (const std::string& name : names) {
+      record.whole(name,
+                   {[=](const YamlNode& node, Reading& reading, Tolerances& target) {
+                      return rule.read(node, reading, target[name]);
+                    },
+                    rule.schema},
+                   optional, std::string(observable.doc));
+    }
+  }
+  return record.rule();
+}
+
+Rule<EngineRequest> engine_rule() {
+  using Precision = EngineRequest::Precision;
+  using Rates = std::vector<double>;
+  const Rule<double> rate = number(kFrequency, kPositive);
+  Record<EngineRequest> engine;
+  engine
+      .key("engine", &EngineRequest::engine, name_text(NameStyle::lower_case), required,
+           "an engine's name")
+      .key("precision", &EngineRequest::precision,
+           choice<Precision>({{"single", Precision::single_}, {"double", Precision::double_}}),
+           optional, "of its floating-point numbers")
+      .key("profile", &EngineRequest::profile, free_text(), optional,
+           "its settings, by name or by the path of a YAML file")
+      .key("rate", &EngineRequest::rates,
+           one_form_of<Rates>(
+               "must be a frequency or a list of them",
+               {{[](const YamlNode& node) { return is_list(node); }, list(rate, 1)},
+                {is_scalar,
+                 made_from<Rates>(rate, [](double value) { return Rates{value}; })}}),
+           required, "steps per second, one or several");
+  return engine.rule();
+}
+
+}  // namespace
+
+Rule<WrittenRun> run_rule() {
+  using Until = Run::Until;
+  const Rule<double> time = number(kTime, kPositive);
+  const auto named = choice<Until>({{"rolling", Until::rolling}, {"rest", Until::rest}});
+  const auto wrap = [](auto rule, auto assign) {
+    return Rule<WrittenRun>{[=](const YamlNode& node, Reading& reading, WrittenRun& target) {
+                              return assign(rule, node, reading, target);
+                            },
+                            rule.schema};
+  };
+  const Rule<WrittenRun> until_named =
+      wrap(named, [](const auto& rule, const YamlNode& node, Reading& reading, WrittenRun& run) {
+        return rule.read(node, reading, run.until.emplace());
+      });
+  const Rule<WrittenRun> until_time =
+      wrap(time, [](const auto& rule, const YamlNode& node, Reading& reading, WrittenRun& run) {
+        run.until = Until::time;
+        return rule.read(node, reading, run.time);
+      });
+  const auto is_number = [](const YamlNode& node) {
+    return is_scalar(node) && node.text.find_first_of("0123456789") != std::string::npos;
+  };
+  constexpr std::int64_t kMostPeriods = 1'000'000'000;
+  Record<WrittenRun> run;
+  run.whole("until",
+            one_form_of<WrittenRun>("must be rolling, rest or a time",
+                                    {{is_word("rolling"), until_named},
+                                     {is_word("rest"), until_named},
+                                     {is_number, until_time}}),
+            optional,
+            "rolling: no body slides after the last collision; rest: none moves; or a time")
+      .key("limit", &WrittenRun::limit, time, optional, "simulated time after which until failed")
+      .key("periods", &WrittenRun::periods, integer(1, kMostPeriods), optional,
+           "of a container's floor, to run")
+      .key("discard", &WrittenRun::discard, integer(0, kMostPeriods), optional,
+           "periods before the first sample")
+      .key("sample", &WrittenRun::sample_phase_zero, choice<bool>({{"phase_zero", true}}), optional,
+           "when samples are taken, otherwise at every step")
+      .exactly_one_of({"until", "periods"});
+  return run.rule();
+}
+
+Rule<Compare> compare_rule() {
+  using Reference = Compare::Reference;
+  Record<Compare> compare;
+  compare
+      .key("reference", &Compare::reference,
+           choice<Reference>({{"auto", Reference::automatic},
+                              {"event", Reference::event},
+                              {"contact", Reference::contact}}),
+           optional, "solver of the reference; auto: event where all contacts are hard")
+      .key("engines", &Compare::engines, list(engine_rule(), 0), optional,
+           "what is held against it")
+      .key("tolerance", &Compare::tolerance, tolerances_rule(), optional,
+           "largest error of an observable");
+  return compare.rule();
+}
+
+}  // namespace slipcheck

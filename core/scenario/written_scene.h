@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scenario/scenario.h"
+
+namespace slipcheck {
+
+// A scene as it is written, its values in SI but nothing resolved: what the rules read into.
+
+struct WrittenContact {
+  std::vector<std::string> between;  ///< two names
+  bool on_substrate = false;
+  BodyContact body;               ///< where neither is the substrate
+  MaterialOnSubstrate substrate;  ///< where one is
+  std::string path;
+  bool complete = false;  ///< read without a fault
+};
+
+enum class SpinKind { none, rolling, given };
+struct WrittenSpin {
+  SpinKind kind = SpinKind::none;
+  std::vector<double> values;  ///< one (about y) or three [rad/s]
+};
+
+struct WrittenBody {
+  std::string name;
+  std::string material;
+  Sphere sphere;               ///< its mass is not yet known
+  std::optional<double> mass;  ///< [kg], > 0
+  std::vector<double> position;         ///< two or three [m]
+  std::vector<double> velocity = {0, 0};  ///< two or three [m/s]
+  WrittenSpin spin;
+  std::string path;
+  bool complete = false;  ///< read without a fault
+};
+
+/// Many bodies at random places.
+struct Fill {
+  std::string prefix;      ///< of the names, followed by 1, 2, …
+  std::int64_t count = 0;  ///< > 0
+  std::string material;
+  double least_radius = 0;  ///< [m], > 0
+  double most_radius = 0;   ///< [m], >= least_radius
+  double shape_factor = Sphere{}.shape_factor;
+  std::vector<double> area;  ///< [x0, y0, x1, y1] of the centres [m]; z in place of y in a container
+  double speed = 0;          ///< of each in a random direction [m/s], >= 0
+  SpinKind spin = SpinKind::none;  ///< none or rolling
+  std::int64_t seed = 1;           ///< >= 0
+  std::string path;
+  bool complete = false;  ///< read without a fault
+};
+
+struct WrittenRun {
+  std::optional<Run::Until> until;
+  double time = 0;
+  std::optional<double> limit;
+  std::optional<std::int64_t> periods, discard;
+  std::optional<bool> sample_phase_zero;
+};
+
+struct WrittenScene {
+  std::string name, title, source;
+  double gravity = Scenario{}.gravity.norm();  ///< [m/s²], >= 0
+  std::map<std::string, Material> materials;
+  std::vector<WrittenContact> contacts;
+  std::optional<Substrate> substrate;
+  std::optional<Container> container;
+  std::vector<std::variant<WrittenBody, Fill>> bodies;
+  std::vector<Fill> fill;
+  WrittenRun run;
+  Compare compare;
+};
+
+}  // namespace slipcheck

@@ -1,0 +1,89 @@
+#include "bullet_backend/coefficients.h"
+
+#include <gtest/gtest.h>
+
+#include "bullet_run.h"
+
+namespace slipcheck::bullet {
+namespace {
+
+HardScene two_balls(const Sphere& ball, const SubstrateContact& ground, const PairContact& pair) {
+  return scene_of(ball, {rolling_along_x(ball.radius, 0, 1), rolling_along_x(ball.radius, 1, 0)},
+                  ground, pair);
+}
+
+TEST(BulletCoefficients, RollingLengthTurnsIntoTheDecelerationOfTheScene) {
+  SubstrateContact ground = ground_with_friction(0.2);
+  ground.rolling = RollingFriction({{0, 0.01}, {1, 0.03}});
+  const Sphere shell = {0.05, 0.1, 2.0 / 3};
+  const PairCoefficients map(two_balls(shell, ground, {}), 1e-3);
+  // A torque ρ m g on a rolling sphere: (1 + q) m a R = ρ m g, so ρ = (1 + q) R a/g, a/g = μ_r.
+  EXPECT_DOUBLE_EQ(map.rolling_friction(0, kSubstrate, 0), (5.0 / 3) * 0.05 * 0.01);
+  EXPECT_DOUBLE_EQ(map.rolling_friction(0, kSubstrate, 0.5), (5.0 / 3) * 0.05 * 0.02);
+  EXPECT_EQ(map.rolling_friction(0, 1, 0.5), 0);
+  EXPECT_FALSE(map.is_cut(0));
+}
+
+TEST(BulletCoefficients, ImpulsesAboveOneRaiseTheTorques) {
+  SubstrateContact ground = ground_with_friction(0.2);
+  ground.rolling = RollingFriction(0.01);
+  ground.drilling_length = 0.003;
+  const Sphere heavy = {0.5, 100, 0.4};
+  const PairCoefficients map(two_balls(heavy, ground, {}), 1e-2);
+  const double impulse = 100 * kGravity * 1e-2;  // 9.81 N s, of which the solver counts 1
+  EXPECT_TRUE(map.is_cut(0));
+  EXPECT_DOUBLE_EQ(map.rolling_friction(0, kSubstrate, 1), 1.4 * 0.5 * 0.01 * impulse);
+  EXPECT_DOUBLE_EQ(map.spinning_friction(0, kSubstrate), 0.003 * impulse);
+}
+
+TEST(BulletCoefficients, DrillingOpensTheGateOfRolling) {
+  SubstrateContact ground = ground_with_friction(0.2);
+  ground.drilling_length = 1e-4;
+  const PairCoefficients map(two_balls(steel_ball(0.01), ground, {}), 1e-3);
+  EXPECT_GT(map.rolling_friction(0, kSubstrate, 1), 0);
+  EXPECT_LE(map.rolling_friction(0, kSubstrate, 1), 1e-12);
+  const PairCoefficients none(two_balls(steel_ball(0.01), ground_with_friction(0.2), {}), 1e-3);
+  EXPECT_EQ(none.rolling_friction(0, kSubstrate, 1), 0);
+}
+
+TEST(BulletCoefficients, APairThatKeepsItsSlipHasNoFriction) {
+  PairContact pair;
+  pair.friction = 0.3;
+  pair.tangential_restitution = 0;
+  const SubstrateContact ground;
+  const Sphere ball = steel_ball(0.01);
+  EXPECT_EQ(PairCoefficients(two_balls(ball, ground, pair), 1e-3).friction(0, 1), 0.3);
+  pair.tangential_restitution = -1;
+  EXPECT_EQ(PairCoefficients(two_balls(ball, ground, pair), 1e-3).friction(0, 1), 0);
+}
+
+TEST(BulletCoefficients, NaiveTakesTheNumbersStraight) {
+  SubstrateContact ground;
+  ground.static_friction = 0.5;
+  ground.kinetic_friction = 0.1;
+  ground.rolling = RollingFriction({{0, 0.001}, {1, 0.002}});
+  ground.drilling_length = 2e-5;
+  ground.restitution = 0.4;
+  PairContact pair;
+  pair.restitution = 0.9;
+  const HardScene pair_scene = two_balls(steel_ball(0.01), ground, pair);
+  const BodyFields ball = naive_ball(pair_scene, 0);
+  EXPECT_EQ(ball.friction, 0.1);
+  EXPECT_EQ(ball.restitution, 0.9);
+  EXPECT_EQ(ball.rolling_friction, 0.001);
+  EXPECT_EQ(ball.spinning_friction, 2e-5);
+  EXPECT_EQ(naive_plane(pair_scene).friction, 0.1);
+  EXPECT_EQ(naive_plane(pair_scene).restitution, 0.4);
+
+  const HardScene alone = scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 1)}, ground);
+  EXPECT_EQ(naive_ball(alone, 0).restitution, 0.4);
+}
+
+TEST(BulletCoefficients, NaiveTakesALawAtItsReferenceSpeed) {
+  PairContact pair;
+  pair.restitution = PowerLawRestitution{0.32, 0.234, 0.01};
+  EXPECT_DOUBLE_EQ(naive_ball(two_balls(steel_ball(0.01), {}, pair), 1).restitution, 0.32);
+}
+
+}  // namespace
+}  // namespace slipcheck::bullet

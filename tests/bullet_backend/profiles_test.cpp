@@ -1,0 +1,180 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bullet_run.h"
+
+namespace slipcheck {
+namespace {
+
+HardScene everything() {
+  SubstrateContact ground;
+  ground.static_friction = 0.5;
+  ground.kinetic_friction = 0.1;
+  ground.rolling = RollingFriction({{0, 0.01}, {1, 0.02}});
+  ground.drilling_length = 2e-5;
+  ground.restitution = 0.4;
+  PairContact pair;
+  pair.restitution = 0.9;
+  pair.friction = 0.3;
+  pair.tangential_restitution = 0.5;
+  HardScene scene = scene_of(
+      steel_ball(0.01), {rolling_along_x(0.01, 0, 0), rolling_along_x(0.01, 1, 0)}, ground, pair);
+  scene.confined = true;
+  return scene;
+}
+
+double number(const Applied& applied, const std::string& name) {
+  const auto found = applied.settings.find(name);
+  if (found == applied.settings.end()) ADD_FAILURE() << name << " is not among the settings";
+  return found == applied.settings.end() ? std::nan("") : std::get<double>(found->second);
+}
+
+bool lists(const Applied& applied, const std::string& start) {
+  return std::any_of(applied.not_represented.begin(), applied.not_represented.end(),
+                     [&](const std::string& each) { return each.starts_with(start); });
+}
+
+TEST(BulletProfiles, BothPrecisionsSayWhoTheyAre) {
+  for (const std::string precision : {"single", "double"}) {
+    const RemoteEngine engine(bullet_executable(precision));
+    EXPECT_EQ(engine.info().engine, "bullet");
+    EXPECT_EQ(engine.info().version, "3.24");
+    EXPECT_EQ(engine.info().precision, precision);
+    EXPECT_EQ(engine.info().profiles, (std::vector<std::string>{"default", "naive"}));
+  }
+}
+
+TEST(BulletProfiles, UnknownOnesAreRefusedWithTheList) {
+  RemoteEngine engine(bullet_executable("double"));
+  const auto reason = [&](const std::string& profile) -> std::string {
+    try {
+      engine.configure(everything(), profile, 1e-3);
+    } catch (const Refused& refused) {
+      return refused.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(reason("tuned"), "bullet has no profile 'tuned' yet; it has: default, naive");
+  EXPECT_EQ(reason("x"), "bullet has no profile 'x'; it has: default, naive");
+  EXPECT_TRUE(engine.alive());
+}
+
+TEST(BulletProfiles, AStepBelowItsEpsilonIsRefused) {
+  RemoteEngine single(bullet_executable("single"));
+  EXPECT_THROW(single.configure(everything(), "default", 1e-7), Refused);
+  RemoteEngine as_double(bullet_executable("double"));
+  EXPECT_NO_THROW(as_double.configure(everything(), "default", 1e-7));
+}
+
+TEST(BulletProfiles, DefaultAppliesThePairsOwnNumbers) {
+  RemoteEngine engine(bullet_executable("double"));
+  const Applied applied = engine.configure(everything(), "default", 1e-3);
+  EXPECT_EQ(number(applied, "friction"), 0.1);
+  EXPECT_EQ(number(applied, "substrate_restitution"), 0.4);
+  EXPECT_EQ(number(applied, "restitution"), 0.9);
+  EXPECT_EQ(number(applied, "pair_friction"), 0.3);
+  EXPECT_EQ(number(applied, "spinning_friction"), 2e-5);
+  EXPECT_EQ(std::get<std::string>(applied.settings.at("rolling_friction")), "by speed");
+  EXPECT_EQ(number(applied, "time_step"), 1e-3);
+  EXPECT_EQ(number(applied, "gravity"), kGravity);
+}
+
+TEST(BulletProfiles, SettingsAreBulletsOwn) {
+  RemoteEngine engine(bullet_executable("double"));
+  const Applied applied = engine.configure(everything(), "default", 1e-3);
+  // As printed in Bullet's manual and headers of 3.24; the threshold is stored as a float.
+  EXPECT_EQ(number(applied, "erp"), 0.2);
+  EXPECT_EQ(number(applied, "erp2"), 0.2);
+  EXPECT_EQ(number(applied, "solver_iterations"), 10);
+  EXPECT_EQ(std::get<bool>(applied.settings.at("split_impulse")), true);
+  EXPECT_NEAR(number(applied, "split_impulse_threshold"), -0.04, 1e-9);
+  EXPECT_NEAR(number(applied, "restitution_velocity_threshold"), 0.2, 1e-8);
+  EXPECT_EQ(number(applied, "linear_sleeping_threshold"), 0.8);
+  EXPECT_EQ(number(applied, "angular_sleeping_threshold"), 1);
+  // 0.02 times half the diagonal of the sphere's bounding box, not of its radius.
+  EXPECT_NEAR(number(applied, "contact_breaking_threshold"), 0.02 * std::sqrt(3) * 0.01, 1e-12);
+}
+
+TEST(BulletProfiles, NaiveGetsBulletsProducts) {
+  RemoteEngine engine(bullet_executable("double"));
+  const Applied applied = engine.configure(everything(), "naive", 1e-3);
+  EXPECT_DOUBLE_EQ(number(applied, "friction"), 0.1 * 0.1);
+  EXPECT_DOUBLE_EQ(number(applied, "pair_friction"), 0.1 * 0.1);
+  EXPECT_DOUBLE_EQ(number(applied, "restitution"), 0.9 * 0.9);
+  EXPECT_DOUBLE_EQ(number(applied, "substrate_restitution"), 0.9 * 0.4);
+  EXPECT_DOUBLE_EQ(number(applied, "rolling_friction"), 0.01 * 0.1);
+  EXPECT_DOUBLE_EQ(number(applied, "spinning_friction"), 2e-5 * 0.1);
+}
+
+TEST(BulletProfiles, NaiveSlidesWithTheSquareOfTheFriction) {
+  BodyState state;
+  state.position = Vector3(0, 0, 0.01);
+  state.velocity = Vector3(2, 0, 0);
+  const HardScene scene = scene_of(steel_ball(0.01), {state}, ground_with_friction(0.4));
+  RemoteEngine engine(bullet_executable("double"));
+  const auto frames = run(engine, scene, "naive", 1000, 20);
+  // As in BulletSliding.ItIsBrakedByTheFrictionOfTheScene, with μ².
+  EXPECT_NEAR((2 - frames.back().bodies[0].velocity.x()) / (0.16 * kGravity * 0.02), 1, 1e-3);
+}
+
+TEST(BulletProfiles, ChangingTheProfileLeavesNothingBehind) {
+  RemoteEngine engine(bullet_executable("double"));
+  engine.configure(everything(), "default", 1e-3);
+  const Applied naive = engine.configure(everything(), "naive", 1e-3);
+  EXPECT_DOUBLE_EQ(number(naive, "friction"), 0.01);
+  const Applied back = engine.configure(everything(), "default", 1e-3);
+  EXPECT_EQ(number(back, "friction"), 0.1);
+}
+
+TEST(BulletProfiles, WhatDiffersIsNamedByBodyAndPair) {
+  HardScene scene = everything();
+  scene.bodies[1].radius = 0.02;
+  scene.bodies.push_back(scene.bodies[0]);
+  scene.initial.push_back(rolling_along_x(0.01, 2, 0));
+  scene.material = {0, 0, 1};
+  scene.substrate = {ground_with_friction(0.1), ground_with_friction(0.2)};
+  scene.substrate[0].rolling = RollingFriction(0.01);
+  PairContact soft;
+  soft.restitution = 0.5;
+  scene.pairs = {scene.pairs[0], soft, soft, soft};
+  RemoteEngine engine(bullet_executable("double"));
+  const Applied applied = engine.configure(scene, "default", 1e-3);
+  EXPECT_EQ(number(applied, "friction[1]"), 0.1);
+  EXPECT_EQ(number(applied, "friction[2]"), 0.2);
+  EXPECT_DOUBLE_EQ(number(applied, "rolling_friction[0]"), 1.4 * 0.01 * 0.01);
+  EXPECT_DOUBLE_EQ(number(applied, "rolling_friction[1]"), 1.4 * 0.01 * 0.02);
+  EXPECT_EQ(number(applied, "restitution[0-1]"), 0.9);
+  EXPECT_EQ(number(applied, "restitution[0-2]"), 0.5);
+  EXPECT_EQ(applied.settings.count("restitution"), 0u);
+  EXPECT_EQ(applied.settings.count("restitution[1-2]"), 0u);  // the same materials again
+}
+
+TEST(BulletProfiles, WhatIsNotRepresentedIsSaid) {
+  RemoteEngine engine(bullet_executable("double"));
+  const Applied rich = engine.configure(everything(), "default", 1e-3);
+  for (const char* what :
+       {"static friction", "rolling friction only while rolling", "rolling friction alike",
+        "restitution below 0.2 m/s", "tangential restitution", "confinement"}) {
+    EXPECT_TRUE(lists(rich, what)) << what;
+  }
+  EXPECT_FALSE(lists(rich, "rolling friction that depends on the speed"));
+  const Applied naive = engine.configure(everything(), "naive", 1e-3);
+  EXPECT_TRUE(lists(naive, "rolling friction that depends on the speed"));
+
+  PairContact dead;
+  dead.restitution = 0.0;
+  const HardScene plain =
+      scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 0), rolling_along_x(0.01, 1, 0)},
+               ground_with_friction(0.1), dead);
+  EXPECT_TRUE(engine.configure(plain, "default", 1e-3).not_represented.empty());
+
+  HardScene heavy = everything();
+  heavy.bodies[0].mass = 1000;
+  EXPECT_TRUE(lists(engine.configure(heavy, "default", 1e-2), "rolling and drilling torque"));
+  EXPECT_FALSE(lists(engine.configure(everything(), "default", 1e-2), "rolling and drilling"));
+}
+
+}  // namespace
+}  // namespace slipcheck

@@ -1,0 +1,251 @@
+#include "engine/protocol.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "engine/scene_json.h"
+#include "some_scene.h"
+
+namespace slipcheck::protocol {
+namespace {
+
+/// The body of an encoded message.
+std::span<const std::uint8_t> body(const Bytes& message) {
+  return std::span(message).subspan(kPrefix);
+}
+
+template <class T>
+T through(const Reply& reply) {
+  return std::get<T>(decode_reply(body(encode(reply))));
+}
+
+template <class T>
+T request_through(const Request& request) {
+  return std::get<T>(decode_request(body(encode(request))));
+}
+
+/// Bit for bit, so that NaN equals itself and 0 differs from −0.
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+bool same_bits(const BodyState& a, const BodyState& b) {
+  for (int k = 0; k < 3; ++k) {
+    if (!same_bits(a.position[k], b.position[k]) || !same_bits(a.velocity[k], b.velocity[k]) ||
+        !same_bits(a.angular_velocity[k], b.angular_velocity[k])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Any of the 2^64 float64, as an engine that blows up may produce.
+double any_double(std::mt19937_64& random) {
+  const std::uint64_t bits = random();
+  double value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+Frame any_frame(std::mt19937_64& random, std::size_t bodies) {
+  Frame frame;
+  for (std::size_t i = 0; i < bodies; ++i) {
+    BodyState state;
+    for (Vector3* v : {&state.position, &state.velocity, &state.angular_velocity}) {
+      for (int k = 0; k < 3; ++k) (*v)[k] = any_double(random);
+    }
+    frame.bodies.push_back(state);
+  }
+  const int count = static_cast<int>(bodies);
+  for (int first = 0; first < count; ++first) {
+    const int second = static_cast<int>(random() % static_cast<unsigned>(count));
+    const double impulse = std::ldexp(1.0, static_cast<int>(random() % 100) - 50);
+    frame.touches.push_back({first, second > first ? second : kSubstrate, impulse});
+  }
+  return frame;
+}
+
+TEST(Protocol, FramesComeThroughBitForBit) {
+  std::mt19937_64 random(1);
+  for (int round = 0; round < 200; ++round) {
+    const std::size_t bodies = 1 + random() % 7;
+    Frames sent;
+    sent.cpu_seconds = 1e-6 * static_cast<double>(random() % 1000);
+    for (std::size_t n = 1 + random() % 20; n > 0; --n) {
+      sent.frames.push_back(any_frame(random, bodies));
+    }
+    const auto received = through<Frames>(sent);
+    EXPECT_EQ(received.cpu_seconds, sent.cpu_seconds);
+    ASSERT_EQ(received.frames.size(), sent.frames.size());
+    for (std::size_t n = 0; n < sent.frames.size(); ++n) {
+      const Frame &a = sent.frames[n], &b = received.frames[n];
+      ASSERT_EQ(a.bodies.size(), b.bodies.size());
+      ASSERT_EQ(a.touches.size(), b.touches.size());
+      for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+        EXPECT_TRUE(same_bits(a.bodies[i], b.bodies[i]));
+      }
+      for (std::size_t k = 0; k < a.touches.size(); ++k) {
+        EXPECT_EQ(a.touches[k].first, b.touches[k].first);
+        EXPECT_EQ(a.touches[k].second, b.touches[k].second);
+        EXPECT_EQ(a.touches[k].normal_impulse, b.touches[k].normal_impulse);
+      }
+    }
+  }
+}
+
+TEST(Protocol, TheSceneComesThroughWhole) {
+  const HardScene scene = some_scene(3);
+  const auto request = request_through<Configure>(Configure{scene, "default", 1e-3});
+  EXPECT_EQ(request.profile, "default");
+  EXPECT_EQ(request.time_step, 1e-3);
+  // The encoding is a function of every field, so equal encodings are equal scenes.
+  EXPECT_EQ(scene_to_json(request.scene), scene_to_json(scene));
+  EXPECT_EQ(request.scene.on_substrate(0).rolling(0.25), 0.0015);
+  EXPECT_EQ(restitution_at(request.scene.between(0, 1).restitution, 0.01), 0.32);
+  EXPECT_EQ(std::get<double>(request.scene.between(0, 2).restitution), 0.9);
+}
+
+TEST(Protocol, TheOtherMessagesComeThrough) {
+  EXPECT_EQ(request_through<Hello>(Hello{}).version, kVersion);
+  EXPECT_EQ(request_through<Step>(Step{77}).count, 77u);
+  EXPECT_EQ(request_through<Start>(Start{some_scene().initial}).states.size(), 2u);
+  request_through<Quit>(Quit{});
+
+  const auto welcome = through<Welcome>(Welcome{1, {"bullet", "3.24", "single", {"a", "b"}}});
+  EXPECT_EQ(welcome.info.engine, "bullet");
+  EXPECT_EQ(welcome.info.profiles, (std::vector<std::string>{"a", "b"}));
+  const std::map<std::string, Setting> settings = {
+      {"erp", 0.2}, {"iterations", 10.0}, {"law", std::string("by speed")}, {"warm", true}};
+  const auto configured = through<Configured>(Configured{{settings, {"static friction"}}});
+  EXPECT_EQ(configured.applied.settings, settings);
+  EXPECT_EQ(configured.applied.not_represented, std::vector<std::string>{"static friction"});
+  EXPECT_EQ(through<Refusal>(Refusal{"why"}).reason, "why");
+  EXPECT_EQ(through<Failed>(Failed{"µ"}).reason, "µ");
+  through<Started>(Started{});
+}
+
+void expect_rubbish(const nlohmann::json& reply, const std::string& reason) {
+  try {
+    decode_reply(nlohmann::json::to_cbor(reply));
+    ADD_FAILURE() << "accepted " << reply;
+  } catch (const Rubbish& rubbish) {
+    EXPECT_EQ(rubbish.what(), reason);
+  }
+}
+
+nlohmann::json good_frames() {
+  Bytes touches;
+  append_u32(touches, 0);
+  append_u32(touches, 1);
+  append_f64(touches, 1e-3);
+  return {{"type", "frames"},
+          {"count", 1},
+          {"bodies", 2},
+          {"cpu_seconds", 1e-6},
+          {"states", nlohmann::json::binary(Bytes(2 * kStateBytes))},
+          {"touch_counts", nlohmann::json::binary({1, 0, 0, 0})},
+          {"touches", nlohmann::json::binary(touches)}};
+}
+
+TEST(Protocol, ABadReplyIsNamed) {
+  EXPECT_NO_THROW(decode_reply(nlohmann::json::to_cbor(good_frames())));
+  const auto with = [](const char* key, const nlohmann::json& value) {
+    nlohmann::json reply = good_frames();
+    reply[key] = value;
+    return reply;
+  };
+  const auto bytes = [](const Bytes& content) { return nlohmann::json::binary(content); };
+  expect_rubbish(3, "reply is not a map");
+  expect_rubbish({{"kind", "frames"}}, "reply.type is missing");
+  expect_rubbish({{"type", "dance"}}, "there is no reply 'dance'");
+  expect_rubbish(with("count", "one"), "reply.count is not a whole number >= 0");
+  expect_rubbish(with("count", -1), "reply.count is not a whole number >= 0");
+  expect_rubbish(with("count", 0), "frames without a step or a body");
+  expect_rubbish(with("count", 2), "144 bytes of states for 2 steps of 2 bodies");
+  expect_rubbish(with("bodies", 1), "144 bytes of states for 1 steps of 1 bodies");
+  expect_rubbish(with("cpu_seconds", -1.0),
+                 "reply.cpu_seconds is -1, not in [0, 1.7976931348623157e+308]");
+  expect_rubbish(with("cpu_seconds", std::nan("")), "reply.cpu_seconds is not finite");
+  expect_rubbish(with("states", "text"), "reply.states is not a byte string");
+  expect_rubbish(with("touch_counts", bytes({1, 0})), "touch_counts is not 4 bytes for each step");
+  expect_rubbish(with("touch_counts", bytes({0, 0, 0, 0})), "more touches than touch_counts says");
+  expect_rubbish(with("touch_counts", bytes({0, 0, 0, 9})), "touches end early");
+  Bytes touches = good_frames()["touches"].get_binary();
+  touches[4] = 2;
+  expect_rubbish(with("touches", bytes(touches)), "a touch of 0 and 2 among 2 bodies");
+  touches[4] = 0;
+  expect_rubbish(with("touches", bytes(touches)), "a touch of 0 and 0 among 2 bodies");
+  touches.resize(8);
+  append_f64(touches, -1);
+  touches[4] = 1;
+  expect_rubbish(with("touches", bytes(touches)), "a touch's normal impulse is -1, not > 0");
+  expect_rubbish({{"type", "refused"}, {"reason", "\xff"}}, "reply.reason is not valid UTF-8");
+}
+
+TEST(Protocol, ABadSceneIsNamed) {
+  const auto expect = [](const std::function<void(nlohmann::json&)>& spoil, const char* reason) {
+    nlohmann::json scene = scene_to_json(some_scene());
+    spoil(scene);
+    try {
+      scene_from_json(scene);
+      ADD_FAILURE() << "accepted: " << reason;
+    } catch (const Rubbish& rubbish) {
+      EXPECT_STREQ(rubbish.what(), reason);
+    }
+  };
+  using json = nlohmann::json;
+  expect([](json& s) { s["bodies"][1]["material"] = 2; },
+         "scene.bodies[1].material is 2, more than 1");
+  expect([](json& s) { s["bodies"] = json::array(); }, "scene.bodies is empty");
+  expect([](json& s) { s["pairs"].erase(0); }, "scene.pairs has 3 entries for 2 materials");
+  expect([](json& s) { s["initial"] = json::binary(Bytes(72)); },
+         "scene.initial has 1 states for 2 bodies");
+  expect([](json& s) { s["initial"] = json::binary(Bytes(71)); },
+         "scene.initial has 71 bytes, no multiple of 72");
+  expect(
+      [](json& s) {
+        s["substrate"][0]["rolling"] = {{1, 0.1}, {1, 0.2}};
+      },
+      "scene.substrate[0].rolling: the speeds do not rise");
+  expect([](json& s) { s["substrate"][0]["rolling"] = json::array(); },
+         "scene.substrate[0].rolling has no point");
+  expect([](json& s) { s["confined"] = 0; }, "scene.confined is neither true nor false");
+  expect([](json& s) { s["pairs"][0]["restitution"] = 1.5; },
+         "scene.pairs[0].restitution is 1.5, not in [0, 1]");
+}
+
+TEST(Protocol, DeepNestingAndOddCborAreRefused) {
+  // A megabyte of arrays of one would overflow the stack of a reader that recurses.
+  EXPECT_THROW(decode_reply(Bytes(1 << 20, 0x81)), Rubbish);
+  EXPECT_THROW(decode_reply(Bytes(1 << 20, 0x7f)), Rubbish);  // text of indefinite length
+  EXPECT_THROW(decode_reply(Bytes{}), Rubbish);
+  EXPECT_THROW(decode_reply(Bytes{0x9b, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff}), Rubbish);
+  EXPECT_THROW(decode_reply(Bytes{0xc0, 0x00}), Rubbish);        // a tag
+  EXPECT_THROW(decode_reply(Bytes{0xa1, 0x00, 0x00}), Rubbish);  // a key that is a number
+  EXPECT_THROW(decode_reply(Bytes{0x00, 0x00}), Rubbish);        // two items
+}
+
+TEST(Protocol, TheLengthIsLimited) {
+  const std::array<std::uint8_t, 4> most = {0, 0, 0, 4}, more = {1, 0, 0, 4};
+  EXPECT_EQ(body_length(most), std::size_t{64} << 20);
+  EXPECT_THROW(body_length(more), Rubbish);
+}
+
+/// docs/engine-protocol.md shows a message byte for byte: `step` for one step.
+TEST(Protocol, TheDocumentsExampleIsWhatIsSent) {
+  const Bytes expected = {0x12, 0x00, 0x00, 0x00, 0xa2, 0x65, 'c',  'o', 'u', 'n', 't',
+                          0x01, 0x64, 't',  'y',  'p',  'e',  0x64, 's', 't', 'e', 'p'};
+  EXPECT_EQ(encode(Request(Step{1})), expected);
+  std::ifstream file(std::string(SLIPCHECK_SOURCE_DIR) + "/docs/engine-protocol.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(text.find("12 00 00 00  a2 65 63 6f 75 6e 74 01 64 74 79 70 65 64 73 74 65 70"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace slipcheck::protocol

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "scenario/hard_scene.h"
+
+namespace slipcheck {
+
+/// `count` steel spheres in a row that fly along x at 1 m/s, two materials, one law of each kind.
+inline HardScene some_scene(std::size_t count = 2) {
+  HardScene scene;
+  for (std::size_t i = 0; i < count; ++i) {
+    scene.bodies.push_back({0.002, 2.6e-4, 0.4});
+    BodyState state;
+    state.position = Vector3(0.01 * static_cast<double>(i), 0, 0.002);
+    state.velocity = Vector3(1, 0, 0);
+    scene.initial.push_back(state);
+    scene.material.push_back(i % 2);
+  }
+  SubstrateContact ground;
+  ground.static_friction = 0.5;
+  ground.kinetic_friction = 0.1;
+  ground.rolling = RollingFriction({{0, 0.001}, {0.5, 0.002}});
+  ground.drilling_length = 1e-5;
+  scene.substrate = {ground, {}};
+  scene.pairs = {{0.9, 0.5, 0}, {PowerLawRestitution{}, 0, -1}, {PowerLawRestitution{}, 0, -1}, {}};
+  scene.gravity = 9.81;
+  return scene;
+}
+
+inline std::string faulty_engine() {
+  return std::string(SLIPCHECK_BINARY_DIR) + "/faulty/slipcheck-engine-faulty-double";
+}
+
+}  // namespace slipcheck

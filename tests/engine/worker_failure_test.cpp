@@ -1,0 +1,246 @@
+// Every way in which a worker can fail gives its status and its reason, in time, and leaves neither
+// a zombie nor an open descriptor behind.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "engine/remote_engine.h"
+#include "some_scene.h"
+
+namespace slipcheck {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Status = WorkerFailure::Status;
+
+std::size_t open_descriptors() {
+  const std::filesystem::directory_iterator fds("/proc/self/fd");
+  return static_cast<std::size_t>(std::distance(begin(fds), end(fds)));
+}
+
+bool has_children() { return waitpid(-1, nullptr, WNOHANG) != -1; }
+
+/// 20 steps under a profile of the faulty engine.
+void run(RemoteEngine& engine, const std::string& profile) {
+  const HardScene scene = some_scene();
+  engine.configure(scene, profile, 1e-3);
+  engine.start(scene.initial);
+  engine.advance(20, [](const Frame&) {});
+}
+
+class WorkerFailureTest : public ::testing::Test {
+ protected:
+  void SetUp() override { descriptors_ = open_descriptors(); }
+  void TearDown() override {
+    EXPECT_FALSE(has_children()) << "a zombie or a child is left";
+    EXPECT_EQ(open_descriptors(), descriptors_);
+  }
+
+  /// `within` [s] is when the failure must have been noticed, with the start of the process.
+  void expect_failure(const std::string& profile, Status status, const std::string& reason,
+                      double within, WorkerLimits limits = {}) {
+    const auto begin = Clock::now();
+    try {
+      RemoteEngine engine(faulty_engine(), limits);
+      run(engine, profile);
+      ADD_FAILURE() << profile << " went well";
+    } catch (const WorkerFailure& failure) {
+      EXPECT_EQ(failure.status(), status) << profile;
+      EXPECT_EQ(failure.what(), reason);
+    }
+    EXPECT_LT(std::chrono::duration<double>(Clock::now() - begin).count(), within) << profile;
+  }
+
+ private:
+  std::size_t descriptors_ = 0;
+};
+
+// The sanitizers slow everything down, and two tests may share a core.
+constexpr double kSoon = 3;
+
+TEST_F(WorkerFailureTest, CrashesHaveTheirSignal) {
+  expect_failure("crash", Status::crashed, "killed by signal 11 (Segmentation fault)", kSoon);
+  expect_failure("abort", Status::crashed, "killed by signal 6 (Aborted)", kSoon);
+  expect_failure("kill-at-step-15", Status::crashed, "killed by signal 9 (Killed)", kSoon);
+}
+
+TEST_F(WorkerFailureTest, AnExitHasItsCodeAndLastWords) {
+  expect_failure("exit-code", Status::crashed, "exited with code 3: no fun", kSoon);
+}
+
+TEST_F(WorkerFailureTest, NoiseIsCutToTheLastWords) {
+  expect_failure("noisy", Status::crashed,
+                 "killed by signal 11 (Segmentation fault): " + std::string(300, 'e'), kSoon);
+}
+
+TEST_F(WorkerFailureTest, AHangTimesOut) {
+  expect_failure("hang", Status::timed_out, "no reply within 0.5 s", kSoon,
+                 {.memory = std::size_t{2} << 30, .reply = 0.5});
+  expect_failure("half-a-reply", Status::timed_out, "no reply within 0.5 s", kSoon,
+                 {.memory = std::size_t{2} << 30, .reply = 0.5});
+}
+
+TEST_F(WorkerFailureTest, ARunHasItsTimeLimit) {
+  RemoteEngine engine(faulty_engine());
+  engine.limit_run(0.3);
+  try {
+    run(engine, "slow");  // 20 steps of 30 ms
+    FAIL();
+  } catch (const WorkerFailure& failure) {
+    EXPECT_EQ(failure.status(), Status::timed_out);
+    EXPECT_STREQ(failure.what(), "the run took longer than its time limit");
+  }
+  EXPECT_FALSE(engine.alive());
+  EXPECT_THROW(run(engine, "ok"), WorkerFailure);  // and nothing worse
+}
+
+TEST_F(WorkerFailureTest, AMemoryEaterIsStopped) {
+  expect_failure("eat-memory", Status::crashed, "exceeded the memory limit of 256 MiB", 10,
+                 {.memory = std::size_t{256} << 20, .reply = 10});
+}
+
+TEST_F(WorkerFailureTest, RubbishIsNamed) {
+  expect_failure("rubbish", Status::crashed, "spoke rubbish: the CBOR item ends early", kSoon);
+  expect_failure("huge-length", Status::crashed,
+                 "spoke rubbish: a message of 4294967295 bytes, more than 67108864", kSoon);
+  expect_failure("more-than-asked", Status::crashed,
+                 "spoke rubbish: more than one reply to a request", kSoon);
+  expect_failure("wrong-reply", Status::crashed, "spoke rubbish: not the reply asked for", kSoon);
+}
+
+TEST_F(WorkerFailureTest, AClosedPipeIsNoticed) {
+  expect_failure("close-pipe", Status::crashed, "closed its pipe", kSoon + 1);
+}
+
+TEST_F(WorkerFailureTest, AnExceptionComesAcross) {
+  expect_failure("throw", Status::crashed, "failed: the engine is unwell", kSoon);
+}
+
+/// Processes of a group that still run, by /proc/<pid>/stat: "pid (name) state parent group …".
+int running_in_group(pid_t group) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "stat");
+    std::string stat;
+    std::getline(file, stat);
+    char state = 'Z';
+    int parent = 0, its_group = 0;
+    const std::size_t name_end = stat.rfind(')');
+    if (name_end == std::string::npos) continue;
+    std::istringstream(stat.substr(name_end + 1)) >> state >> parent >> its_group;
+    count += its_group == group && state != 'Z';
+  }
+  return count;
+}
+
+TEST_F(WorkerFailureTest, GrandchildrenDieToo) {
+  RemoteEngine engine(faulty_engine(), {.memory = std::size_t{2} << 30, .reply = 0.5});
+  const pid_t group = engine.pid();
+  EXPECT_EQ(running_in_group(group), 1);
+  EXPECT_THROW(run(engine, "fork-and-hang"), WorkerFailure);
+  for (int k = 0; k < 1000 && running_in_group(group) > 0; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(running_in_group(group), 0);
+}
+
+TEST_F(WorkerFailureTest, WhatIsNoExecutableCannotStart) {
+  EXPECT_THROW(RemoteEngine("/nowhere/slipcheck-engine-x-double"), WorkerFailure);
+  EXPECT_THROW(RemoteEngine("/bin/true"), WorkerFailure);  // exits at once
+  EXPECT_THROW(RemoteEngine("/bin/cat"), WorkerFailure);   // sends the request back
+}
+
+TEST_F(WorkerFailureTest, AnEngineThatWorksIsUnhurtByItsPrinting) {
+  RemoteEngine engine(faulty_engine());
+  EXPECT_EQ(engine.info().engine, "faulty");
+  run(engine, "print-to-stdout");
+  run(engine, "ok");
+}
+
+TEST_F(WorkerFailureTest, FramesComeInOrderOverManyRequests) {
+  RemoteEngine engine(faulty_engine());
+  const HardScene scene = some_scene();
+  engine.configure(scene, "ok", 1e-3);
+  engine.start(scene.initial);
+  double x = 0;
+  std::size_t count = 0;
+  const double cpu_seconds = engine.advance(20'000, [&](const Frame& frame) {
+    x += 1e-3 * 1.0;  // as the engine sums: the same rounding
+    ++count;
+    ASSERT_EQ(frame.bodies[0].position.x(), x);
+    ASSERT_EQ(frame.touches.size(), 1u);
+  });
+  EXPECT_EQ(count, 20'000u);
+  EXPECT_GT(cpu_seconds, 0);
+  EXPECT_LT(cpu_seconds, 5);
+}
+
+TEST_F(WorkerFailureTest, NanStatesAreDataNotRubbish) {
+  RemoteEngine engine(faulty_engine());
+  const HardScene scene = some_scene();
+  engine.configure(scene, "nan", 1e-3);
+  engine.start(scene.initial);
+  int nans = 0;
+  engine.advance(20, [&](const Frame& frame) { nans += std::isnan(frame.bodies[0].velocity.x()); });
+  EXPECT_EQ(nans, 11);
+}
+
+TEST_F(WorkerFailureTest, ARefusalLeavesTheWorkerAlive) {
+  RemoteEngine engine(faulty_engine());
+  EXPECT_THROW(
+      {
+        try {
+          engine.configure(some_scene(), "refuse", 1e-3);
+        } catch (const Refused& refused) {
+          EXPECT_STREQ(refused.what(), "does not like the scene");
+          throw;
+        }
+      },
+      Refused);
+  run(engine, "ok");
+}
+
+TEST_F(WorkerFailureTest, TheStopFlagIsSeenWhileWaiting) {
+  std::atomic<bool> stop = false;
+  RemoteEngine engine(faulty_engine(), {}, &stop);
+  Clock::time_point asked;
+  const std::jthread user([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    asked = Clock::now();
+    stop = true;
+  });
+  EXPECT_THROW(run(engine, "hang"), Interrupted);
+  EXPECT_LT(std::chrono::duration<double>(Clock::now() - asked).count(), 1);
+}
+
+TEST_F(WorkerFailureTest, ADeadIdleWorkerIsNoticed) {
+  RemoteEngine engine(faulty_engine());
+  EXPECT_TRUE(engine.alive());
+  kill(engine.pid(), SIGKILL);
+  for (int k = 0; k < 1000 && engine.alive(); ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_FALSE(engine.alive());
+}
+
+TEST_F(WorkerFailureTest, ALargeSceneGoesBothWays) {
+  // 1 MB each way: more than any pipe holds, so that one side has to read while it writes.
+  RemoteEngine engine(faulty_engine());
+  const HardScene scene = some_scene(10'000);
+  engine.configure(scene, "ok", 1e-3);
+  engine.start(scene.initial);
+  std::size_t bodies = 0;
+  engine.advance(5, [&](const Frame& frame) { bodies += frame.bodies.size(); });
+  EXPECT_EQ(bodies, 50'000u);
+}
+
+}  // namespace
+}  // namespace slipcheck

@@ -1,0 +1,168 @@
+#include "scenes.h"
+
+// Every model of the format's table loads, with each of its ways to be written.
+
+namespace slipcheck {
+namespace {
+
+using testing::kHard;
+using testing::with;
+
+Scenario with_materials(std::string text) {
+  return parse_scenario(
+      with(text, "{density: 7850}",
+           "{density: 7850, young_modulus: 2e11, poisson_ratio: 0.3}"),
+      "s.yaml");
+}
+Scenario with_normal(const std::string& normal) {
+  const std::string text = with(kHard, "tangential: {model: hard, friction: 0.1, "
+                                       "tangential_restitution: 0.5}", "");
+  return with_materials(with(text, "{model: hard, restitution: 0.9}", normal));
+}
+Scenario with_tangential(const std::string& tangential) {
+  const std::string text =
+      with(kHard, "{model: hard, friction: 0.1, tangential_restitution: 0.5}", tangential);
+  return with_materials(with(text, "{model: hard, restitution: 0.9}",
+                             "{model: linear, restitution: 0.9, collision_time: 1e-4}"));
+}
+template <class T>
+T normal(const std::string& text) {
+  return std::get<T>(with_normal(text).contacts[0].normal);
+}
+template <class T>
+T tangential(const std::string& text) {
+  return std::get<T>(with_tangential(text).contacts[0].tangential);
+}
+MaterialOnSubstrate on_substrate(const std::string& keys) {
+  return with_materials(with(kHard, "friction: 0.2", keys)).substrate_contacts[0];
+}
+Motion motion(const std::string& text) {
+  const Scenario scene =
+      parse_scenario(with(kHard, "substrate: {}", "substrate: {motion: " + text + "}"), "s.yaml");
+  return std::get<Substrate>(scene.surroundings).motion;
+}
+
+TEST(Models, HardNormal) {
+  EXPECT_EQ(std::get<double>(normal<HardNormal>("{model: hard, restitution: 1}").restitution), 1);
+  const auto law = std::get<BridgesRestitution>(
+      normal<HardNormal>("{model: hard, restitution: {bridges: {exponent: 0.2, speed: 1 cm/s}}}")
+          .restitution);
+  EXPECT_EQ(law.coefficient, BridgesRestitution{}.coefficient);
+  EXPECT_EQ(law.exponent, 0.2);
+  EXPECT_EQ(law.speed, 0.01);
+  EXPECT_TRUE(std::holds_alternative<ViscoelasticRestitution>(
+      normal<HardNormal>("{model: hard, restitution: viscoelastic}").restitution));
+}
+
+TEST(Models, LinearNormal) {
+  const auto model = normal<LinearNormal>(
+      "{model: linear, damping_rate: 30, stiffness: 1e5 N/m, ends_at: zero_force}");
+  EXPECT_EQ(model.damping_rate, 30);
+  EXPECT_EQ(model.stiffness, 1e5);
+  EXPECT_EQ(model.ends_at, EndsAt::zero_force);
+}
+
+TEST(Models, HertzNormal) {
+  EXPECT_EQ(normal<HertzNormal>("{model: hertz}").ends_at, EndsAt::zero_overlap);
+  EXPECT_EQ(normal<HertzNormal>("hertz").ends_at, EndsAt::zero_overlap);
+}
+
+TEST(Models, PowerNormal) {
+  const auto model =
+      normal<PowerNormal>("{model: power, modulus: 1e9, viscosity: 10, alpha: 1, gamma: 0}");
+  EXPECT_EQ(model.modulus, 1e9);
+  EXPECT_EQ(model.viscosity, 10);
+  EXPECT_EQ(model.alpha, 1);
+  EXPECT_EQ(model.gamma, 0);
+}
+
+TEST(Models, ViscoelasticNormal) {
+  using Form = ViscoelasticNormal::Form;
+  const auto one = normal<ViscoelasticNormal>("{model: viscoelastic, dissipation_time: 1e-6}");
+  EXPECT_EQ(one.dissipation_time, 1e-6);
+  EXPECT_EQ(one.form, Form::expanded);
+  const auto other = normal<ViscoelasticNormal>(
+      "{model: viscoelastic, viscosity: [1e3, 2 kPa s], form: compact}");
+  EXPECT_EQ(other.viscosity, std::make_pair(1e3, 2e3));
+  EXPECT_EQ(other.form, Form::compact);
+}
+
+TEST(Models, Tangential) {
+  tangential<NoTangential>("none");
+  tangential<NoTangential>("{model: none}");
+  EXPECT_EQ(tangential<ViscousTangential>("{model: viscous, damping_rate: 3, friction: 0.5}")
+                .damping_rate,
+            3);
+  using Form = AsperityTangential::Form;
+  const auto asperity = tangential<AsperityTangential>(
+      "{model: asperity, roughness_factor: 1 cm^-0.5, asperity_size: {relative: 2e-4}}");
+  EXPECT_DOUBLE_EQ(asperity.roughness_factor.value(), 10);
+  EXPECT_EQ(asperity.relative_asperity_size, 2e-4);
+  EXPECT_EQ(asperity.form, Form::printed);
+  const auto passive = tangential<AsperityTangential>(
+      "{model: asperity, friction: 0.3, asperity_size: 1 um, form: passive}");
+  EXPECT_EQ(passive.friction, 0.3);
+  EXPECT_EQ(passive.asperity_size, 1e-6);
+  EXPECT_EQ(passive.form, Form::passive);
+  const Scenario hard = parse_scenario(kHard, "s.yaml");
+  EXPECT_EQ(std::get<HardTangential>(hard.contacts[0].tangential).tangential_restitution, 0.5);
+}
+
+TEST(Models, RollingFriction) {
+  using Table = decltype(RollingLaw::table);
+  EXPECT_EQ(on_substrate("friction: 0.2\n    rolling: 0.1").rolling.table, (Table{{0, 0.1}}));
+  EXPECT_EQ(on_substrate("friction: 0.2\n    rolling: [[0, 0.1], [1, 0.2]]").rolling.table,
+            (Table{{0, 0.1}, {1, 0.2}}));
+  const auto law = on_substrate("friction: 0.2\n    rolling: {coefficient: [[0, 0.1], [1, 0.2]], while_sliding: true}");
+  EXPECT_EQ(law.rolling.table.size(), 2u);
+  EXPECT_TRUE(law.rolling.while_sliding);
+}
+
+TEST(Models, Drilling) {
+  using Model = Drilling::Model;
+  EXPECT_EQ(on_substrate("drilling: none").drilling.model, Model::none);
+  EXPECT_EQ(on_substrate("drilling: {model: none}").drilling.model, Model::none);
+  const auto coupled = on_substrate("drilling: {model: coupled, contact_radius: 1 mm}").drilling;
+  EXPECT_EQ(coupled.model, Model::coupled);
+  EXPECT_EQ(coupled.contact_radius, 1e-3);
+  const auto hertz = on_substrate("drilling: {model: uncoupled, contact_radius: hertz}").drilling;
+  EXPECT_EQ(hertz.model, Model::uncoupled);
+  EXPECT_FALSE(hertz.contact_radius);
+}
+
+TEST(Models, Motion) {
+  EXPECT_TRUE(std::holds_alternative<StillMotion>(motion("still")));
+  EXPECT_TRUE(std::holds_alternative<StillMotion>(motion("{kind: still}")));
+  EXPECT_EQ(std::get<ConstantMotion>(motion("{kind: constant, velocity: [1, 2]}")).velocity,
+            Vector2(1, 2));
+  const auto table = std::get<TableMotion>(motion("{kind: table, table: [[0, 1, 2], [3, 4, 5]]}"));
+  ASSERT_EQ(table.table.size(), 2u);
+  EXPECT_EQ(table.table[1].time, 3);
+  EXPECT_EQ(table.table[1].position, Vector2(4, 5));
+}
+
+TEST(Models, Inertia) {
+  const auto factor = [](const std::string& inertia) {
+    return parse_scenario(
+               with(kHard, "{radius: 0.1}", "{radius: 0.1, inertia: " + inertia + "}"), "s.yaml")
+        .bodies[0]
+        .sphere.shape_factor;
+  };
+  EXPECT_EQ(factor("solid"), 2.0 / 5);
+  EXPECT_EQ(factor("shell"), 2.0 / 3);
+  EXPECT_EQ(factor("disk"), 1.0 / 2);
+  EXPECT_EQ(factor("ring"), 1);
+  EXPECT_EQ(factor("0.35"), 0.35);
+}
+
+TEST(Models, MassInPlaceOfDensity) {
+  std::string text = with(kHard, "steel: {density: 7850}", "steel: {}");
+  text = with(text, "sphere: {radius: 0.1}", "mass: 5 g, sphere: {radius: 0.1}");
+  text = with(text, "material: steel, sphere", "material: steel, mass: 6, sphere");
+  const Scenario scene = parse_scenario(text, "s.yaml");
+  EXPECT_EQ(scene.bodies[0].sphere.mass, 0.005);
+  EXPECT_EQ(scene.bodies[1].sphere.mass, 6);
+}
+
+}  // namespace
+}  // namespace slipcheck
