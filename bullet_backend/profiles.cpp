@@ -91,7 +91,7 @@ std::vector<std::string> not_represented(const HardScene& scene, Profile profile
   note(needs.static_friction, "static friction (one coefficient for sticking and sliding)");
   note(needs.rolling, "rolling friction only while rolling (it acts while sliding too)");
   note(needs.rolling, "rolling friction alike in all headings (up to 1.41 times on diagonals)");
-  note(needs.bounce, "restitution below 0.2 m/s");
+  note(needs.bounce, "restitution below 0.2 m/s of approach");
   note(needs.reversed_slip, "tangential restitution (friction only stops the slip)");
   note(scene.confined, "confinement to the plane");
   note(needs.rolling_table && naive, "rolling friction that depends on the speed");

@@ -113,7 +113,7 @@ void add_explain_command(CLI::App& app, int& exit_code) {
       "explain", "Tell what a scene needs, what is left out and what is expected; runs nothing");
   auto files = std::make_shared<std::vector<std::string>>();
   command->add_option("FILE", *files, "Scenario files")->required();
-  command->add_flag("-q,--quiet", "Say nothing but the result");
+  accept_quiet(*command);
   command->footer("Example:\n  slipcheck explain scenarios/symmetric-30cms.yaml");
   command->callback([files, &exit_code] {
     for (const Scenario& scenario : load_files(*files)) explain(scenario);

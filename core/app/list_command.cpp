@@ -182,7 +182,7 @@ void add_list_command(CLI::App& app, int& exit_code) {
       ->required()
       ->check(CLI::IsMember({"engines", "scenarios", "observables", "models"}));
   command->add_flag("--json", *as_json, "As JSON");
-  command->add_flag("-q,--quiet", "Say nothing but the result");
+  accept_quiet(*command);
   command->footer("Example:\n  slipcheck list observables --json");
   command->callback([what, as_json, &exit_code] {
     const Json list = *what == "engines"       ? list_engines()

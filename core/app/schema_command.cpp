@@ -11,7 +11,7 @@ void add_schema_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "schema", "Print the JSON Schema of the scenario format, for editors and other programs");
   command->footer("Example:\n  slipcheck schema > scenarios/schema.json");
-  command->add_flag("-q,--quiet", "Say nothing but the result");
+  accept_quiet(*command);
   command->callback([&exit_code] {
     fmt::print("{}\n", scenario_schema().dump(2));
     exit_code = kWithinTolerance;

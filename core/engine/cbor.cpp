@@ -9,6 +9,8 @@ namespace slipcheck::protocol {
 namespace {
 
 constexpr std::size_t kDeepest = 16;
+constexpr std::size_t kMostItems =
+    4'000'000;  // of one byte each in CBOR, but of 16 and more in json
 
 // Walks over the item without recursion: nlohmann's reader recurses for every level, so that a
 // megabyte of "array of one" bytes would exhaust its stack.
@@ -24,6 +26,7 @@ class Walker {
         continue;
       }
       --open.back();
+      if (++items_ > kMostItems) throw Rubbish("CBOR of too many items");
       const std::uint64_t children = item();
       if (children == 0) continue;
       if (open.size() > kDeepest) throw Rubbish("CBOR nested too deeply");
@@ -77,6 +80,7 @@ class Walker {
 
   std::span<const std::uint8_t> bytes_;
   std::size_t at_ = 0;
+  std::size_t items_ = 0;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -12,6 +13,23 @@ namespace slipcheck::protocol {
 using nlohmann::json;
 
 namespace {
+
+// Numbers go over as they lie in memory: frames are many, and byte by byte takes longer than the
+// steps themselves.
+static_assert(std::endian::native == std::endian::little);
+static_assert(sizeof(BodyState) == kStateBytes && sizeof(Vector3) == 3 * sizeof(double));
+
+void append(Bytes& bytes, const void* data, std::size_t size) {
+  const auto* begin = static_cast<const std::uint8_t*>(data);
+  bytes.insert(bytes.end(), begin, begin + size);
+}
+
+template <class T>
+T copy(const std::uint8_t* at) {
+  T value;
+  std::memcpy(static_cast<void*>(&value), at, sizeof value);
+  return value;
+}
 
 constexpr double kTiny = std::numeric_limits<double>::min();  // stands for "> 0"
 constexpr double kHuge = std::numeric_limits<double>::max();
@@ -58,44 +76,17 @@ RestitutionLaw restitution_from_json(const Fields& pair) {
 
 }  // namespace
 
-void append_u32(Bytes& bytes, std::uint32_t value) {
-  for (int shift = 0; shift < 32; shift += 8) {
-    bytes.push_back(static_cast<std::uint8_t>(value >> shift));
-  }
-}
+void append_u32(Bytes& bytes, std::uint32_t value) { append(bytes, &value, sizeof value); }
 
-void append_f64(Bytes& bytes, double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  for (int shift = 0; shift < 64; shift += 8) {
-    bytes.push_back(static_cast<std::uint8_t>(bits >> shift));
-  }
-}
+void append_f64(Bytes& bytes, double value) { append(bytes, &value, sizeof value); }
 
-void append_state(Bytes& bytes, const BodyState& state) {
-  for (const Vector3* v : {&state.position, &state.velocity, &state.angular_velocity}) {
-    for (int k = 0; k < 3; ++k) append_f64(bytes, (*v)[k]);
-  }
-}
+void append_state(Bytes& bytes, const BodyState& state) { append(bytes, &state, sizeof state); }
 
-std::uint32_t read_u32(const std::uint8_t* at) {
-  std::uint32_t value = 0;
-  for (int k = 0; k < 4; ++k) value |= static_cast<std::uint32_t>(at[k]) << (8 * k);
-  return value;
-}
+std::uint32_t read_u32(const std::uint8_t* at) { return copy<std::uint32_t>(at); }
 
-double read_f64(const std::uint8_t* at) {
-  std::uint64_t bits = 0;
-  for (int k = 0; k < 8; ++k) bits |= static_cast<std::uint64_t>(at[k]) << (8 * k);
-  return std::bit_cast<double>(bits);
-}
+double read_f64(const std::uint8_t* at) { return copy<double>(at); }
 
-BodyState read_state(const std::uint8_t* at) {
-  BodyState state;
-  for (Vector3* v : {&state.position, &state.velocity, &state.angular_velocity}) {
-    for (int k = 0; k < 3; ++k, at += 8) (*v)[k] = read_f64(at);
-  }
-  return state;
-}
+BodyState read_state(const std::uint8_t* at) { return copy<BodyState>(at); }
 
 Bytes pack_states(std::span<const BodyState> states) {
   Bytes bytes;

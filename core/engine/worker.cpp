@@ -127,7 +127,9 @@ class Worker {
     return reply;
   }
 
-  protocol::Reply handle(const protocol::Quit&) { return protocol::Started{}; }  // never sent
+  protocol::Reply handle(const protocol::Quit&) {
+    return protocol::Started{};
+  }  // run_worker returns
 
   Engine& engine_;
   std::size_t bodies_ = 0;  // 0: not configured

@@ -15,6 +15,13 @@ constexpr double kRoundOff = 1e-12;
 
 std::size_t index(int body) { return static_cast<std::size_t>(body); }
 
+/// Velocity of the first body at the contact point relative to the second; n from the second.
+Vector3 contact_velocity(const Sphere& a, const BodyState& sa, const Sphere& b,
+                         const BodyState& sb, const Vector3& n) {
+  return sa.velocity - sb.velocity -
+         (a.radius * sa.angular_velocity + b.radius * sb.angular_velocity).cross(n);
+}
+
 /// Linear between two frames.
 Vector3 between(const Vector3& a, const Vector3& b, double fraction) {
   return a + fraction * (b - a);
@@ -22,10 +29,12 @@ Vector3 between(const Vector3& a, const Vector3& b, double fraction) {
 
 }  // namespace
 
-double FallingQuantity::time_to_zero(double before, double dt) const {
+double FallingQuantity::time_to_zero(double before, double after, double dt) const {
+  const double expected = before - rate_ * dt;
   if (rate_ <= 0) return dt;
-  // It counted as zero at the end of the interval, so its zero is near: never a step later.
-  return std::min(before / rate_, 2 * dt);
+  if (expected <= 0) return before / rate_;
+  // It counts as zero but goes on falling as before: its zero lies a little further on.
+  return std::abs(after - expected) <= 0.1 * rate_ * dt ? before / rate_ : dt;
 }
 
 Observer::Observer(const HardScene& scene, double step, double speed_scale)
@@ -36,8 +45,10 @@ Observer::Observer(const HardScene& scene, double step, double speed_scale)
     const Sphere& s = scene.bodies[i];
     const SubstrateContact& c = scene.on_substrate(i);
     const double per_step = 0.5 * g * step;
+    // Rolling friction that is solved for after the sliding leaves its own step of slip.
+    const double slip_friction = c.kinetic_friction + 2 * c.rolling.largest_up_to(speed_scale);
     bodies_[i].zero.slip =
-        std::max(floor, per_step * (1 + s.inverse_shape_factor()) * c.kinetic_friction);
+        std::max(floor, per_step * (1 + s.inverse_shape_factor()) * slip_friction);
     bodies_[i].zero.speed = std::max(floor, per_step * c.rolling(0));
     bodies_[i].zero.spin = std::max(floor / s.radius, per_step * c.drilling_length /
                                                           (s.shape_factor * s.radius * s.radius));
@@ -65,8 +76,7 @@ void Observer::take(double time, const Frame& frame) {
     return;
   }
   const double t0 = time_, t1 = time;
-  note_touches(t0, t1, frame);
-  settle_pairs(t0, t1, frame);
+  note_touches(t1, frame);
   const auto is_touched = [&](std::size_t i) {
     return std::any_of(frame.touches.begin(), frame.touches.end(), [&](const Touch& touch) {
       return touch.second == kSubstrate && index(touch.first) == i;
@@ -124,19 +134,16 @@ void Observer::begin(double time, const Frame& frame) {
 
 // --- collisions ----------------------------------------------------------------------------------
 
-void Observer::note_touches(double t0, double t1, const Frame& frame) {
+void Observer::note_touches(double t1, const Frame& frame) {
   for (Pair& pair : pairs_) pair.touched_now = false;
   for (const Touch& touch : frame.touches)
     if (touch.second != kSubstrate)
-      note_collision(pair_of(touch.first, touch.second), touch, t0, t1, frame);
-  for (Pair& pair : pairs_) {
-    pair.touching = pair.touched_now;
+      note_collision(pair_of(touch.first, touch.second), touch, t1, frame);
+  for (Pair& pair : pairs_)
     if (!pair.touched_now) pair.colliding = false;
-  }
 }
 
-void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double t1,
-                              const Frame& frame) {
+void Observer::note_collision(Pair& pair, const Touch& touch, double t1, const Frame& frame) {
   pair.touched_now = true;
   const std::size_t i = index(pair.first), j = index(pair.second);
   const BodyState& si = last_.bodies[i];
@@ -153,33 +160,44 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
   const double leaning = (scene_->on_substrate(i).kinetic_friction +
                           scene_->on_substrate(j).kinetic_friction) *
                          scene_->gravity * step_;
-  if (approach <= weakest && (step_ == 0 || blow <= weakest + leaning)) return;
+  if (approach <= weakest && (step_ == 0 || blow <= weakest + leaning)) {
+    pair.colliding = false;
+    return;
+  }
 
   if (!pair.colliding) {
     pair.colliding = true;
     pair.n = n;
     pair.approach = approach > weakest ? approach : kNotObserved;
     pair.fastest = std::max({pair.fastest, approach, blow > weakest + leaning ? blow : 0});
-    const Vector3 u =
-        dv - (a.radius * si.angular_velocity + b.radius * sj.angular_velocity).cross(n);
+    const Vector3 u = contact_velocity(a, si, b, sj, n);
     pair.tangential = u - n.dot(u) * n;
   }
-  pair.collided = pair.pending = true;
+  const BodyState &after_i = frame.bodies[i], &after_j = frame.bodies[j];
+  pair.collided = true;
+  pair.restitution = pair.n.dot(after_i.velocity - after_j.velocity) / pair.approach;
+  const double before2 = pair.tangential.squaredNorm();
+  pair.tangential_restitution =
+      std::sqrt(before2) > kEngineNoise * speed_scale_
+          ? contact_velocity(a, after_i, b, after_j, pair.n).dot(pair.tangential) / before2
+          : kNotObserved;
   pair.effective = kNotObserved;
-  pair.time = t0;
-  pair.after_time = t1;
-  pair.after_first = frame.bodies[i];
-  pair.after_second = frame.bodies[j];
+  // A body that collides again never shows what its earlier collision would have come to.
+  for (Pair& other : pairs_)
+    if (other.first == pair.first || other.first == pair.second || other.second == pair.first ||
+        other.second == pair.second)
+      other.awaits_rolling = false;
+  pair.awaits_rolling = true;
   for (const auto& [k, away] : {std::pair{i, pair.n}, std::pair<std::size_t, Vector3>{j, -pair.n}}) {
     Body& body = bodies_[k];
     body.collided = body.collided_now = true;
     body.away = away;
     body.after = frame.bodies[k];
-    body.origin_time = t0;
-    body.origin = last_.bodies[k].position;
+    body.origin_time = t1;
+    body.origin = frame.bodies[k].position;
     body.slide_time = 0;
     body.slide.setZero();
-    body.slide_end = t0;
+    body.slide_end = t1;
     body.rolling_velocity = kVectorNotObserved;
     body.stop_time = body.spin_stop_time = kNotObserved;
     body.resting = false;
@@ -190,51 +208,9 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
   }
 }
 
-/// An engine's first state after a collision already has a step of friction in it. Where the body
-/// goes on sliding through the next step as well, that step tells how much.
-BodyState Observer::traced_back(int k, const BodyState& after, double from, double to, double t0,
-                                double t1, const Frame& frame) const {
-  BodyState state = after;
-  const std::size_t i = index(k);
-  const Body& body = bodies_[i];
-  if (from <= to || t1 <= t0 || body.collided_now) return state;
-  const BodyState &s0 = last_.bodies[i], &s1 = frame.bodies[i];
-  if (slip_of(i, s0).norm() <= body.zero.slip || slip_of(i, s1).norm() <= body.zero.slip)
-    return state;
-  const double fraction = (from - to) / (t1 - t0);
-  state.velocity -= fraction * (s1.velocity - s0.velocity);
-  state.angular_velocity -= fraction * (s1.angular_velocity - s0.angular_velocity);
-  return state;
-}
-
-void Observer::settle_pairs(double t0, double t1, const Frame& frame) {
-  for (Pair& pair : pairs_) {
-    if (!pair.pending || (step_ > 0 && pair.colliding && pair.after_time == t1)) continue;
-    pair.pending = false;
-    const Sphere &a = scene_->bodies[index(pair.first)], &b = scene_->bodies[index(pair.second)];
-    const BodyState si = traced_back(pair.first, pair.after_first, pair.after_time, pair.time, t0,
-                                     t1, frame);
-    const BodyState sj = traced_back(pair.second, pair.after_second, pair.after_time, pair.time, t0,
-                                     t1, frame);
-    for (const auto& [k, s] : {std::pair{pair.first, &si}, std::pair{pair.second, &sj}}) {
-      Body& body = bodies_[index(k)];
-      if (body.origin_time == pair.time && !body.collided_now) body.after = *s;
-    }
-    const Vector3 dv = si.velocity - sj.velocity;
-    pair.restitution = pair.n.dot(dv) / pair.approach;
-    const Vector3 u =
-        dv - (a.radius * si.angular_velocity + b.radius * sj.angular_velocity).cross(pair.n);
-    const double before = pair.tangential.norm();
-    pair.tangential_restitution =
-        before > kEngineNoise * speed_scale_
-            ? u.dot(pair.tangential) / (before * before)
-            : kNotObserved;
-  }
-}
-
 void Observer::settle_effective_restitution(double t0, double t1, const Frame& frame) {
   for (Pair& pair : pairs_) {
-    if (!pair.collided || pair.colliding || !std::isnan(pair.effective)) continue;
+    if (!pair.awaits_rolling || pair.colliding) continue;
     const Body &a = bodies_[index(pair.first)], &b = bodies_[index(pair.second)];
     if (a.sliding || b.sliding || !a.supported || !b.supported) continue;
     const double both = std::max(a.slide_end, b.slide_end);
@@ -247,6 +223,7 @@ void Observer::settle_effective_restitution(double t0, double t1, const Frame& f
     };
     const Vector3 dv = velocity_then(pair.first) - velocity_then(pair.second);
     pair.effective = pair.n.dot(dv) / pair.approach;
+    pair.awaits_rolling = false;
   }
 }
 
@@ -262,13 +239,9 @@ void Observer::follow_sliding(Body& body, std::size_t i, double t0, double t1,
 
   if (body.collided_now || dt <= 0) {
     body.slip.reset();
-    if (body.supported && slips && dt > 0) {
-      body.slide_time += dt;
-      body.slide += way;
-    }
     if (body.sliding && !slips && !body.collided_now) body.slide_end = t1;
   } else if (body.sliding && body.supported && !slips) {
-    const double left = step_ > 0 ? body.slip.time_to_zero(slip0, dt) : dt;
+    const double left = step_ > 0 ? body.slip.time_to_zero(slip0, slip1, dt) : dt;
     body.slide_end = t0 + left;
     body.slide_time += left;
     body.slide += left <= dt ? Vector3(way * (left / dt))
@@ -294,7 +267,7 @@ void Observer::follow_stopping(Body& body, std::size_t i, double t0, double t1,
   const bool rests = body.supported && !body.sliding && speed1 <= body.zero.speed;
   if (rests && !body.resting) {
     double left = dt;
-    if (step_ > 0 && dt > 0) left = body.speed.time_to_zero(speed0, dt);
+    if (step_ > 0 && dt > 0) left = body.speed.time_to_zero(speed0, speed1, dt);
     body.stop_time = t0 + left;
     body.stop_position =
         left < dt ? between(s0.position, s1.position, left / dt) : s1.position;
@@ -311,7 +284,7 @@ void Observer::follow_stopping(Body& body, std::size_t i, double t0, double t1,
   const double spin1 = std::abs(s1.angular_velocity.z());
   const bool spins = spin1 > body.zero.spin;
   if (body.spinning && !spins) {
-    body.spin_stop_time = t0 + (step_ > 0 && dt > 0 ? body.spin.time_to_zero(spin0, dt) : dt);
+    body.spin_stop_time = t0 + (step_ > 0 && dt > 0 ? body.spin.time_to_zero(spin0, spin1, dt) : dt);
   } else if (spins) {
     body.spun = true;
     body.spin_stop_time = kNotObserved;
@@ -420,11 +393,10 @@ Observables Observer::finish(double end) const {
       out.stopping_distance = (body.stop_position - body.origin).norm();
     }
     if (body.spun && !body.spinning) out.spin_stopping_time = body.spin_stop_time - body.origin_time;
-    if (!std::isnan(body.flight_time)) {
-      out.lift_off_speed = body.lift_off_speed;
+    out.lift_off_speed = body.lift_off_speed;
+    out.flight_time = body.flight_time;
+    if (!std::isnan(body.lift_off_speed) && (!body.jumping || last_.bodies[i].velocity.z() <= 0))
       out.jump_height = body.peak - body.lift_off_height;
-      out.flight_time = body.flight_time;
-    }
     const double dt = time_ - time_before_;
     const double fraction = dt > 0 && end < time_ ? (end - time_before_) / dt : 1;
     const BodyState &s0 = before_last_.bodies[i], &s1 = last_.bodies[i];

@@ -23,9 +23,9 @@ class FallingQuantity {
   void reset() { rate_ = 0; }
   /// It was `before` and is `after` at the end of an interval `dt` [s], > 0.
   void fall(double before, double after, double dt) { rate_ = (before - after) / dt; }
-  /// When it reached zero, counted from the start of an interval `dt` at which it was `before` and
-  /// in which it came to count as zero. The end of the interval where no rate is known.
-  double time_to_zero(double before, double dt) const;
+  /// When it reaches zero, counted from the start of an interval `dt` in which it fell from `before`
+  /// to `after` and came to count as zero. The end of the interval where no rate is known.
+  double time_to_zero(double before, double after, double dt) const;
 
  private:
   double rate_ = 0;
@@ -35,9 +35,9 @@ class FallingQuantity {
 /// nothing grows with the run's length.
 ///
 /// The reference shows its frames at the events themselves (`step` = 0). An engine shows one frame
-/// a step; what ends inside a step is found by extrapolating the last two frames, and the state
-/// after a collision is traced back to the start of the step that applied the impulse. What counts
-/// as zero is half of what friction takes in a step, since friction stops a body inside a step.
+/// a step: a collision ends with the step that applied its impulse, and what ends inside a step (the
+/// slip, the speed, the spin) is found by extrapolating the last two frames. What counts as zero is
+/// half of what friction takes in a step, since friction stops a body inside a step.
 ///
 /// A contact of two bodies is a collision if it closes faster than 7 % of the pair's fastest
 /// collision so far and 0.1 % of the scene's speed; weaker ones are rattling.
@@ -85,30 +85,24 @@ class Observer final : public FrameSink {
   struct Pair {
     int first, second;
     double fastest = 0;    ///< approach of its collisions so far [m/s]
-    bool touching = false, colliding = false, pending = false;
-    bool collided = false;
+    bool touched_now = false, colliding = false, collided = false;
+    bool awaits_rolling = false;  ///< for the effective restitution
     Vector3 n = Vector3::Zero();
     double approach = 0;
     Vector3 tangential = Vector3::Zero();
-    double time = 0, after_time = 0;
-    BodyState after_first, after_second;
     double restitution = kNotObserved, tangential_restitution = kNotObserved;
     double effective = kNotObserved;
-    bool touched_now = false;
   };
 
   void begin(double time, const Frame& frame);
-  void note_touches(double t0, double t1, const Frame& frame);
-  void note_collision(Pair& pair, const Touch& touch, double t0, double t1, const Frame& frame);
-  void settle_pairs(double t0, double t1, const Frame& frame);
+  void note_touches(double t1, const Frame& frame);
+  void note_collision(Pair& pair, const Touch& touch, double t1, const Frame& frame);
   void follow_sliding(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
   void follow_stopping(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
   void follow_flight(Body& body, std::size_t i, bool supported, double t0, double t1,
                      const Frame& frame);
   void follow_landing(Body& body, std::size_t i, bool supported, const Frame& frame);
   void settle_effective_restitution(double t0, double t1, const Frame& frame);
-  BodyState traced_back(int body, const BodyState& after, double from, double to, double t0,
-                        double t1, const Frame& frame) const;
   Vector3 slip_of(std::size_t i, const BodyState& state) const;
   Pair& pair_of(int first, int second);
 

@@ -1,6 +1,7 @@
 #include "physics/rolling_friction.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace slipcheck {
 
@@ -30,9 +31,11 @@ bool RollingFriction::is_zero() const {
 
 RollingFriction::Piece RollingFriction::piece_below(double speed) const {
   const double coefficient = (*this)(speed);
-  // The last point that lies strictly below the speed starts the piece that the body is in.
+  // The last point that lies below the speed starts the piece that the body is in. A body that has
+  // just slowed down to a point may still be a rounding error above it.
+  const double clearly_below = speed * (1 - 8 * std::numeric_limits<double>::epsilon());
   const auto at_or_above =
-      std::lower_bound(points_.begin(), points_.end(), speed,
+      std::lower_bound(points_.begin(), points_.end(), clearly_below,
                        [](const Point& point, double v) { return point.speed < v; });
   if (at_or_above == points_.begin()) return {coefficient, 0, 0};
   const Point& low = *(at_or_above - 1);

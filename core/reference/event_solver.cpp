@@ -279,10 +279,16 @@ void EventSolver::handle_phase_end(std::size_t i, FrameSink* sink) {
   if (body.phase.kind() == Kind::flying) {
     show(sink);
     land(scene_->bodies[i], scene_->on_substrate(i), landing_speed_, state);
+    if (sink && state.velocity.z() > 0) frame_.touches.push_back(substrate_touch(i));
   }
   set_state(i, state);
   predict_after_change(std::array{i});
   show(sink);
+}
+
+/// That the body touches the substrate; frames of the reference do not say how hard.
+Touch EventSolver::substrate_touch(std::size_t i) const {
+  return {static_cast<int>(i), kSubstrate, scene_->bodies[i].mass};
 }
 
 /// Shows the state of all bodies now; a touch that is already in the frame stays.
@@ -292,7 +298,7 @@ void EventSolver::show(FrameSink* sink) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     frame_.bodies[i] = state_of(i);
     if (bodies_[i].phase.is_supported())
-      frame_.touches.push_back({static_cast<int>(i), kSubstrate, scene_->bodies[i].mass});
+      frame_.touches.push_back(substrate_touch(i));
   }
   sink->take(now_, frame_);
   frame_.touches.clear();

@@ -84,6 +84,7 @@ class EventSolver {
   void handle(const Event& event, FrameSink* sink, EventRun& run);
   void handle_collision(std::size_t i, FrameSink* sink, EventRun& run);
   void handle_phase_end(std::size_t i, FrameSink* sink);
+  Touch substrate_touch(std::size_t i) const;
   void show(FrameSink* sink);
 
   const HardScene* scene_;

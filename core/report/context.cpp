@@ -40,8 +40,8 @@ std::string utc_now() {
   const std::time_t now = std::time(nullptr);
   std::tm parts{};
   gmtime_r(&now, &parts);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900,
-                     parts.tm_mon + 1, parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1,
+                     parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec);
 }
 
 std::string system_name() {
@@ -63,9 +63,9 @@ std::string cpu_model() {
 }  // namespace
 
 const Context& context() {
-  static const Context result{kVersion,  kCommit,       build_type(), compiler_name(),
-                              utc_now(), system_name(), cpu_model(),
-                              std::thread::hardware_concurrency()};
+  static const Context result{
+      kVersion,  kCommit,       build_type(), compiler_name(),
+      utc_now(), system_name(), cpu_model(),  std::thread::hardware_concurrency()};
   return result;
 }
 
@@ -79,9 +79,10 @@ bool is_debug_build() {
 
 std::string debug_build_warning() {
   if (!is_debug_build()) return {};
-  return fmt::format("THIS IS A DEBUG BUILD ({}): all times in it are far too long. Results are as "
-                     "valid as ever.",
-                     context().build);
+  return fmt::format(
+      "THIS IS A DEBUG BUILD ({}): all times in it are far too long. Results are as "
+      "valid as ever.",
+      context().build);
 }
 
 }  // namespace slipcheck

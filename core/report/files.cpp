@@ -66,8 +66,8 @@ class OpenFile {
   int descriptor_;
 };
 
-/// A name in the same directory that no other process or thread uses. It is short, since the target's
-/// own name may already be as long as a name can be.
+/// A name in the same directory that no other process or thread uses. It is short, since the
+/// target's own name may already be as long as a name can be.
 fs::path temporary_name(const fs::path& directory) {
   static std::atomic<unsigned> count = 0;
   return directory / fmt::format(".slipcheck-{}-{}.tmp", ::getpid(), count++);

@@ -12,8 +12,8 @@ class WriteFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes a whole file or nothing: under a temporary name beside it, which then takes its place. Who
-/// reads the file at any moment, or after a crash, finds the old text or the new one. What is
+/// Writes a whole file or nothing: under a temporary name beside it, which then takes its place.
+/// Who reads the file at any moment, or after a crash, finds the old text or the new one. What is
 /// no regular file (a pipe, /dev/stdout) is written to directly. Throws WriteFailure and leaves
 /// nothing behind.
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);

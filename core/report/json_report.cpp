@@ -15,22 +15,22 @@ using Json = nlohmann::ordered_json;
 void add_reason(Json& object, const std::string& reason) {
   if (reason.empty()) return;
   Json& text = object["reason"];
-  text = text.is_string() ? text.get<std::string>() + "; " + valid_utf8(reason)
-                          : valid_utf8(reason);
+  text =
+      text.is_string() ? text.get<std::string>() + "; " + valid_utf8(reason) : valid_utf8(reason);
 }
 
 const char* kind_of(double value) {
   return std::isnan(value) ? "is not a number" : value > 0 ? "is infinite" : "is minus infinite";
 }
 
-/// JSON has no words for what is not finite: null, with a reason beside it.
+/// JSON has no words for what is not finite.
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// A number, or null with a reason beside it.
 void put(Json& object, const std::string& key, double value, const std::string& reason = {}) {
-  if (std::isfinite(value)) {
-    object[key] = value;
-  } else {
-    object[key] = nullptr;
+  object[key] = number_or_null(value);
+  if (!std::isfinite(value))
     add_reason(object, reason.empty() ? key + " " + kind_of(value) : reason);
-  }
 }
 
 Json strings(const std::vector<std::string>& texts) {
@@ -78,7 +78,7 @@ Json ensemble_json(const EnsembleValue& ensemble, bool with_values) {
     json["values"] = Json::array();
     bool any_null = false;
     for (double value : ensemble.values) {
-      json["values"].push_back(std::isfinite(value) ? Json(value) : Json(nullptr));
+      json["values"].push_back(number_or_null(value));
       any_null |= !std::isfinite(value);
     }
     if (any_null) add_reason(json, "null where a phase does not show it");
@@ -88,9 +88,11 @@ Json ensemble_json(const EnsembleValue& ensemble, bool with_values) {
 
 Json deviation_json(const Deviation& deviation) {
   Json json;
-  put(json, "median", deviation.median, deviation.reason.empty() ? "" : " ");
-  put(json, "max", deviation.max, deviation.reason.empty() ? "" : " ");
-  if (!deviation.reason.empty()) json["reason"] = valid_utf8(deviation.reason);
+  json["median"] = number_or_null(deviation.median);
+  json["max"] = number_or_null(deviation.max);
+  add_reason(json, deviation.reason);
+  if (deviation.reason.empty() && !std::isfinite(deviation.max))
+    add_reason(json, std::string("the error ") + kind_of(deviation.max));
   if (deviation.tolerance) put(json, "tolerance", *deviation.tolerance);
   if (deviation.absolute) json["absolute"] = true;
   json["within"] = deviation.within;

@@ -33,11 +33,14 @@ struct Units {
   std::span<const Unit> units;
 };
 const std::array kUnits = {
-    Units{kLength.name, kLengths},           Units{kTime.name, kTimes},
-    Units{kMass.name, kMasses},              Units{kVelocity.name, kVelocities},
+    Units{kLength.name, kLengths},
+    Units{kTime.name, kTimes},
+    Units{kMass.name, kMasses},
+    Units{kVelocity.name, kVelocities},
     Units{kAngularVelocity.name, kAngularVelocities},
     Units{kSpecificEnergy.name, kSpecificEnergies},
-    Units{kEnergy.name, kEnergies},          Units{kFrequency.name, kFrequencies},
+    Units{kEnergy.name, kEnergies},
+    Units{kFrequency.name, kFrequencies},
 };
 
 /// The largest unit of which there is at least one, else the smallest; SI where there is no choice.
@@ -61,13 +64,11 @@ std::string without_negative_zero(std::string text) {
   return text;
 }
 
-std::string not_finite(double value) {
-  return std::isnan(value) ? "–" : value > 0 ? "∞" : "−∞";
-}
+std::string not_finite(double value) { return std::isnan(value) ? "–" : value > 0 ? "∞" : "−∞"; }
 
 }  // namespace
 
-QuantityFormat::QuantityFormat(double magnitude, const Dimension& dimension) {
+QuantityFormat::QuantityFormat(double magnitude, const Dimension& dimension, int digits) {
   magnitude = std::abs(magnitude);
   const Unit unit = unit_for(magnitude, dimension);
   unit_ = unit.name;
@@ -76,7 +77,7 @@ QuantityFormat::QuantityFormat(double magnitude, const Dimension& dimension) {
   if (!std::isfinite(scaled) || scaled == 0) return;
   scientific_ = scaled < 1e-3 || scaled >= 1e6;
   const int leading = static_cast<int>(std::floor(std::log10(scaled * 1.00005)));
-  decimals_ = std::clamp(3 - leading, 0, 6);
+  decimals_ = std::clamp(digits - 1 - leading, 0, 6);
 }
 
 std::string QuantityFormat::number(double value) const {
@@ -94,8 +95,8 @@ std::string QuantityFormat::text(double value) const {
   return unit_.empty() || std::isnan(value) ? number(value) : number(value) + " " + unit_;
 }
 
-std::string quantity(double value, const Dimension& dimension) {
-  return QuantityFormat(value, dimension).text(value);
+std::string quantity(double value, const Dimension& dimension, int digits) {
+  return QuantityFormat(value, dimension, digits).text(value);
 }
 
 std::string percent(double share) {

@@ -7,11 +7,11 @@
 namespace slipcheck {
 
 /// In what unit and with how many decimals numbers of one row are shown, so that they compare at a
-/// glance: four or five significant digits of the row's magnitude.
+/// glance.
 class QuantityFormat {
  public:
-  /// For numbers about as large as `magnitude` [SI].
-  QuantityFormat(double magnitude, const Dimension& dimension);
+  /// For numbers about as large as `magnitude` [SI], with as many significant digits.
+  QuantityFormat(double magnitude, const Dimension& dimension, int digits = 4);
 
   /// The number alone; "–" for NaN. `value` in SI.
   std::string number(double value) const;
@@ -30,12 +30,12 @@ class QuantityFormat {
 };
 
 /// One quantity by itself, "83.01 ms"; `value` in SI.
-std::string quantity(double value, const Dimension& dimension);
+std::string quantity(double value, const Dimension& dimension, int digits = 4);
 
 /// A share of one as "14.1 %", three significant digits; "–" for NaN.
 std::string percent(double share);
 
-/// A few significant digits without trailing zeros, for pure numbers such as tolerances.
+/// At most four significant digits without trailing zeros, for pure numbers such as tolerances.
 std::string plain_number(double value);
 
 }  // namespace slipcheck

@@ -16,6 +16,7 @@ namespace {
 /// Round-off that positions and radii from a file may carry.
 constexpr double kRoundOff = 1e-12;
 
+/// From the density; 0 where there is none.
 double mass_of(const WrittenScene& written, const std::string& material, double radius,
                const std::string& path, Reading& reading) {
   const auto found = written.materials.find(material);
@@ -94,9 +95,9 @@ Body resolve(const WrittenBody& written_body, const WrittenScene& written, Readi
   const bool in_container = written.container.has_value();
   Body body{written_body.name, written_body.material, written_body.sphere, {}};
   const double radius = body.sphere.radius;
-  body.sphere.mass = written_body.mass ? *written_body.mass
-                                       : mass_of(written, body.material, radius,
-                                                 written_body.path, reading);
+  body.sphere.mass = written_body.mass
+                         ? *written_body.mass
+                         : mass_of(written, body.material, radius, written_body.path, reading);
   for (const auto& [key, values] : {std::pair(".position", &written_body.position),
                                     std::pair(".velocity", &written_body.velocity)}) {
     if (in_container && values->size() != 2) {
@@ -119,9 +120,8 @@ Body resolve(const WrittenBody& written_body, const WrittenScene& written, Readi
 /// Spheres of a fill, once what stands explicitly is in place.
 std::vector<Body> resolve(const Fill& fill, const WrittenScene& written,
                           const std::vector<Body>& others, Reading& reading) {
-  const double density_check =
-      mass_of(written, fill.material, fill.least_radius, fill.path, reading);
-  if (density_check == 0) return {};
+  const double least_mass = mass_of(written, fill.material, fill.least_radius, fill.path, reading);
+  if (least_mass == 0) return {};
   if (written.container && fill.spin == SpinKind::rolling) {
     reading.fault_at(fill.path + ".spin", "must be none in a container");
   }
@@ -147,8 +147,8 @@ void resolve_bodies(const WrittenScene& written, Scenario& scenario, Reading& re
     explicit_bodies.push_back(resolve(*body, written, reading));
     paths.push_back(body->path);
   }
-  check_overlaps(explicit_bodies, paths, written.substrate ? written.substrate->periodic
-                                                           : std::nullopt, reading);
+  check_overlaps(explicit_bodies, paths,
+                 written.substrate ? written.substrate->periodic : std::nullopt, reading);
   if (!reading.faults().empty()) return;  // a fill might only repeat them
 
   std::vector<Body> placed = explicit_bodies;
@@ -220,9 +220,9 @@ Scenario assemble(const WrittenScene& written, Reading& reading) {
     scenario.surroundings = *written.substrate;
     tilt = written.substrate->tilt;
   }
-  scenario.gravity = tilt == 0 ? Vector3(0, 0, -written.gravity)
-                               : Vector3(0, -written.gravity * std::sin(tilt),
-                                         -written.gravity * std::cos(tilt));
+  scenario.gravity =
+      tilt == 0 ? Vector3(0, 0, -written.gravity)
+                : Vector3(0, -written.gravity * std::sin(tilt), -written.gravity * std::cos(tilt));
   for (const WrittenContact& contact : written.contacts) {
     if (contact.between.size() != 2) continue;
     const bool swapped = is_reserved_name(contact.between[0]);

@@ -11,22 +11,22 @@ constexpr std::int64_t kLargestSeed = std::int64_t{1} << 53;  // exact as a doub
 
 /// q of I = q m R².
 Rule<double> inertia_rule() {
-  const auto shape = choice<double>(
-      {{"solid", 2.0 / 5}, {"shell", 2.0 / 3}, {"disk", 1.0 / 2}, {"ring", 1.0}});
-  return one_form_of<double>(
-      "must be solid, shell, disk, ring or a number > 0",
-      {{[](const YamlNode& node) {
-          return is_scalar(node) && node.text[0] >= 'a' && node.text[0] <= 'z';
-        },
-        shape},
-       {is_scalar, number(kPureNumber, kPositive)}});
+  const auto shape =
+      choice<double>({{"solid", 2.0 / 5}, {"shell", 2.0 / 3}, {"disk", 1.0 / 2}, {"ring", 1.0}});
+  return one_form_of<double>("must be solid, shell, disk, ring or a number > 0",
+                             {{[](const YamlNode& node) {
+                                 return is_scalar(node) && node.text[0] >= 'a' &&
+                                        node.text[0] <= 'z';
+                               },
+                               shape},
+                              {is_scalar, number(kPureNumber, kPositive)}});
 }
 
 Rule<WrittenSpin> spin_rule() {
-  const auto kinds =
-      choice<SpinKind>({{"none", SpinKind::none}, {"rolling", SpinKind::rolling}});
-  const auto named =
-      made_from<WrittenSpin>(kinds, [](SpinKind kind) { return WrittenSpin{kind, {}}; });
+  const auto kinds = choice<SpinKind>({{"none", SpinKind::none}, {"rolling", SpinKind::rolling}});
+  const auto named = made_from<WrittenSpin>(kinds, [](SpinKind kind) {
+    return WrittenSpin{kind, {}};
+  });
   return one_form_of<WrittenSpin>(
       "must be none, rolling, [ωx, ωy, ωz] or, in a container, a number",
       {{is_word("none"), named},
@@ -64,25 +64,24 @@ Rule<WrittenBody> body_rule() {
 
 Rule<Fill> one_fill_rule() {
   const Rule<double> length = number(kLength, kPositive);
-  const Rule<Fill> one_radius = {
-      [length](const YamlNode& node, Reading& reading, Fill& target) {
-        if (!length.read(node, reading, target.least_radius)) return false;
-        target.most_radius = target.least_radius;
-        return true;
-      },
-      length.schema};
+  const Rule<Fill> one_radius = {[length](const YamlNode& node, Reading& reading, Fill& target) {
+                                   if (!length.read(node, reading, target.least_radius))
+                                     return false;
+                                   target.most_radius = target.least_radius;
+                                   return true;
+                                 },
+                                 length.schema};
   const Rule<std::vector<double>> limits = numbers(kLength, kPositive, {2});
-  const Rule<Fill> two_radii = {
-      [limits](const YamlNode& node, Reading& reading, Fill& target) {
-        std::vector<double> radii;
-        if (!limits.read(node, reading, radii)) return false;
-        target.least_radius = radii[0];
-        target.most_radius = radii[1];
-        if (radii[0] <= radii[1]) return true;
-        reading.fault(node.location, reading.path(), "must have the smaller radius first");
-        return false;
-      },
-      limits.schema};
+  const Rule<Fill> two_radii = {[limits](const YamlNode& node, Reading& reading, Fill& target) {
+                                  std::vector<double> radii;
+                                  if (!limits.read(node, reading, radii)) return false;
+                                  target.least_radius = radii[0];
+                                  target.most_radius = radii[1];
+                                  if (radii[0] <= radii[1]) return true;
+                                  reading.fault(node, "must have the smaller radius first");
+                                  return false;
+                                },
+                                limits.schema};
   Record<Fill> uniform;
   uniform.whole("uniform", two_radii, required, "smallest and largest radius");
 
@@ -113,25 +112,26 @@ Rule<Fill> one_fill_rule() {
 
 Rule<std::vector<std::variant<WrittenBody, Fill>>> bodies_rule() {
   using Entry = std::variant<WrittenBody, Fill>;
-  const Rule<Fill> one_fill = one_fill_rule();
   Record<Fill> fill;
-  fill.whole("fill", one_fill, required, "many bodies at random places");
+  fill.whole("fill", one_fill_rule(), required, "many bodies at random places");
   return list(one_form_of<Entry>(
                   "must be a mapping",
                   {{[](const YamlNode& node) { return is_mapping(node) && node.find("fill"); },
-                    made_from<Entry>(fill.rule(), [](Fill value) { return Entry(value); })},
-                   {is_mapping,
-                    made_from<Entry>(body_rule(), [](WrittenBody body) { return Entry(body); })}}),
+                    as_alternative<Entry>(fill.rule())},
+                   {is_mapping, as_alternative<Entry>(body_rule())}}),
               1);
 }
 
 Rule<std::vector<Fill>> fill_rule() {
-  const Rule<Fill> one_fill = one_fill_rule();
+  const Rule<Fill> fill = one_fill_rule();
+  const Rule<std::vector<Fill>> alone = {
+      [fill](const YamlNode& node, Reading& reading, std::vector<Fill>& target) {
+        return fill.read(node, reading, target.emplace_back());
+      },
+      fill.schema};
   return one_form_of<std::vector<Fill>>(
       "must be a mapping or a list of them",
-      {{[](const YamlNode& node) { return is_list(node); }, list(one_fill, 1)},
-       {is_mapping, made_from<std::vector<Fill>>(
-                        one_fill, [](Fill fill) { return std::vector<Fill>{std::move(fill)}; })}});
+      {{[](const YamlNode& node) { return is_list(node); }, list(fill, 1)}, {is_mapping, alone}});
 }
 
 }  // namespace slipcheck

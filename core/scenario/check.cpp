@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 
 #include "scenario/rules.h"
 
@@ -23,8 +22,8 @@ void check_joined_names(const std::map<std::string, std::string>& path_of, Readi
     for (std::size_t at = name.find('-'); at != std::string::npos; at = name.find('-', at + 1)) {
       const std::string left = name.substr(0, at), right = name.substr(at + 1);
       if (known(left) && known(right)) {
-        reading.fault_at(path + ".name", fmt::format("must not read like the pair of {} and {}",
-                                                     left, right));
+        reading.fault_at(path + ".name",
+                         fmt::format("must not read like the pair of {} and {}", left, right));
       }
       if (known(left)) left_rest.emplace(right, name);
       if (known(right)) right_rest.emplace(left, name);
@@ -44,8 +43,9 @@ void check_material(const std::string& material, const std::string& path,
   std::vector<std::string> names;
   for (const auto& each : written.materials) names.push_back(each.first);
   const std::string near = nearest(material, names);
-  reading.fault_at(path, near.empty() ? "must be one of the materials"
-                                      : "must be one of the materials (did you mean " + near + "?)");
+  reading.fault_at(path, near.empty()
+                             ? "must be one of the materials"
+                             : "must be one of the materials (did you mean " + near + "?)");
 }
 
 void check_rising(const std::vector<TableMotion::Point>& table, const std::string& path,
@@ -96,9 +96,9 @@ void check_names(const WrittenScene& written, Reading& reading) {
     for (std::int64_t i = 1; fill->complete && i <= fill->count; ++i) {
       const std::string name = fill->prefix + std::to_string(i);
       if (path_of.emplace(name, fill->path).second) continue;
-      reading.fault_at(fill->path + ".prefix",
-                       fmt::format("must give unique names, but {} is also in {}", name,
-                                   path_of.at(name)));
+      reading.fault_at(
+          fill->path + ".prefix",
+          fmt::format("must give unique names, but {} is also in {}", name, path_of.at(name)));
       break;
     }
   }

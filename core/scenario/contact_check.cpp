@@ -11,9 +11,7 @@ namespace {
 
 using Pair = std::pair<std::string, std::string>;
 
-Pair sorted(const std::string& a, const std::string& b) {
-  return a < b ? Pair(a, b) : Pair(b, a);
-}
+Pair sorted(const std::string& a, const std::string& b) { return a < b ? Pair(a, b) : Pair(b, a); }
 
 /// What a contact may name beside a material in these surroundings.
 std::vector<std::string> boundaries(const WrittenScene& written) {
@@ -23,9 +21,11 @@ std::vector<std::string> boundaries(const WrittenScene& written) {
   return {"floor", "wall"};
 }
 
-void check_between(const WrittenContact& contact, const WrittenScene& written, Reading& reading) {
+/// Whether both names are good.
+bool check_between(const WrittenContact& contact, const WrittenScene& written, Reading& reading) {
   const std::vector<std::string> allowed = boundaries(written);
   int reserved = 0;
+  const std::size_t faults_before = reading.faults().size();
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string& name = contact.between[i];
     const std::string path = fmt::format("{}.between[{}]", contact.path, i);
@@ -39,6 +39,7 @@ void check_between(const WrittenContact& contact, const WrittenScene& written, R
     }
   }
   if (reserved == 2) reading.fault_at(contact.path + ".between", "must name a material");
+  return reading.faults().size() == faults_before;
 }
 
 void need_elastic(const std::string& material, const std::string& path, const std::string& what,
@@ -48,7 +49,8 @@ void need_elastic(const std::string& material, const std::string& path, const st
   const auto need = [&](bool is_there, const char* key) {
     const std::string place = "materials." + material;
     if (is_there || reading.has(place + '.' + key)) return;
-    reading.fault_at(place + '.' + key, fmt::format("is missing, but {} ({}) needs it", path, what));
+    reading.fault_at(place + '.' + key,
+                     fmt::format("is missing, but {} ({}) needs it", path, what));
   };
   need(found->second.young_modulus.has_value(), "young_modulus");
   need(found->second.poisson_ratio.has_value(), "poisson_ratio");
@@ -79,7 +81,8 @@ void check_models(const WrittenContact& contact, const WrittenScene& written, Re
                      "must be none or hard with the normal model hard");
   }
   if (!hard && std::holds_alternative<HardTangential>(contact.body.tangential)) {
-    reading.fault_at(contact.path + ".tangential.model", "needs the normal model hard");
+    reading.fault_at(contact.path + ".tangential.model",
+                     "must not be hard unless the normal model is");
   }
 }
 
@@ -134,7 +137,8 @@ void check_all_there(const std::set<Pair>& given, const WrittenScene& written, R
   const auto need = [&](const std::string& a, const std::string& b) {
     if (given.contains(sorted(a, b))) return;
     ++missing;
-    reading.fault_at("contacts", fmt::format("needs a contact between {} and {}, which can meet", a, b));
+    reading.fault_at("contacts",
+                     fmt::format("needs a contact between {} and {}, which can meet", a, b));
   };
   for (auto a = count.begin(); a != count.end(); ++a) {
     if (written.substrate || written.container) {
@@ -158,12 +162,12 @@ void check_contacts(const WrittenScene& written, Reading& reading) {
       all_named = false;
       continue;
     }
-    check_between(contact, written, reading);
+    all_named = check_between(contact, written, reading) && all_named;
     if (!given.insert(sorted(contact.between[0], contact.between[1])).second) {
-      reading.fault_at(contact.path + ".between", fmt::format("must name a pair once, and {} and {} "
-                                                              "have a contact above",
-                                                              contact.between[0],
-                                                              contact.between[1]));
+      reading.fault_at(contact.path + ".between",
+                       fmt::format("must name a pair once, and {} and {} "
+                                   "have a contact above",
+                                   contact.between[0], contact.between[1]));
     }
     if (!contact.complete) continue;
     if (contact.on_substrate) {

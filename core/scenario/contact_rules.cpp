@@ -33,10 +33,8 @@ Rule<HardRestitution> hard_restitution_rule() {
   return one_form_of<HardRestitution>(
       "must be a number in [0, 1], {bridges: …} or viscoelastic",
       {{is_word("viscoelastic"),
-        made_from<HardRestitution>(viscoelastic,
-                                   [](std::size_t) {
-                                     return HardRestitution(ViscoelasticRestitution{});
-                                   })},
+        made_from<HardRestitution>(
+            viscoelastic, [](std::size_t) { return HardRestitution(ViscoelasticRestitution{}); })},
        {is_mapping, made_from<HardRestitution>(bridges.rule(), same)},
        {is_scalar, made_from<HardRestitution>(number(kPureNumber, kFraction), same)}});
 }
@@ -74,10 +72,16 @@ Rule<NormalModel> normal_rule() {
   Record<HertzNormal> hertz;
   hertz.key("ends_at", &HertzNormal::ends_at, ends_at_rule(), optional, kEndsAtDoc);
 
-  constexpr Dimension kForce{"force over length^alpha", 1, 1, -2, 0, "N/m^alpha", "dyn/cm^alpha",
-                             "1e9 N/m^1.5"};
-  constexpr Dimension kForceTime{"force over velocity and length^gamma", 1, 0, -1, 0,
-                                 "N s/m^(1+gamma)", "dyn s/cm^(1+gamma)", "50 N s/m^1.5"};
+  constexpr Dimension kForce{
+      "force over length^alpha", 1, 1, -2, 0, "N/m^alpha", "dyn/cm^alpha", "1e9 N/m^1.5"};
+  constexpr Dimension kForceTime{"force over velocity and length^gamma",
+                                 1,
+                                 0,
+                                 -1,
+                                 0,
+                                 "N s/m^(1+gamma)",
+                                 "dyn s/cm^(1+gamma)",
+                                 "50 N s/m^1.5"};
   Record<PowerNormal> power;
   power
       .key("alpha", &PowerNormal::alpha, number(kPureNumber, {1, {}, 10, {}}), optional,
@@ -99,10 +103,9 @@ Rule<NormalModel> normal_rule() {
       .key("dissipation_time", &ViscoelasticNormal::dissipation_time, number(kTime, kNotNegative),
            optional, "A of B (23)")
       .key("viscosity", &ViscoelasticNormal::viscosity,
-           made_from<Viscosities>(numbers(kViscosity, kNotNegative, {2}),
-                                  [](const std::vector<double>& eta) {
-                                    return Viscosities(eta[0], eta[1]);
-                                  }),
+           made_from<Viscosities>(
+               numbers(kViscosity, kNotNegative, {2}),
+               [](const std::vector<double>& eta) { return Viscosities(eta[0], eta[1]); }),
            optional, "η1 and η2 of B (23)")
       .key("form", &ViscoelasticNormal::form,
            choice<Form>({{"expanded", Form::expanded}, {"compact", Form::compact}}), optional,
@@ -111,12 +114,12 @@ Rule<NormalModel> normal_rule() {
       .exactly_one_of({"dissipation_time", "viscosity"});
 
   return one_of<NormalModel>(
-      "model", {alternative<NormalModel>("hard", "no duration, only a restitution; L (5)", hard),
-                alternative<NormalModel>("linear", "spring and dashpot; K (2)", linear),
-                alternative<NormalModel>("hertz", "elastic spheres, from the materials", hertz),
-                alternative<NormalModel>("power", "powers of the overlap; K (B1)", power),
-                alternative<NormalModel>("viscoelastic", "viscoelastic spheres; B (24)",
-                                         viscoelastic)});
+      "model",
+      {alternative<NormalModel>("hard", "no duration, only a restitution; L (5)", hard),
+       alternative<NormalModel>("linear", "spring and dashpot; K (2)", linear),
+       alternative<NormalModel>("hertz", "elastic spheres, from the materials", hertz),
+       alternative<NormalModel>("power", "powers of the overlap; K (B1)", power),
+       alternative<NormalModel>("viscoelastic", "viscoelastic spheres; B (24)", viscoelastic)});
 }
 
 Rule<TangentialModel> tangential_rule() {
@@ -148,10 +151,9 @@ Rule<TangentialModel> tangential_rule() {
       .key("roughness_factor", &AsperityTangential::roughness_factor,
            number(kPerRootLength, kNotNegative), optional, "α in μ = α √ζ0")
       .whole("asperity_size",
-             one_form_of<AsperityTangential>(
-                 "must be a length or {relative: …}",
-                 {{is_mapping, relative_size.rule()},
-                  {is_scalar, absolute(number(kLength, kPositive))}}),
+             one_form_of<AsperityTangential>("must be a length or {relative: …}",
+                                             {{is_mapping, relative_size.rule()},
+                                              {is_scalar, absolute(number(kLength, kPositive))}}),
              required, "ζ0 of B (35)")
       .key("form", &AsperityTangential::form,
            choice<Form>({{"printed", Form::printed}, {"passive", Form::passive}}), optional,
@@ -161,12 +163,13 @@ Rule<TangentialModel> tangential_rule() {
   Record<HardTangential> hard;
   hard.key("friction", &HardTangential::friction, friction, required, kFrictionDoc)
       .key("tangential_restitution", &HardTangential::tangential_restitution,
-           number(kPureNumber, {-1, {}, 1, {}}), required, "β0, largest tangential restitution");
+           number(kPureNumber, {-1, {}, 1, {}}), optional, "β0, largest tangential restitution");
 
   return one_of<TangentialModel>(
       "model",
       {alternative<TangentialModel>("none", "no tangential force", Record<NoTangential>()),
-       alternative<TangentialModel>("viscous", "viscous, capped by Coulomb; K (4), B (39)", viscous),
+       alternative<TangentialModel>("viscous", "viscous, capped by Coulomb; K (4), B (39)",
+                                    viscous),
        alternative<TangentialModel>("asperity", "breaking asperities; B (35)", asperity),
        alternative<TangentialModel>("hard", "sticking or sliding collisions; L (5)-(12)", hard)});
 }
@@ -231,7 +234,8 @@ Rule<Drilling> drilling_rule() {
   const auto radius = one_form_of<Radius>(
       "must be a length or hertz",
       {{is_word("hertz"), made_from<Radius>(word({"hertz"}), [](std::size_t) { return Radius(); })},
-       {is_scalar, made_from<Radius>(number(kLength, kPositive), [](double a) { return Radius(a); })}});
+       {is_scalar,
+        made_from<Radius>(number(kLength, kPositive), [](double a) { return Radius(a); })}});
   constexpr const char* kRadiusDoc = "a_c, or hertz: from the material and the weight";
   Record<Uncoupled> uncoupled;
   uncoupled.key("contact_radius", &Uncoupled::contact_radius, radius, required, kRadiusDoc);

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <system_error>
 
@@ -96,7 +97,8 @@ std::string read_file(const std::filesystem::path& path) {
 std::string_view checked_text(std::string_view bytes, const std::string& file) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
-  if (bytes.size() > kMostBytes) refuse(file, fmt::format("must have at most {} bytes", kMostBytes));
+  if (bytes.size() > kMostBytes)
+    refuse(file, fmt::format("must have at most {} bytes", kMostBytes));
   Location place{1, 1};
   for (std::string_view rest = bytes; !rest.empty();) {
     const std::size_t length = character_length(rest);

@@ -13,9 +13,9 @@
 namespace slipcheck {
 namespace {
 
-constexpr int kMostAttempts = 10'000;            // for one body
+constexpr int kMostAttempts = 10'000;              // for one body
 constexpr std::int64_t kAllAttempts = 40'000'000;  // for all; some seconds
-constexpr double kMostCells = 1e9;               // along one axis
+constexpr double kMostCells = 1e9;                 // along one axis
 
 /// Evenly distributed numbers. The standard's distributions differ between libraries; the engine
 /// does not.
@@ -101,7 +101,8 @@ class Plane {
         std::floor((position[axis == 0 ? 0 : up_] - origin_[axis]) / cell_));
   }
   static std::uint64_t key(std::int64_t i, std::int64_t j) {
-    return static_cast<std::uint64_t>(i) * 0x100000000u ^ (static_cast<std::uint64_t>(j) & 0xFFFFFFFFu);
+    return static_cast<std::uint64_t>(i) * 0x100000000u ^
+           (static_cast<std::uint64_t>(j) & 0xFFFFFFFFu);
   }
 
   bool is_image_free(const Vector3& position, double radius) const {

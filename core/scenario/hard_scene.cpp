@@ -1,5 +1,7 @@
 #include "scenario/hard_scene.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -79,10 +81,13 @@ void look_at(const MaterialOnSubstrate& contact, Obstacles& obstacles) {
 
 void look_at(const Substrate& substrate, Obstacles& obstacles) {
   constexpr const char* kMotionNames[] = {"still", "constant", "oscillate", "table"};
-  if (substrate.periodic) obstacles.add("substrate.periodic", "cannot be solved", "a periodic cell");
+  if (substrate.periodic) {
+    obstacles.add("substrate.periodic", "only an unbounded substrate can be solved",
+                  "a periodic cell");
+  }
   if (substrate.tilt != 0) {
     obstacles.add("substrate.tilt", "only a level substrate can be solved",
-                  std::to_string(substrate.tilt * 180 / std::numbers::pi) + " deg");
+                  fmt::format("{:.6g} deg", substrate.tilt * 180 / std::numbers::pi));
   }
   const auto* constant = std::get_if<ConstantMotion>(&substrate.motion);
   const bool still = std::holds_alternative<StillMotion>(substrate.motion) ||
@@ -128,7 +133,8 @@ SubstrateContact substrate_contact(const MaterialOnSubstrate& from) {
   contact.static_friction = from.friction.static_;
   contact.kinetic_friction = from.friction.kinetic;
   std::vector<RollingFriction::Point> points;
-  for (const auto& [speed, coefficient] : from.rolling.table) points.push_back({speed, coefficient});
+  for (const auto& [speed, coefficient] : from.rolling.table)
+    points.push_back({speed, coefficient});
   contact.rolling = RollingFriction(std::move(points));
   contact.restitution = from.restitution;
   return contact;
@@ -139,7 +145,8 @@ SubstrateContact substrate_contact(const MaterialOnSubstrate& from) {
 HardScene make_hard_scene(const Scenario& scenario) {
   Obstacles obstacles(scenario);
   for (const BodyContact& contact : scenario.contacts) look_at(contact, obstacles);
-  for (const MaterialOnSubstrate& contact : scenario.substrate_contacts) look_at(contact, obstacles);
+  for (const MaterialOnSubstrate& contact : scenario.substrate_contacts)
+    look_at(contact, obstacles);
   const auto* substrate = std::get_if<Substrate>(&scenario.surroundings);
   if (substrate) {
     look_at(*substrate, obstacles);
@@ -167,8 +174,8 @@ HardScene make_hard_scene(const Scenario& scenario) {
     const auto found = on_substrate.find(body.material);
     const MaterialOnSubstrate none;
     const MaterialOnSubstrate& contact = found == on_substrate.end() ? none : *found->second;
-    const bool hertzian = contact.drilling.model != Drilling::Model::none &&
-                          !contact.drilling.contact_radius;
+    const bool hertzian =
+        contact.drilling.model != Drilling::Model::none && !contact.drilling.contact_radius;
     const Sphere& sphere = body.sphere;
     const auto [entry, is_new] = index.try_emplace(
         {body.material, hertzian ? sphere.radius : 0, hertzian ? sphere.mass : 0}, names.size());
@@ -176,9 +183,9 @@ HardScene make_hard_scene(const Scenario& scenario) {
       names.push_back(body.material);
       SubstrateContact& target = scene.substrate.emplace_back(substrate_contact(contact));
       const auto material = scenario.materials.find(body.material);
-      target.drilling_length =
-          drilling_length(contact, material == scenario.materials.end() ? Material{} : material->second,
-                          sphere, scene.gravity);
+      target.drilling_length = drilling_length(
+          contact, material == scenario.materials.end() ? Material{} : material->second, sphere,
+          scene.gravity);
     }
     scene.bodies.push_back(sphere);
     scene.initial.push_back(body.initial);

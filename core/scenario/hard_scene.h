@@ -14,8 +14,8 @@ namespace slipcheck {
 /// what engines are given. Spheres on a plane z = 0; all values SI.
 struct HardScene {
   std::vector<Sphere> bodies;
-  std::vector<BodyState> initial;     ///< one for each body
-  std::vector<std::size_t> material;  ///< of each body, an index below `substrate.size()`
+  std::vector<BodyState> initial;           ///< one for each body
+  std::vector<std::size_t> material;        ///< of each body, an index below `substrate.size()`
   std::vector<SubstrateContact> substrate;  ///< by material
   std::vector<PairContact> pairs;           ///< by material × material, symmetric
   double gravity = 0;                       ///< along −z [m/s²], >= 0

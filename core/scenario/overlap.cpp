@@ -90,8 +90,8 @@ void check_overlaps(const std::vector<Body>& bodies, const std::vector<std::stri
          ++j) {
       const auto [first, second] = std::minmax(images[i].body, images[j].body);
       if (first == second || reported[second]) continue;
-      const double overlap = overlap_of(images[i].position, images[i].radius, images[j].position,
-                                        images[j].radius);
+      const double overlap =
+          overlap_of(images[i].position, images[i].radius, images[j].position, images[j].radius);
       if (overlap <= 0) continue;
       reported[second] = true;
       const double shown = overlap / to_si(1, kLength, reading.units());

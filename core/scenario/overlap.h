@@ -9,8 +9,8 @@
 
 namespace slipcheck {
 
-/// Notes a fault, at the path of the later one, for each body that overlaps another; touching within
-/// round-off is allowed. `periodic` are the lengths of the cell, if there is one [m], > 0.
+/// Notes a fault, at the path of the later one, for each body that overlaps another; touching
+/// within round-off is allowed. `periodic` are the lengths of the cell, if there is one [m], > 0.
 void check_overlaps(const std::vector<Body>& bodies, const std::vector<std::string>& paths,
                     const std::optional<Vector2>& periodic, Reading& reading);
 

@@ -55,10 +55,10 @@ Reading::Step::Step(Reading& reading, std::string_view name, Location location,
     : reading_(reading), length_(reading.path_.size()) {
   if (length_ > 0 && name[0] != '[') reading.path_ += '.';
   reading.path_ += name;
-  // Where a rule over several keys fails, a mapping as a whole would only be noise.
-  const bool is_mapping = value.kind == YamlNode::Kind::mapping;
-  reading.found_.try_emplace(
-      reading.path_, Found{location, value.location, is_mapping ? "" : shown(value)});
+  // Where a rule over several keys fails, more than a value or a list of them would only be noise.
+  const bool is_small = value.kind != YamlNode::Kind::mapping && value.depth <= 2;
+  reading.found_.try_emplace(reading.path_,
+                             Found{location, value.location, is_small ? shown(value) : ""});
 }
 
 std::map<std::string, Location> Reading::locations() const {
@@ -105,8 +105,8 @@ std::string shown(std::string_view text) {
     const auto byte = static_cast<unsigned char>(text[i]);
     const bool starts_character = (byte & 0xC0) != 0x80;
     if (starts_character && result.size() >= kMostShown) return result + "…";
-    const bool is_c1 = byte == 0xC2 && i + 1 < text.size() &&
-                       static_cast<unsigned char>(text[i + 1]) < 0xA0;
+    const bool is_c1 =
+        byte == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
     if (byte == '\n') {
       result += "\\n";
     } else if (byte == '\t') {

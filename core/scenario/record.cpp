@@ -38,9 +38,9 @@ bool RecordKeys::read_entries(const YamlNode& node, Reading& reading) const {
     }
     const auto first = std::ranges::find(node.entries, entry.key, &YamlNode::Entry::key);
     if (&*first != &entry) {
-      reading.fault(entry.location, path(),
-                    fmt::format("must stand here once, but stands in line {} too",
-                                first->location.line));
+      reading.fault(
+          entry.location, path(),
+          fmt::format("must stand here once, but stands in line {} too", first->location.line));
       good = false;
     }
   }
@@ -94,7 +94,8 @@ json RecordKeys::schema() const {
   json groups = json::array();
   for (const Group& group : groups_) {
     json alternatives = json::array();
-    for (const std::string& name : group.names) alternatives.push_back({{"required", json::array({name})}});
+    for (const std::string& name : group.names)
+      alternatives.push_back({{"required", json::array({name})}});
     groups.push_back({{group.exactly ? "oneOf" : "anyOf", alternatives}});
   }
   if (!groups.empty()) result["allOf"] = groups;
@@ -144,10 +145,10 @@ NamedRecord named_record(const std::string& discriminator, std::string name, std
                      std::make_shared<RecordKeys>(keys)};
   // find_alternative has read it already.
   record.keys->add(RecordKeys::Key{discriminator, Presence::required, "",
-                    [](const YamlNode&, Reading&, void*) { return true; },
-                    [name] {
-                      return json{{"const", name}};
-                    }});
+                                   [](const YamlNode&, Reading&, void*) { return true; },
+                                   [name] {
+                                     return json{{"const", name}};
+                                   }});
   return record;
 }
 

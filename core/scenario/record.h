@@ -58,28 +58,30 @@ class Record {
   Record& key(std::string name, Field T::*field, Rule<Value> rule, Presence presence,
               std::string doc) {
     static_assert(std::is_same_v<Field, Value> || std::is_same_v<Field, std::optional<Value>>);
-    keys_->add(RecordKeys::Key{name, presence, doc,
-                [field, read = rule.read](const YamlNode& node, Reading& reading, void* target) {
-                  Field& value = static_cast<T*>(target)->*field;
-                  if constexpr (std::is_same_v<Field, Value>) {
-                    return read(node, reading, value);
-                  } else {
-                    const bool good = read(node, reading, value.emplace());
-                    if (!good) value.reset();
-                    return good;
-                  }
-                },
-                rule.schema});
+    keys_->add(RecordKeys::Key{
+        name, presence, doc,
+        [field, read = rule.read](const YamlNode& node, Reading& reading, void* target) {
+          Field& value = static_cast<T*>(target)->*field;
+          if constexpr (std::is_same_v<Field, Value>) {
+            return read(node, reading, value);
+          } else {
+            const bool good = read(node, reading, value.emplace());
+            if (!good) value.reset();
+            return good;
+          }
+        },
+        rule.schema});
     return *this;
   }
 
   /// A key whose rule looks at the whole record.
   Record& whole(std::string name, Rule<T> rule, Presence presence, std::string doc) {
-    keys_->add(RecordKeys::Key{name, presence, doc,
-                [read = rule.read](const YamlNode& node, Reading& reading, void* target) {
-                  return read(node, reading, *static_cast<T*>(target));
-                },
-                rule.schema});
+    keys_->add(
+        RecordKeys::Key{name, presence, doc,
+                        [read = rule.read](const YamlNode& node, Reading& reading, void* target) {
+                          return read(node, reading, *static_cast<T*>(target));
+                        },
+                        rule.schema});
     return *this;
   }
 

@@ -14,9 +14,13 @@ using nlohmann::json;
 /// Beyond this no quantity of a scene means anything, and products of a few stay finite.
 constexpr double kLargest = 1e30;
 
-// A number and what may follow it; the units themselves are left to the loader.
-constexpr const char* kQuantityPattern =
-    R"(^[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?([ \t]*([^0-9 \t+.,-]|1/).*)?$)";
+/// A number and what may follow it, as a regular expression; which units there are is left to the
+/// loader.
+std::string quantity_pattern(const Range& range) {
+  const bool no_minus = range.least.value_or(-1) >= 0 || range.above.value_or(-1) >= 0;
+  return std::string(no_minus ? R"(^[+]?)" : R"(^[-+]?)") +
+         R"(([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?([ \t]*([^0-9 \t+.,-]|1/).*)?$)";
+}
 
 std::string limits(const Range& range, const std::string& unit) {
   std::string text;
@@ -47,6 +51,8 @@ bool is_no_text(const YamlNode& node) {
   return false;
 }
 
+constexpr std::size_t kLongestName = 64;
+
 bool is_name(const std::string& text, NameStyle style) {
   bool after_word = false;
   for (const char c : text) {
@@ -58,7 +64,8 @@ bool is_name(const std::string& text, NameStyle style) {
     if (style == NameStyle::any_case && c == '-' && !after_word) return false;
     after_word = c != '-';
   }
-  return !text.empty() && (style == NameStyle::lower_case || after_word);
+  return !text.empty() && text.size() <= kLongestName &&
+         (style == NameStyle::lower_case || after_word);
 }
 
 }  // namespace
@@ -97,7 +104,7 @@ Rule<double> number(const Dimension& dimension, const Range& range) {
     return true;
   };
   const auto schema = [dimension, range] {
-    json result = {{"type", {"number", "string"}}, {"pattern", kQuantityPattern}};
+    json result = {{"type", {"number", "string"}}, {"pattern", quantity_pattern(range)}};
     if (range.least) result["minimum"] = *range.least;
     if (range.above) result["exclusiveMinimum"] = *range.above;
     if (range.most) result["maximum"] = *range.most;
@@ -110,7 +117,8 @@ Rule<double> number(const Dimension& dimension, const Range& range) {
     }
     const std::string limit = limits(range, "");
     if (!limit.empty()) text += ", " + limit;
-    result["description"] = fmt::format("{}; or with its own unit, \"{}\"", text, dimension.example);
+    result["description"] =
+        fmt::format("{}; or with its own unit, \"{}\"", text, dimension.example);
     return result;
   };
   return {read, schema};
@@ -183,16 +191,19 @@ Rule<std::string> name_text(NameStyle style) {
   const bool lower = style == NameStyle::lower_case;
   return {[=](const YamlNode& node, Reading& reading, std::string& target) {
             if (!is_scalar(node) || is_no_text(node) || !is_name(node.text, style)) {
-              reading.fault(node, lower ? "must be a name of a-z, 0-9 and -"
-                                        : "must be a name of letters, digits and _, joined by -");
+              reading.fault(
+                  node, lower ? "must be a name of a-z, 0-9 and -, up to 64"
+                              : "must be a name of letters, digits and _, joined by -, up to 64");
               return false;
             }
             target = node.text;
             return true;
           },
           [=] {
-            return json{{"type", {"string", "integer"}},
-                        {"pattern", lower ? "^[a-z0-9-]+$" : "^[A-Za-z0-9_]+(-[A-Za-z0-9_]+)*$"}};
+            json schema = {{"type", {"string", "integer"}}, {"maxLength", kLongestName}};
+            schema["pattern"] = lower ? "^[a-z0-9-]+$" : "^[A-Za-z0-9_]+(-[A-Za-z0-9_]+)*$";
+            if (!lower) schema["minimum"] = 0;  // a leading '-' joins nothing
+            return schema;
           }};
 }
 
@@ -239,15 +250,13 @@ Rule<std::vector<double>> row(std::vector<std::pair<Dimension, Range>> columns) 
 }
 
 Rule<Vector2> pair_of(const Dimension& dimension, const Range& range) {
-  return made_from<Vector2>(numbers(dimension, range, {2}), [](const std::vector<double>& xy) {
-    return Vector2(xy[0], xy[1]);
-  });
+  return made_from<Vector2>(numbers(dimension, range, {2}),
+                            [](const std::vector<double>& xy) { return Vector2(xy[0], xy[1]); });
 }
 
 Rule<std::size_t> word(std::vector<std::string> words) {
   return {[words](const YamlNode& node, Reading& reading, std::size_t& target) {
-            const auto found =
-                is_scalar(node) ? std::ranges::find(words, node.text) : words.end();
+            const auto found = is_scalar(node) ? std::ranges::find(words, node.text) : words.end();
             if (found == words.end()) {
               std::string rule = "must be " + joined(words);
               const std::string near = is_scalar(node) ? nearest(node.text, words) : "";

@@ -146,6 +146,15 @@ Rule<T> made_from(Rule<U> rule, Make make) {
           rule.schema};
 }
 
+/// The same rule for a variant that holds a T among others; keeps what could be read.
+template <class V, class T>
+Rule<V> as_alternative(Rule<T> rule) {
+  return {[rule](const YamlNode& node, Reading& reading, V& target) {
+            return rule.read(node, reading, target.template emplace<T>());
+          },
+          rule.schema};
+}
+
 bool is_scalar(const YamlNode& node);
 bool is_list(const YamlNode& node);
 bool is_mapping(const YamlNode& node);

@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "scenario/observable_names.h"
 #include "scenario/record.h"
 #include "scenario/scene_rules.h"
@@ -76,8 +73,7 @@ Rule<EngineRequest> engine_rule() {
            one_form_of<Rates>(
                "must be a frequency or a list of them",
                {{[](const YamlNode& node) { return is_list(node); }, list(rate, 1)},
-                {is_scalar,
-                 made_from<Rates>(rate, [](double value) { return Rates{value}; })}}),
+                {is_scalar, made_from<Rates>(rate, [](double value) { return Rates{value}; })}}),
            required, "steps per second, one or several");
   return engine.rule();
 }

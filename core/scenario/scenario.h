@@ -64,8 +64,8 @@ struct PowerNormal {
   EndsAt ends_at = EndsAt::zero_overlap;
 };
 struct ViscoelasticNormal {
-  enum class Form { expanded, compact };             ///< B (24), B (25)
-  std::optional<double> dissipation_time;            ///< A of B (23) [s], >= 0
+  enum class Form { expanded, compact };               ///< B (24), B (25)
+  std::optional<double> dissipation_time;              ///< A of B (23) [s], >= 0
   std::optional<std::pair<double, double>> viscosity;  ///< η1, η2 of B (23) [Pa s], >= 0
   Form form = Form::expanded;
   EndsAt ends_at = EndsAt::zero_overlap;
@@ -184,8 +184,8 @@ struct Body {
 struct Run {
   enum class Until { rolling, rest, time };
   Until until = Until::rolling;
-  double time = 0;    ///< [s], where until is `time`
-  double limit = 60;  ///< simulated time after which `until` has failed [s], > 0
+  double time = 0;                      ///< [s], where until is `time`
+  double limit = 60;                    ///< simulated time after which `until` has failed [s], > 0
   std::optional<std::int64_t> periods;  ///< of the floor, for a container
   std::int64_t discard = 0;             ///< periods before the first sample
   bool sample_phase_zero = false;

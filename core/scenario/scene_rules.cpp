@@ -1,6 +1,5 @@
 #include "scenario/scene_rules.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "scenario/record.h"
@@ -79,11 +78,10 @@ Rule<Motion> motion_rule() {
                 }),
             required, "[[time, x, y], …] with rising times, linear in between");
   return one_of<Motion>(
-      "kind",
-      {alternative<Motion>("still", "does not move", Record<StillMotion>()),
-       alternative<Motion>("constant", "constant velocity", constant),
-       alternative<Motion>("oscillate", "amplitude sin(2π frequency t + phase)", oscillate),
-       alternative<Motion>("table", "positions at times", table)});
+      "kind", {alternative<Motion>("still", "does not move", Record<StillMotion>()),
+               alternative<Motion>("constant", "constant velocity", constant),
+               alternative<Motion>("oscillate", "amplitude sin(2π frequency t + phase)", oscillate),
+               alternative<Motion>("table", "positions at times", table)});
 }
 
 }  // namespace
@@ -93,8 +91,7 @@ Rule<Substrate> substrate_rule() {
   substrate
       .key("periodic", &Substrate::periodic, pair_of(kLength, kPositive), optional,
            "[x, y] lengths of the periodic cell")
-      .key("tilt", &Substrate::tilt, number(kAngle, {0, {}, {}, 90}), optional,
-           "downhill along -y")
+      .key("tilt", &Substrate::tilt, number(kAngle, {0, {}, {}, 90}), optional, "downhill along -y")
       .key("confined", &Substrate::confined, boolean(), optional,
            "true: bodies never leave the plane")
       .key("motion", &Substrate::motion, motion_rule(), optional, "of the plane in itself");
@@ -131,8 +128,7 @@ Rule<WrittenScene> scene_rule() {
                               },
                               rule.schema};
   };
-  scene
-      .whole("slipcheck", read_before(integer(1, 1)), required, "version of the format")
+  scene.whole("slipcheck", read_before(integer(1, 1)), required, "version of the format")
       .key("name", &WrittenScene::name, name_text(NameStyle::lower_case), required,
            "unique among scenarios")
       .key("title", &WrittenScene::title, free_text(), required, "for reports")

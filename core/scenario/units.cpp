@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <numbers>
@@ -138,9 +138,8 @@ std::string_view trimmed(std::string_view text) {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 BadQuantity unknown_unit(std::string_view unit, const Dimension& dimension) {
-  return BadQuantity(
-      fmt::format("must be {}, as in \"{}\"; the unit \"{}\" is not known", with_article(dimension),
-                  dimension.example, unit));
+  return BadQuantity(fmt::format("must be {}, as in \"{}\"; the unit \"{}\" is not known",
+                                 with_article(dimension), dimension.example, unit));
 }
 
 /// A unit with broken powers, such as "N/m^1.5" or "cm^-0.5", which UDUNITS cannot write: factors
@@ -205,8 +204,7 @@ Measure measure_of(std::string_view written, const Dimension& dimension) {
 /// to 0.002.
 double scaled(double value, double scale) {
   const double inverse = std::round(1 / scale);
-  const bool is_inverse =
-      inverse > 1 && inverse < 1e15 && std::abs(scale * inverse - 1) < 4e-16;
+  const bool is_inverse = inverse > 1 && inverse < 1e15 && std::abs(scale * inverse - 1) < 4e-16;
   return is_inverse ? value / inverse : value * scale;
 }
 
@@ -268,7 +266,8 @@ Quantity parse_quantity(std::string_view text, const Dimension& dimension) {
                              per_second ? 0 : dimension.angle};
   for (std::size_t i = 0; i < powers.size(); ++i) {
     if (std::abs(unit.powers[i] - powers[i]) > 1e-9) {
-      throw BadQuantity(fmt::format("must be {}, as in \"{}\"", with_article(dimension), dimension.example));
+      throw BadQuantity(
+          fmt::format("must be {}, as in \"{}\"", with_article(dimension), dimension.example));
     }
   }
   return {finite(scaled(number, unit.scale)), true};

@@ -35,13 +35,12 @@ inline constexpr Dimension kAngle{"angle", 0, 0, 0, 1, "deg", "deg", "0.1 rad"};
 inline constexpr Dimension kVelocity{"velocity", 0, 1, -1, 0, "m/s", "cm/s", "10 cm/s"};
 inline constexpr Dimension kAngularVelocity{"angular velocity", 0, 0, -1, 1, "rad/s", "rad/s",
                                             "50 rad/s"};
-inline constexpr Dimension kAcceleration{"acceleration", 0, 1, -2, 0, "m/s2", "cm/s2",
-                                         "9.81 m/s2"};
+inline constexpr Dimension kAcceleration{"acceleration", 0, 1, -2, 0, "m/s2", "cm/s2", "9.81 m/s2"};
 inline constexpr Dimension kStiffness{"stiffness", 1, 0, -2, 0, "N/m", "dyn/cm", "1e5 N/m"};
-inline constexpr Dimension kPerRootLength{
-    "a roughness factor", 0, -0.5, 0, 0, "m^-0.5", "cm^-0.5", "1 cm^-0.5"};
-inline constexpr Dimension kSpecificEnergy{"energy per mass", 0, 2, -2, 0, "m2/s2", "cm2/s2",
-                                           "1 cm2/s2"};
+inline constexpr Dimension kPerRootLength{"a roughness factor", 0, -0.5, 0, 0, "m^-0.5", "cm^-0.5",
+                                          "1 cm^-0.5"};
+inline constexpr Dimension kSpecificEnergy{"energy per mass", 0,        2,         -2, 0,
+                                           "m2/s2",           "cm2/s2", "1 cm2/s2"};
 inline constexpr Dimension kEnergy{"energy", 1, 2, -2, 0, "J", "erg", "1 erg"};
 
 /// "a length", "an angle"

@@ -32,9 +32,9 @@ struct WrittenSpin {
 struct WrittenBody {
   std::string name;
   std::string material;
-  Sphere sphere;               ///< its mass is not yet known
-  std::optional<double> mass;  ///< [kg], > 0
-  std::vector<double> position;         ///< two or three [m]
+  Sphere sphere;                          ///< its mass is not yet known
+  std::optional<double> mass;             ///< [kg], > 0
+  std::vector<double> position;           ///< two or three [m]
   std::vector<double> velocity = {0, 0};  ///< two or three [m/s]
   WrittenSpin spin;
   std::string path;
@@ -49,8 +49,9 @@ struct Fill {
   double least_radius = 0;  ///< [m], > 0
   double most_radius = 0;   ///< [m], >= least_radius
   double shape_factor = Sphere{}.shape_factor;
-  std::vector<double> area;  ///< [x0, y0, x1, y1] of the centres [m]; z in place of y in a container
-  double speed = 0;          ///< of each in a random direction [m/s], >= 0
+  std::vector<double>
+      area;          ///< [x0, y0, x1, y1] of the centres [m]; z in place of y in a container
+  double speed = 0;  ///< of each in a random direction [m/s], >= 0
   SpinKind spin = SpinKind::none;  ///< none or rolling
   std::int64_t seed = 1;           ///< >= 0
   std::string path;

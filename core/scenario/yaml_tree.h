@@ -24,12 +24,12 @@ struct YamlNode {
 
   Kind kind = Kind::null;
   Location location;
-  std::string text;            ///< a scalar's
-  bool plain = true;           ///< a scalar without quotes
+  std::string text;                ///< a scalar's
+  bool plain = true;               ///< a scalar without quotes
   std::vector<YamlPointer> items;  ///< a list's
-  std::vector<Entry> entries;  ///< a mapping's in the order of the file, duplicates kept
-  std::size_t size = 1;        ///< number of nodes with every alias written out
-  int depth = 1;               ///< levels, likewise
+  std::vector<Entry> entries;      ///< a mapping's in the order of the file, duplicates kept
+  std::size_t size = 1;            ///< number of nodes with every alias written out
+  int depth = 1;                   ///< levels, likewise
 
   /// The value of the first entry with this key, or null.
   const YamlNode* find(std::string_view key) const;

@@ -224,6 +224,9 @@ TEST(Protocol, DeepNestingAndOddCborAreRefused) {
   EXPECT_THROW(decode_reply(Bytes(1 << 20, 0x81)), Rubbish);
   EXPECT_THROW(decode_reply(Bytes(1 << 20, 0x7f)), Rubbish);  // text of indefinite length
   EXPECT_THROW(decode_reply(Bytes{}), Rubbish);
+  Bytes many(5 + (5 << 20));  // an array of 5 Mi zeros
+  many[0] = 0x9a, many[2] = 0x50;
+  EXPECT_THROW(decode_reply(many), Rubbish);
   EXPECT_THROW(decode_reply(Bytes{0x9b, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff}), Rubbish);
   EXPECT_THROW(decode_reply(Bytes{0xc0, 0x00}), Rubbish);        // a tag
   EXPECT_THROW(decode_reply(Bytes{0xa1, 0x00, 0x00}), Rubbish);  // a key that is a number

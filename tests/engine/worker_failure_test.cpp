@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -150,6 +151,29 @@ TEST_F(WorkerFailureTest, GrandchildrenDieToo) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_EQ(running_in_group(group), 0);
+}
+
+TEST_F(WorkerFailureTest, AWorkerDiesWithItsHarness) {
+  int report[2];
+  ASSERT_EQ(pipe(report), 0);
+  const pid_t harness = fork();
+  if (harness == 0) {
+    RemoteEngine engine(faulty_engine());
+    const pid_t worker = engine.pid();
+    if (write(report[1], &worker, sizeof worker) == sizeof worker) run(engine, "hang");
+    _exit(1);
+  }
+  pid_t worker = 0;
+  ASSERT_EQ(read(report[0], &worker, sizeof worker), static_cast<ssize_t>(sizeof worker));
+  EXPECT_EQ(running_in_group(worker), 1);
+  kill(harness, SIGKILL);
+  waitpid(harness, nullptr, 0);
+  for (int k = 0; k < 2000 && running_in_group(worker) > 0; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(running_in_group(worker), 0);
+  close(report[0]);
+  close(report[1]);
 }
 
 TEST_F(WorkerFailureTest, WhatIsNoExecutableCannotStart) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace slipcheck {
 namespace {
 
@@ -31,6 +33,8 @@ TEST(RollingFriction, APieceIsTheOneThatASlowingBodyIsIn) {
   const auto at_point = friction.piece_below(0.3);
   EXPECT_DOUBLE_EQ(at_point.slope, 0.1);
   EXPECT_EQ(at_point.lower_speed, 0.1);
+  // A rounding error above the point: without this a run would never get below it.
+  EXPECT_EQ(friction.piece_below(std::nextafter(0.3, 1)).lower_speed, 0.1);
   const auto below = friction.piece_below(0.1);
   EXPECT_EQ(below.slope, 0);
   EXPECT_EQ(below.lower_speed, 0);

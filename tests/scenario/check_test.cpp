@@ -1,3 +1,8 @@
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "scenario/overlap.h"
 #include "scenes.h"
 
 // Rules that span several keys.
@@ -20,21 +25,25 @@ std::string with_body(const std::string& body) {
 
 TEST(Check, Names) {
   expect_fault(with_body("name: a, position: [5, 5]"),
-               "s.yaml:16:53: bodies[2].name: must be unique, but is also bodies[0], got a");
+               "s.yaml:16:52: bodies[2].name: must be unique, but is also bodies[0], got a");
   expect_fault(with_body("name: wall, position: [5, 5]"),
-               "s.yaml:16:53: bodies[2].name: must not be a reserved name, got wall");
+               "s.yaml:16:52: bodies[2].name: must not be a reserved name, got wall");
   expect_fault(with_body("name: a-b, position: [5, 5]"),
-               "s.yaml:16:53: bodies[2].name: must not read like the pair of a and b, got a-b");
+               "s.yaml:16:52: bodies[2].name: must not read like the pair of a and b, got a-b");
   expect_fault(with_body("name: a.b, position: [5, 5]"),
-               "s.yaml:16:53: bodies[2].name: must be a name of letters, digits and _, joined by -, "
+               "s.yaml:16:52: bodies[2].name: must be a name of letters, digits and _, joined by "
+               "-, up to 64, "
                "got a.b");
   EXPECT_EQ(messages(with_body("name: ball-3, position: [5, 5]")), kNoFaults);
   // a-c with b, and a with c-b.
   std::string text = with_body("name: a-c, position: [5, 5]");
-  text = with(text, "run: ", "  - {name: c-b, material: steel, sphere: {radius: 0.1}, position: [7, 7]}\nrun: ");
-  expect_fault(text, "s.yaml:16:53: bodies[2].name: must not make pairs that read alike, as with "
-                     "c-b, got a-c");
-  const auto faults = messages(with(kHard, "density: 7850}", "density: 7850}\n  wall: {density: 1}"));
+  text = with(text, "run: ",
+              "  - {name: c-b, material: steel, sphere: {radius: 0.1}, position: [7, 7]}\nrun: ");
+  expect_fault(text,
+               "s.yaml:16:52: bodies[2].name: must not make pairs that read alike, as with "
+               "c-b, got a-c");
+  const auto faults =
+      messages(with(kHard, "density: 7850}", "density: 7850}\n  wall: {density: 1}"));
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0], "s.yaml:6:9: materials.wall: must not have a reserved name");
 }
@@ -53,7 +62,8 @@ TEST(Check, Materials) {
 }
 
 TEST(Check, ContactsAreComplete) {
-  std::string text = with(kHard, "steel: {density: 7850}", "steel: {density: 7850}\n  glass: {density: 2500}");
+  std::string text =
+      with(kHard, "steel: {density: 7850}", "steel: {density: 7850}\n  glass: {density: 2500}");
   EXPECT_EQ(messages(text), kNoFaults);  // no body is of glass
   text = with(text, "name: b, material: steel", "name: b, material: glass");
   EXPECT_EQ(messages(text),
@@ -66,37 +76,41 @@ TEST(Check, ContactsAreComplete) {
 }
 
 TEST(Check, ContactsAreNotGivenTwice) {
-  expect_fault(with(kHard, "substrate: {}", "  - {between: [substrate, steel], friction: 1}\nsubstrate: {}"),
-               "s.yaml:12:15: contacts[2].between: must name a pair once, and substrate and steel "
-               "have a contact above, got [substrate, steel]");
+  expect_fault(
+      with(kHard, "substrate: {}", "  - {between: [substrate, steel], friction: 1}\nsubstrate: {}"),
+      "s.yaml:12:15: contacts[2].between: must name a pair once, and substrate and steel "
+      "have a contact above, got [substrate, steel]");
 }
 
 TEST(Check, ContactsNameTheSurroundings) {
-  expect_fault(with(kHard, "substrate: {}",
-                    "  - {between: [steel, floor], normal: {model: hard, restitution: 1}}\n"
-                    "substrate: {}"),
-               "s.yaml:12:23: contacts[2].between[1]: is not part of this scene's surroundings, got "
-               "floor");
-  const auto faults = messages(with(kHard, "[steel, substrate]", "[substrate, substrate]"));
-  ASSERT_EQ(faults.size(), 2u);
-  EXPECT_EQ(faults[0],
-            "s.yaml:10:14: contacts[1].between: must name a material, got [substrate, substrate]");
+  expect_fault(
+      with(kHard, "substrate: {}",
+           "  - {between: [steel, floor], normal: {model: hard, restitution: 1}}\n"
+           "substrate: {}"),
+      "s.yaml:12:23: contacts[2].between[1]: is not part of this scene's surroundings, got "
+      "floor");
+  expect_fault(
+      with(kHard, "[steel, substrate]", "[substrate, substrate]"),
+      "s.yaml:10:14: contacts[1].between: must name a material, got [substrate, substrate]");
 }
 
 TEST(Check, ModelsHaveWhatTheyNeed) {
-  EXPECT_EQ(messages(with(with(kHard, "{model: hard, restitution: 0.9}", "hertz"),
-                          "    tangential: {model: hard, friction: 0.1, tangential_restitution: 0.5}\n", "")),
+  EXPECT_EQ(messages(with(
+                with(kHard, "{model: hard, restitution: 0.9}", "hertz"),
+                "    tangential: {model: hard, friction: 0.1, tangential_restitution: 0.5}\n", "")),
             (std::vector<std::string>{
                 "s.yaml:5:10: materials.steel.young_modulus: is missing, but contacts[0].normal "
                 "(hertz) needs it",
                 "s.yaml:5:10: materials.steel.poisson_ratio: is missing, but contacts[0].normal "
                 "(hertz) needs it"}));
-  EXPECT_EQ(messages(with(kHard, "friction: 0.2",
-                          "drilling: {model: uncoupled, contact_radius: hertz}"))
-                .size(),
-            2u);
-  expect_fault(with(kHard, "{model: hard, restitution: 0.9}", "{model: power, modulus: 1, viscosity: 1}"),
-               "s.yaml:9:18: contacts[0].tangential.model: needs the normal model hard, got hard");
+  EXPECT_EQ(
+      messages(with(kHard, "friction: 0.2", "drilling: {model: uncoupled, contact_radius: hertz}"))
+          .size(),
+      2u);
+  expect_fault(
+      with(kHard, "{model: hard, restitution: 0.9}", "{model: power, modulus: 1, viscosity: 1}"),
+      "s.yaml:9:25: contacts[0].tangential.model: must not be hard unless the normal model is, got "
+      "hard");
   expect_fault(with(kHard, "{model: hard, friction: 0.1, tangential_restitution: 0.5}",
                     "{model: viscous, friction: 0.1, damping_rate: 0.5}"),
                "s.yaml:9:25: contacts[0].tangential.model: must be none or hard with the normal "
@@ -110,8 +124,9 @@ TEST(Check, Friction) {
   expect_fault(with(kHard, "friction: 0.2", "friction: 0.2\n    rolling: 0.3"),
                "s.yaml:12:14: contacts[1].rolling: must be at most the static friction 0.2, or the "
                "body would slide and not roll (K 17), got 0.3");
-  expect_fault(with(kHard, "friction: 0.2", "friction: 0.2\n    rolling: [[1, 0.1], [1, 0.2]]"),
-               "s.yaml:12:26: contacts[1].rolling[1][0]: must be more than the speed before it, got 1");
+  expect_fault(
+      with(kHard, "friction: 0.2", "friction: 0.2\n    rolling: [[1, 0.1], [1, 0.2]]"),
+      "s.yaml:12:26: contacts[1].rolling[1][0]: must be more than the speed before it, got 1");
   expect_fault(with(kHard, "friction: 0.2",
                     "friction: 0.2\n    rolling: {coefficient: [[1, 0.1], [2, 0.3]]}"),
                "s.yaml:12:43: contacts[1].rolling.coefficient[1][1]: must be at most the static "
@@ -119,11 +134,12 @@ TEST(Check, Friction) {
 }
 
 TEST(Check, Overlap) {
-  expect_fault(with(kHard, "position: [1, 0]", "position: [0.15, 0]"),
-               "s.yaml:15:65: bodies[1].position: must not overlap a, but does by 0.05 m, got [0.15, "
-               "0]");
+  expect_fault(
+      with(kHard, "position: [1, 0]", "position: [0.15, 0]"),
+      "s.yaml:15:65: bodies[1].position: must not overlap a, but does by 0.05 m, got [0.15, "
+      "0]");
   expect_fault(with(kExample, "[-0.3, 0]", "[-0.05, 0]"),
-               "s.yaml:29:71: bodies[1].position: must not overlap i, but does by 0.05 cm, got "
+               "s.yaml:29:65: bodies[1].position: must not overlap i, but does by 0.05 cm, got "
                "[-0.05, 0]");
   EXPECT_EQ(messages(with(kHard, "position: [1, 0]", "position: [0.2, 0]")), kNoFaults);
   EXPECT_EQ(messages(with(with(kHard, "position: [0, 0]", "position: [0.1, 0]"), "position: [1, 0]",
@@ -134,40 +150,65 @@ TEST(Check, Overlap) {
   EXPECT_EQ(messages(with(periodic, "[1, 0]", "[1.9, 0]")).size(), 1u);
   EXPECT_EQ(messages(with(periodic, "[1, 0]", "[-0.15, 0]")).size(), 1u);
   EXPECT_EQ(messages(with(periodic, "[1, 0]", "[1.9, 1.9]")).size(), 1u);
-  EXPECT_EQ(messages(with(with(periodic, "[0, 0]", "[0.05, 1.95]"), "[1, 0]", "[1.95, 0.05]")).size(), 1u);
+  EXPECT_EQ(
+      messages(with(with(periodic, "[0, 0]", "[0.05, 1.95]"), "[1, 0]", "[1.95, 0.05]")).size(),
+      1u);
   EXPECT_EQ(messages(with(periodic, "[1, 0]", "[1.8, 0]")), kNoFaults);
   expect_fault(with(kHard, "substrate: {}", "substrate: {periodic: [2, 0.19]}"),
                "s.yaml:12:23: substrate.periodic: must be at least the largest diameter, got [2, "
                "0.19]");
 }
 
+TEST(Check, OverlapsOfManyBodies) {
+  std::vector<Body> bodies;
+  std::vector<std::string> paths;
+  for (int i = 0; i < 100'000; ++i) {
+    Body& body = bodies.emplace_back();
+    body.sphere.radius = 0.5;
+    body.initial.position = Vector3(i % 317, i / 317, 0.5);
+    paths.push_back(fmt::format("bodies[{}]", i));
+  }
+  Reading reading("s.yaml", UnitSystem::si);
+  const auto start = std::chrono::steady_clock::now();
+  check_overlaps(bodies, paths, Vector2(317, 317), reading);
+  EXPECT_TRUE(reading.faults().empty());
+  bodies[50'000].initial.position.x() += 0.1;
+  check_overlaps(bodies, paths, Vector2(317, 317), reading);
+  EXPECT_EQ(reading.faults().size(), 1u);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+}
+
 TEST(Check, Places) {
-  expect_fault(with(kHard, "[1, 0]", "[1, 0, 0.05]"),
-               "s.yaml:15:65: bodies[1].position: must be at least the radius above z = 0, got [1, 0, "
-               "0.05]");
+  expect_fault(
+      with(kHard, "[1, 0]", "[1, 0, 0.05]"),
+      "s.yaml:15:65: bodies[1].position: must be at least the radius above z = 0, got [1, 0, "
+      "0.05]");
   EXPECT_EQ(messages(with(kHard, "[1, 0]", "[1, 0, 5]")), kNoFaults);
   const std::string confined = with(kHard, "substrate: {}", "substrate: {confined: true}");
   EXPECT_EQ(messages(confined), kNoFaults);
-  expect_fault(with(confined, "[1, 0]", "[1, 0, 5]"),
-               "s.yaml:15:65: bodies[1].position: must rest on a confined substrate, got [1, 0, 5]");
+  expect_fault(
+      with(confined, "[1, 0]", "[1, 0, 5]"),
+      "s.yaml:15:65: bodies[1].position: must rest on a confined substrate, got [1, 0, 5]");
   expect_fault(with(confined, "[-1, 0]", "[-1, 0, 1]"),
                "s.yaml:15:83: bodies[1].velocity: must be horizontal on a confined substrate, got "
                "[-1, 0, 1]");
 }
 
 TEST(Check, Container) {
-  expect_fault(with(kContainer, "\"2 mm\", \"3 mm\"", "\"0.4 mm\", \"3 mm\""),
-               "s.yaml:11:69: bodies[0].position: must be at least the radius away from both walls, "
-               "got [\"0.4 mm\", \"3 mm\"]");
+  expect_fault(
+      with(kContainer, "\"2 mm\", \"3 mm\"", "\"0.4 mm\", \"3 mm\""),
+      "s.yaml:12:70: bodies[0].position: must be at least the radius away from both walls, "
+      "got [\"0.4 mm\", \"3 mm\"]");
   expect_fault(with(kContainer, "\"2 mm\", \"3 mm\"", "\"2 mm\", \"0.4 mm\""),
-               "s.yaml:11:69: bodies[0].position: must be at least the radius above the floor, got "
+               "s.yaml:12:70: bodies[0].position: must be at least the radius above the floor, got "
                "[\"2 mm\", \"0.4 mm\"]");
   expect_fault(with(kContainer, "\"2 mm\", \"3 mm\"", "1, 2, 3"),
-               "s.yaml:11:69: bodies[0].position: must be [x, z] in a container, got [1, 2, 3]");
-  expect_fault(with(kContainer, "spin: 2", "spin: rolling"),
-               "s.yaml:11:95: bodies[0].spin: must be none or a number in a container, got rolling");
+               "s.yaml:12:70: bodies[0].position: must be [x, z] in a container, got [1, 2, 3]");
+  expect_fault(
+      with(kContainer, "spin: 2", "spin: rolling"),
+      "s.yaml:12:94: bodies[0].spin: must be none or a number in a container, got rolling");
   expect_fault(with(kContainer, "spin: 2", "spin: [1, 2, 0]"),
-               "s.yaml:11:95: bodies[0].spin: must be about y alone in a container, got [1, 2, 0]");
+               "s.yaml:12:94: bodies[0].spin: must be about y alone in a container, got [1, 2, 0]");
   expect_fault(with(kHard, "velocity: [-1, 0]", "spin: 2"),
                "s.yaml:15:79: bodies[1].spin: must be none, rolling or [ωx, ωy, ωz], got 2");
 }
@@ -178,11 +219,12 @@ TEST(Check, Run) {
   EXPECT_EQ(parse_scenario(with(kHard, "until: rolling", "until: 500 ms"), "s.yaml").run.time, 0.5);
   expect_fault(with(kHard, "until: rolling", "until: rolling, discard: 3"),
                "s.yaml:16:32: run.discard: is only for a container, got 3");
-  expect_fault(with(kContainer, "periods: 2000", "until: rest"),
-               "s.yaml:13:14: run.until: must be a time in a container, or periods in its place, got "
-               "rest");
+  expect_fault(
+      with(kContainer, "periods: 2000", "until: rest"),
+      "s.yaml:14:14: run.until: must be a time in a container, or periods in its place, got "
+      "rest");
   expect_fault(with(kContainer, "discard: 500", "discard: 2000"),
-               "s.yaml:13:31: run.discard: must be less than periods, got 2000");
+               "s.yaml:14:31: run.discard: must be less than periods, got 2000");
   expect_fault(with(kHard, "substrate: {}",
                     "substrate: {motion: {kind: table, table: [[0, 0, 0], [0, 1, 1]]}}"),
                "s.yaml:12:55: substrate.motion.table[1][0]: must be later than the time before it, "

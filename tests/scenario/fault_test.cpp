@@ -41,10 +41,12 @@ TEST(Fault, MissingKey) {
 }
 
 TEST(Fault, DuplicateKey) {
-  expect_fault(with(kHard, "friction: 0.2", "friction: 0.2\n    friction: 0.3"),
-               "s.yaml:12:5: contacts[1].friction: must stand here once, but stands in line 11 too");
-  expect_fault(with(kHard, "steel: {density: 7850}", "steel: {density: 7850}\n  steel: {density: 1}"),
-               "s.yaml:6:3: materials.steel: must stand here once");
+  expect_fault(
+      with(kHard, "friction: 0.2", "friction: 0.2\n    friction: 0.3"),
+      "s.yaml:12:5: contacts[1].friction: must stand here once, but stands in line 11 too");
+  expect_fault(
+      with(kHard, "steel: {density: 7850}", "steel: {density: 7850}\n  steel: {density: 1}"),
+      "s.yaml:6:3: materials.steel: must stand here once");
 }
 
 TEST(Fault, WrongType) {
@@ -66,9 +68,10 @@ TEST(Fault, WrongType) {
   expect_fault(with(kHard, "slipcheck: 1", "slipcheck: 2"),
                "s.yaml:1:12: slipcheck: must be 1, got 2");
   expect_fault(with(kHard, "name: hard", "name: Two Spheres"),
-               "s.yaml:2:7: name: must be a name of a-z, 0-9 and -, got Two Spheres");
-  expect_fault("just text",
-               "s.yaml:1:1: must be a scene, a mapping that begins with slipcheck: 1, got just text");
+               "s.yaml:2:7: name: must be a name of a-z, 0-9 and -, up to 64, got Two Spheres");
+  expect_fault(
+      "just text",
+      "s.yaml:1:1: must be a scene, a mapping that begins with slipcheck: 1, got just text");
 }
 
 TEST(Fault, WrongWord) {
@@ -102,23 +105,27 @@ TEST(Fault, OutOfRange) {
   expect_fault(with(kHard, "density: 7850", "density: 1e400"),
                "s.yaml:5:20: materials.steel.density: must be in the range of double precision, "
                "got 1e400");
-  expect_fault(with(kHard, "density: 7850", "density: 1e200"),
-               "s.yaml:5:20: materials.steel.density: must be 0 or of a magnitude between 1e-30 and "
-               "1e30 in SI units, got 1e200");
+  expect_fault(
+      with(kHard, "density: 7850", "density: 1e200"),
+      "s.yaml:5:20: materials.steel.density: must be 0 or of a magnitude between 1e-30 and "
+      "1e30 in SI units, got 1e200");
 }
 
 TEST(Fault, WrongUnit) {
-  expect_fault(with(kHard, "radius: 0.1", "radius: \"2 s\""),
-               "s.yaml:14:49: bodies[0].sphere.radius: must be a length, as in \"2 mm\", got \"2 s\"");
+  expect_fault(
+      with(kHard, "radius: 0.1", "radius: \"2 s\""),
+      "s.yaml:14:49: bodies[0].sphere.radius: must be a length, as in \"2 mm\", got \"2 s\"");
   expect_fault(with(kHard, "friction: 0.2", "friction: 5 deg"),
                "s.yaml:11:15: contacts[1].friction: must be a number, as in \"1 %\", got 5 deg");
 }
 
 TEST(Fault, ExactlyOneOf) {
-  expect_fault(with(kExample, "restitution: 0.9, ", "restitution: 0.9, damping_rate: 1, "),
-               "s.yaml:13:13: contacts[0].normal: needs exactly one of restitution or damping_rate");
-  expect_fault(with(kExample, "collision_time: 2.55e-5, ", ""),
-               "s.yaml:13:13: contacts[0].normal: needs exactly one of collision_time or stiffness");
+  expect_fault(
+      with(kExample, "restitution: 0.9, ", "restitution: 0.9, damping_rate: 1, "),
+      "s.yaml:13:13: contacts[0].normal: needs exactly one of restitution or damping_rate");
+  expect_fault(
+      with(kExample, "collision_time: 2.55e-5, ", ""),
+      "s.yaml:13:13: contacts[0].normal: needs exactly one of collision_time or stiffness");
   expect_fault(with(kHard, "substrate: {}\n", ""),
                "s.yaml:1:1: needs exactly one of substrate or container");
 }
@@ -136,7 +143,8 @@ TEST(Fault, Tolerance) {
   expect_fault(scene("sliding_time: -1"),
                "s.yaml:17:37: compare.tolerance.sliding_time: must be >= 0, got -1");
   const auto tolerance =
-      parse_scenario(scene("sliding_time: 2 ms, final_velocity.x: 3 %, energy_drift: 1e-3"), "s.yaml")
+      parse_scenario(scene("sliding_time: 2 ms, final_velocity.x: 3 %, energy_drift: 1e-3"),
+                     "s.yaml")
           .compare.tolerance;
   EXPECT_TRUE(tolerance.at("sliding_time").absolute);
   EXPECT_EQ(tolerance.at("sliding_time").value, 0.002);
@@ -146,9 +154,9 @@ TEST(Fault, Tolerance) {
 }
 
 TEST(Fault, ShowsLongAndStrangeValues) {
-  expect_fault(with(kHard, "radius: 0.1", "radius: " + std::string(500, 'x')),
-               "s.yaml:14:49: bodies[0].sphere.radius: must be a number, got " +
-                   std::string(60, 'x') + "…");
+  expect_fault(
+      with(kHard, "radius: 0.1", "radius: " + std::string(500, 'x')),
+      "s.yaml:14:49: bodies[0].sphere.radius: must be a number, got " + std::string(60, 'x') + "…");
   expect_fault(with(kHard, "radius: 0.1", R"(radius: "\e[31m\0\x9b\n")"),
                "s.yaml:14:49: bodies[0].sphere.radius: must be a number, got "
                R"("\x1b[31m\x00\x9b\n")");

@@ -65,9 +65,11 @@ TEST(Fill, IsTheSameOnEveryMachine) {
 
 TEST(Fill, StandsAmongBodiesToo) {
   const std::string entry =
-      "  - fill: {prefix: g, count: 30, material: steel, radius: 0.02, area: [-0.3, -0.3, 0.3, 0.3], "
+      "  - fill: {prefix: g, count: 30, material: steel, radius: 0.02, area: [-0.3, -0.3, 0.3, "
+      "0.3], "
       "spin: rolling, speed: 1}\n";
-  const Scenario scene = parse_scenario(with(kHard, "  - {name: a,", entry + "  - {name: a,"), "s.yaml");
+  const Scenario scene =
+      parse_scenario(with(kHard, "  - {name: a,", entry + "  - {name: a,"), "s.yaml");
   ASSERT_EQ(scene.bodies.size(), 32u);
   EXPECT_EQ(scene.bodies[0].name, "g1");
   EXPECT_EQ(scene.bodies[30].name, "a");
@@ -79,10 +81,11 @@ TEST(Fill, StandsAmongBodiesToo) {
 }
 
 TEST(Fill, FillsAContainer) {
-  const Scenario scene = parse_scenario(
-      with(kContainer, "run:", "fill: [{prefix: g, count: 20, material: steel, radius: 0.3 mm, area: "
-                               "[0, 0, 1, 8 mm], speed: 0.1}]\nrun:"),
-      "s.yaml");
+  const Scenario scene =
+      parse_scenario(with(kContainer, "run:",
+                          "fill: [{prefix: g, count: 20, material: steel, radius: 0.3 mm, area: "
+                          "[0, 0, 1, 8 mm], speed: 0.1}]\nrun:"),
+                     "s.yaml");
   ASSERT_EQ(scene.bodies.size(), 22u);
   for (const Body& body : scene.bodies) {
     EXPECT_EQ(body.initial.position.y(), 0);
@@ -97,7 +100,7 @@ TEST(Fill, RefusesWhatDoesNotFit) {
   const auto faults = messages(with(kGas, "count: 50", "count: 1000000"));
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].substr(0, 69),
-            "s.yaml:11:88: fill.area: must have room for 1000000 bodies, but only ");
+            "s.yaml:11:93: fill.area: must have room for 1000000 bodies, but only ");
   expect_fault(with(kGas, "count: 50", "count: 2000000"),
                "s.yaml:11:26: fill.count: must be a whole number from 1 to 1000000, got 2000000");
   expect_fault(with(kGas, "[0, 0, 2, 2]", "[0, 0, -2, 2]"),
@@ -106,11 +109,14 @@ TEST(Fill, RefusesWhatDoesNotFit) {
   expect_fault(with(kGas, "[0.045, 0.055]", "[0.055, 0.045]"),
                "s.yaml:11:65: fill.radius.uniform: must have the smaller radius first, got [0.055, "
                "0.045]");
-  expect_fault(with(with(kGas, "periodic: [2, 2]", ""), "[0, 0, 2, 2]", "[0, 0, 1e20, 2]"),
-               "s.yaml:11:88: fill.area: must be at most 1e9 diameters across, got [0, 0, 1e20, 2]");
-  expect_fault(with(kGas, "run:", "bodies: [{name: g7, material: steel, sphere: {radius: 0.1}, "
-                                  "position: [0, 0]}]\nrun:"),
-               "s.yaml:11:16: fill.prefix: must give unique names, but g7 is also in bodies[0], got g");
+  expect_fault(
+      with(with(kGas, "periodic: [2, 2]", ""), "[0, 0, 2, 2]", "[0, 0, 1e20, 2]"),
+      "s.yaml:11:88: fill.area: must be at most 1e9 diameters across, got [0, 0, 1e20, 2]");
+  expect_fault(
+      with(kGas, "run:",
+           "bodies: [{name: g7, material: steel, sphere: {radius: 0.1}, "
+           "position: [0, 0]}]\nrun:"),
+      "s.yaml:11:16: fill.prefix: must give unique names, but g7 is also in bodies[0], got g");
 }
 
 TEST(Fill, TakesManyBodies) {

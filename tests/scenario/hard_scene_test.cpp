@@ -1,1 +1,147 @@
-#include <gtest/gtest.h>
+#include "scenario/hard_scene.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "scenes.h"
+
+namespace slipcheck {
+namespace {
+
+using testing::kContainer;
+using testing::kExample;
+using testing::kHard;
+using testing::with;
+
+HardScene hard_scene(const std::string& text) {
+  return make_hard_scene(parse_scenario(text, "s.yaml"));
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    hard_scene(text);
+  } catch (const Unsupported& unsupported) {
+    return unsupported.what();
+  }
+  return "";
+}
+
+TEST(HardScene, HasTheNumbersOfTheScenario) {
+  const HardScene scene =
+      hard_scene(with(kHard, "friction: 0.2",
+                      "friction: {static: 0.3, kinetic: 0.2}\n"
+                      "    rolling: [[0, 0.1], [1, 0.2]]\n"
+                      "    drilling: {model: uncoupled, contact_radius: 0.003}\n"
+                      "    restitution: 0.4"));
+  ASSERT_EQ(scene.bodies.size(), 2u);
+  EXPECT_EQ(scene.bodies[0].radius, 0.1);
+  EXPECT_EQ(scene.initial[1].velocity, Vector3(-1, 0, 0));
+  EXPECT_EQ(scene.gravity, 9.80665);
+  EXPECT_FALSE(scene.confined);
+  const SubstrateContact& ground = scene.on_substrate(0);
+  EXPECT_EQ(ground.static_friction, 0.3);
+  EXPECT_EQ(ground.kinetic_friction, 0.2);
+  EXPECT_EQ(ground.restitution, 0.4);
+  ASSERT_EQ(ground.rolling.points().size(), 2u);
+  EXPECT_EQ(ground.rolling.points()[1].coefficient, 0.2);
+  EXPECT_DOUBLE_EQ(ground.drilling_length, 2.0 / 3 * 0.2 * 0.003);
+  const PairContact& pair = scene.between(0, 1);
+  EXPECT_EQ(std::get<double>(pair.restitution), 0.9);
+  EXPECT_EQ(pair.friction, 0.1);
+  EXPECT_EQ(pair.tangential_restitution, 0.5);
+}
+
+TEST(HardScene, WithoutTangentialModelIsSmooth) {
+  const HardScene scene =
+      hard_scene(with(kHard, "{model: hard, friction: 0.1, tangential_restitution: 0.5}", "none"));
+  EXPECT_EQ(scene.between(0, 1).friction, 0);
+  EXPECT_EQ(scene.between(0, 1).tangential_restitution, -1);
+}
+
+TEST(HardScene, PassesThePowerLawOn) {
+  const HardScene scene =
+      hard_scene(with(kHard, "restitution: 0.9", "restitution: {bridges: {speed: 2 cm/s}}"));
+  EXPECT_EQ(std::get<PowerLawRestitution>(scene.between(0, 1).restitution).speed, 0.02);
+}
+
+TEST(HardScene, SplitsAMaterialWhereTheContactRadiusIsHertzian) {
+  std::string text =
+      with(kHard, "{density: 7850}", "{density: 7850, young_modulus: 2e11, poisson_ratio: 0.3}");
+  text = with(text, "friction: 0.2",
+              "friction: 0.2\n    drilling: {model: uncoupled, contact_radius: hertz}");
+  EXPECT_EQ(hard_scene(text).substrate.size(), 1u);
+  text = with(text, "radius: 0.1", "radius: 0.2");
+  const HardScene scene = hard_scene(text);
+  ASSERT_EQ(scene.substrate.size(), 2u);
+  for (const std::size_t i : {0u, 1u}) {
+    // Hertz, sphere on a rigid plane: F = (4/3) E* a³/R with E* = Y/(1 − ν²).
+    const Sphere& sphere = scene.bodies[i];
+    const double a = scene.on_substrate(i).drilling_length / (3 * std::numbers::pi / 16 * 0.2);
+    const double force = 4.0 / 3 * 2e11 / (1 - 0.09) * a * a * a / sphere.radius;
+    EXPECT_NEAR(force / (sphere.mass * 9.80665), 1, 1e-14);
+  }
+  for (const std::size_t i : {0u, 1u}) {
+    for (const std::size_t j : {0u, 1u}) EXPECT_EQ(scene.between(i, j).friction, 0.1);
+  }
+}
+
+TEST(HardScene, NeedsNoPairContactForASingleBody) {
+  std::string text =
+      with(kHard,
+           "  - between: [steel, steel]\n    normal: {model: hard, restitution: 0.9}\n"
+           "    tangential: {model: hard, friction: 0.1, tangential_restitution: 0.5}\n",
+           "");
+  text = with(text,
+              "  - {name: b, material: steel, sphere: {radius: 0.1}, position: [1, 0], velocity: "
+              "[-1, 0]}\n",
+              "");
+  EXPECT_EQ(hard_scene(text).between(0, 0).friction, 0);
+}
+
+TEST(HardScene, NamesAllThatItCannotSolve) {
+  EXPECT_EQ(
+      refusal(kExample),
+      "s.yaml:13:14: contacts[0].normal.model: only the normal model hard can be solved, got "
+      "linear\n"
+      "s.yaml:14:18: contacts[0].tangential.model: only the tangential models none and hard can "
+      "be solved, got viscous\n"
+      "s.yaml:23:3: substrate.tilt: only a level substrate can be solved, got 5 deg\n"
+      "s.yaml:25:12: substrate.motion.kind: only a still substrate can be solved, got "
+      "oscillate");
+}
+
+TEST(HardScene, NamesEachThatItCannotSolve) {
+  const auto substrate = [](const std::string& keys) {
+    return refusal(with(kHard, "substrate: {}", "substrate: {" + keys + "}"));
+  };
+  EXPECT_EQ(substrate("confined: true"), "");
+  EXPECT_EQ(substrate("motion: {kind: constant, velocity: [0, 0]}"), "");
+  EXPECT_EQ(
+      substrate("motion: {kind: constant, velocity: [1, 0]}"),
+      "s.yaml:12:22: substrate.motion.kind: only a still substrate can be solved, got constant");
+  EXPECT_EQ(substrate("periodic: [9, 9]"),
+            "s.yaml:12:13: substrate.periodic: only an unbounded substrate can be solved, got a "
+            "periodic cell");
+  const auto ground = [](const std::string& keys) {
+    return refusal(with(kHard, "friction: 0.2", "friction: 0.2\n    " + keys));
+  };
+  EXPECT_EQ(ground("rolling: {coefficient: 0, while_sliding: true}"), "");
+  EXPECT_EQ(ground("rolling: {coefficient: 0.1, while_sliding: true}"),
+            "s.yaml:12:33: contacts[1].rolling.while_sliding: rolling friction on a sliding body "
+            "cannot be solved, got true");
+  EXPECT_EQ(ground("drilling: {model: coupled, contact_radius: 1 mm}"),
+            "s.yaml:12:16: contacts[1].drilling.model: only none and uncoupled can be solved, got "
+            "coupled");
+  EXPECT_EQ(refusal(kHard + "compare: {reference: contact}\n"),
+            "s.yaml:17:11: compare.reference: resolved contacts cannot be solved, got contact");
+  EXPECT_EQ(refusal(kContainer),
+            "s.yaml:10:1: container: only an unbounded substrate can be solved, got a container");
+  const std::string elastic =
+      with(kHard, "{density: 7850}", "{density: 7850, young_modulus: 2e11, poisson_ratio: 0.3}");
+  EXPECT_EQ(refusal(with(elastic, "restitution: 0.9", "restitution: viscoelastic")),
+            "s.yaml:8:27: contacts[0].normal.restitution: only a number or {bridges: …} can be "
+            "solved, got viscoelastic");
+}
+
+}  // namespace
+}  // namespace slipcheck

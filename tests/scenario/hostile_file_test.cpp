@@ -93,8 +93,7 @@ TEST_F(HostileFile, NoYaml) {
   EXPECT_EQ(fault[0].substr(0, 24), "s.yaml:2:2: must be YAML");
 }
 TEST_F(HostileFile, SeveralDocuments) {
-  EXPECT_EQ(refusal(write(kHard + "---\n" + kHard)),
-            "a file holds one scene, one YAML document");
+  EXPECT_EQ(refusal(write(kHard + "---\n" + kHard)), "a file holds one scene, one YAML document");
 }
 TEST_F(HostileFile, Tags) {
   EXPECT_EQ(refusal(write(with(kHard, "title: ", "title: !!python/object:os.system "))),
@@ -141,7 +140,7 @@ TEST_F(HostileFile, ManyFaultsAreCutShort) {
 }
 TEST_F(HostileFile, ManyBodies) {
   // As many as fit: within the limits, and quick.
-  std::string text = kHard.substr(0, kHard.find("  - {name: a")) ;
+  std::string text = kHard.substr(0, kHard.find("  - {name: a"));
   for (int i = 0; i < 9'000; ++i) {
     text += fmt::format(
         "  - {{name: n{}, material: steel, sphere: {{radius: 0.1}}, position: [{}, {}]}}\n", i,

@@ -1,6 +1,9 @@
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
+#include "scenario/file_text.h"
 #include "scenes.h"
 
 namespace slipcheck {
@@ -73,6 +76,21 @@ TEST(Load, ReadsTheExampleOfTheDocumentation) {
   EXPECT_EQ(scene.compare.tolerance.at("effective_restitution").value, 0.005);
 }
 
+TEST(Load, TheDocumentationShowsThisExample) {
+  std::ifstream file(SLIPCHECK_SOURCE_DIR "/docs/scenario-format.md");
+  const std::string document{std::istreambuf_iterator<char>(file), {}};
+  const std::string fence = "```yaml\n";
+  std::size_t scenes = 0;
+  for (std::size_t at = 0; (at = document.find(fence, at)) != std::string::npos;) {
+    at += fence.size();
+    const std::string block = document.substr(at, document.find("```", at) - at);
+    if (!block.starts_with("slipcheck: 1")) continue;
+    ++scenes;
+    EXPECT_EQ(parse_scenario(block, "docs").title, parse_scenario(kExample, "s.yaml").title);
+  }
+  EXPECT_EQ(scenes, 1u);
+}
+
 TEST(Load, KnowsWhereEachKeyStands) {
   const Scenario scene = parse_scenario(kExample, "s.yaml");
   const Location model = scene.locations.at("contacts[0].normal.model");
@@ -84,11 +102,10 @@ TEST(Load, KnowsWhereEachKeyStands) {
 }
 
 TEST(Load, HashesTheBytesOfTheFile) {
-  // printf 'slipcheck…' | sha256sum would do; here: the hash changes with a comment, and is hex.
-  const std::string hash = parse_scenario(kHard, "s.yaml").sha256;
-  EXPECT_EQ(hash.size(), 64u);
-  EXPECT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos);
-  EXPECT_NE(parse_scenario(kHard + "# changed\n", "s.yaml").sha256, hash);
+  // FIPS 180-2, appendix B.1.
+  EXPECT_EQ(sha256_hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(parse_scenario("\xEF\xBB\xBF" + kHard, "s.yaml").sha256,
+            sha256_hex("\xEF\xBB\xBF" + kHard));
 }
 
 TEST(Load, HasTheDefaultsOfTheStructs) {
@@ -98,8 +115,7 @@ TEST(Load, HasTheDefaultsOfTheStructs) {
   EXPECT_EQ(scene.substrate_contacts[0].friction.static_, 0.2);
   EXPECT_EQ(scene.substrate_contacts[0].friction.kinetic, 0.2);
   EXPECT_TRUE(scene.compare.engines.empty());
-  EXPECT_TRUE(std::holds_alternative<StillMotion>(
-      std::get<Substrate>(scene.surroundings).motion));
+  EXPECT_TRUE(std::holds_alternative<StillMotion>(std::get<Substrate>(scene.surroundings).motion));
   EXPECT_EQ(scene.bodies[0].initial.velocity, Vector3(0, 0, 0));
 }
 
@@ -137,8 +153,8 @@ TEST(Load, ResolvesAliases) {
 
 TEST(Load, ResolvesARollingBodyOnAMovingSubstrate) {
   // u = v + R k̂×Ω − v_S = 0 with v_S(0) = (0.5, 0): Ω_y = (v_x − 0.5)/R.
-  std::string text = with(kHard, "substrate: {}",
-                          "substrate: {motion: {kind: constant, velocity: [0.5, 0]}}");
+  std::string text =
+      with(kHard, "substrate: {}", "substrate: {motion: {kind: constant, velocity: [0.5, 0]}}");
   text = with(text, "velocity: [-1, 0]", "velocity: [-1, 0], spin: rolling");
   EXPECT_DOUBLE_EQ(parse_scenario(text, "s.yaml").bodies[1].initial.angular_velocity.y(), -15);
   text = with(text, "{kind: constant, velocity: [0.5, 0]}",
@@ -160,7 +176,8 @@ bodies:
   - {name: b, material: m, sphere: {radius: @length}, mass: @mass, position: [3, 3000], spin: rolling}
 run: {until: 2}
 )";
-  const auto scene = [&](const char* units, std::vector<std::pair<std::string, std::string>> values) {
+  const auto scene = [&](const char* units,
+                         std::vector<std::pair<std::string, std::string>> values) {
     std::string text = std::string("slipcheck: 1\nname: n\ntitle: t\nunits: ") + units + kBody;
     for (const auto& [key, value] : values) {
       for (std::size_t at; (at = text.find("@" + key)) != std::string::npos;) {
@@ -169,22 +186,35 @@ run: {until: 2}
     }
     return parse_scenario(text, "s.yaml");
   };
-  const Scenario si = scene("si", {{"density", "7850"}, {"young", "2.06e11"}, {"modulus", "3e9"},
-                                   {"viscosity", "50"}, {"rough", "0.7"}, {"length", "0.023"},
-                                   {"speed", "0.17"}, {"mass", "0.31"}});
+  const Scenario si = scene("si", {{"density", "7850"},
+                                   {"young", "2.06e11"},
+                                   {"modulus", "3e9"},
+                                   {"viscosity", "50"},
+                                   {"rough", "0.7"},
+                                   {"length", "0.023"},
+                                   {"speed", "0.17"},
+                                   {"mass", "0.31"}});
   // N/m^1.5 = 1e5 dyn/(1e3 cm^1.5), N s/m^1.5 likewise, m^-0.5 = 0.1 cm^-0.5.
-  const Scenario cgs = scene("cgs", {{"density", "7.85"}, {"young", "2.06e12"}, {"modulus", "3e11"},
-                                     {"viscosity", "5000"}, {"rough", "0.07"}, {"length", "2.3"},
-                                     {"speed", "17"}, {"mass", "310"}});
-  const Scenario text = scene(
-      "cgs", {{"density", "7.85 g/cm3"}, {"young", "206 GPa"}, {"modulus", "3e9 N/m^1.5"},
-              {"viscosity", "50 N s/m^1.5"}, {"rough", "0.7 m^-0.5"}, {"length", "23 mm"},
-              {"speed", "170 mm/s"}, {"mass", "310 g"}});
+  const Scenario cgs = scene("cgs", {{"density", "7.85"},
+                                     {"young", "2.06e12"},
+                                     {"modulus", "3e11"},
+                                     {"viscosity", "5000"},
+                                     {"rough", "0.07"},
+                                     {"length", "2.3"},
+                                     {"speed", "17"},
+                                     {"mass", "310"}});
+  const Scenario text = scene("cgs", {{"density", "7.85 g/cm3"},
+                                      {"young", "206 GPa"},
+                                      {"modulus", "3e9 N/m^1.5"},
+                                      {"viscosity", "50 N s/m^1.5"},
+                                      {"rough", "0.7 m^-0.5"},
+                                      {"length", "23 mm"},
+                                      {"speed", "170 mm/s"},
+                                      {"mass", "310 g"}});
   const auto values = [](const Scenario& from) {
     const auto& power = std::get<PowerNormal>(from.contacts[0].normal);
     const auto& asperity = std::get<AsperityTangential>(from.contacts[0].tangential);
-    const auto& motion =
-        std::get<OscillatingMotion>(std::get<Substrate>(from.surroundings).motion);
+    const auto& motion = std::get<OscillatingMotion>(std::get<Substrate>(from.surroundings).motion);
     const Body& a = from.bodies[0];
     return std::vector<double>{*from.materials.at("m").density,
                                *from.materials.at("m").young_modulus,

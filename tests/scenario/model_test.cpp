@@ -10,13 +10,14 @@ using testing::with;
 
 Scenario with_materials(std::string text) {
   return parse_scenario(
-      with(text, "{density: 7850}",
-           "{density: 7850, young_modulus: 2e11, poisson_ratio: 0.3}"),
+      with(text, "{density: 7850}", "{density: 7850, young_modulus: 2e11, poisson_ratio: 0.3}"),
       "s.yaml");
 }
 Scenario with_normal(const std::string& normal) {
-  const std::string text = with(kHard, "tangential: {model: hard, friction: 0.1, "
-                                       "tangential_restitution: 0.5}", "");
+  const std::string text = with(kHard,
+                                "tangential: {model: hard, friction: 0.1, "
+                                "tangential_restitution: 0.5}",
+                                "");
   return with_materials(with(text, "{model: hard, restitution: 0.9}", normal));
 }
 Scenario with_tangential(const std::string& tangential) {
@@ -81,8 +82,8 @@ TEST(Models, ViscoelasticNormal) {
   const auto one = normal<ViscoelasticNormal>("{model: viscoelastic, dissipation_time: 1e-6}");
   EXPECT_EQ(one.dissipation_time, 1e-6);
   EXPECT_EQ(one.form, Form::expanded);
-  const auto other = normal<ViscoelasticNormal>(
-      "{model: viscoelastic, viscosity: [1e3, 2 kPa s], form: compact}");
+  const auto other =
+      normal<ViscoelasticNormal>("{model: viscoelastic, viscosity: [1e3, 2 kPa s], form: compact}");
   EXPECT_EQ(other.viscosity, std::make_pair(1e3, 2e3));
   EXPECT_EQ(other.form, Form::compact);
 }
@@ -113,7 +114,8 @@ TEST(Models, RollingFriction) {
   EXPECT_EQ(on_substrate("friction: 0.2\n    rolling: 0.1").rolling.table, (Table{{0, 0.1}}));
   EXPECT_EQ(on_substrate("friction: 0.2\n    rolling: [[0, 0.1], [1, 0.2]]").rolling.table,
             (Table{{0, 0.1}, {1, 0.2}}));
-  const auto law = on_substrate("friction: 0.2\n    rolling: {coefficient: [[0, 0.1], [1, 0.2]], while_sliding: true}");
+  const auto law = on_substrate(
+      "friction: 0.2\n    rolling: {coefficient: [[0, 0.1], [1, 0.2]], while_sliding: true}");
   EXPECT_EQ(law.rolling.table.size(), 2u);
   EXPECT_TRUE(law.rolling.while_sliding);
 }
@@ -143,8 +145,8 @@ TEST(Models, Motion) {
 
 TEST(Models, Inertia) {
   const auto factor = [](const std::string& inertia) {
-    return parse_scenario(
-               with(kHard, "{radius: 0.1}", "{radius: 0.1, inertia: " + inertia + "}"), "s.yaml")
+    return parse_scenario(with(kHard, "{radius: 0.1}", "{radius: 0.1, inertia: " + inertia + "}"),
+                          "s.yaml")
         .bodies[0]
         .sphere.shape_factor;
   };

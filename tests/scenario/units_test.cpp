@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <numbers>
 
 namespace slipcheck {
@@ -73,8 +75,7 @@ TEST(Units, RefusesTheWrongDimension) {
   EXPECT_EQ(refusal("60 rpm", kFrequency), "must be a frequency, as in \"5 Hz\"");
   EXPECT_EQ(refusal("5 deg", kPureNumber), "must be a number, as in \"1 %\"");
   EXPECT_EQ(refusal("0.1 rad", kPureNumber), "must be a number, as in \"1 %\"");
-  EXPECT_EQ(refusal("31 Hz", kAngularVelocity),
-            "must be an angular velocity, as in \"50 rad/s\"");
+  EXPECT_EQ(refusal("31 Hz", kAngularVelocity), "must be an angular velocity, as in \"50 rad/s\"");
   EXPECT_EQ(refusal("1 %", kAngle), "must be an angle, as in \"0.1 rad\"");
   EXPECT_EQ(refusal("5 K", kLength), "must be in units of mass, length, time and angle");
 }
@@ -89,6 +90,18 @@ TEST(Units, RefusesWhatIsNoMultiple) {
   EXPECT_NE(refusal("0x10", kLength), "");
   EXPECT_NE(refusal("1,5 m", kLength), "");
   EXPECT_NE(refusal("1 000 m", kLength), "");
+}
+
+TEST(UnitsDeathTest, AMissingDataBaseIsAFault) {
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";  // a process that has not loaded it yet
+  EXPECT_EXIT(
+      {
+        setenv("UDUNITS2_XML_PATH", "/nonexistent", 1);
+        const bool bare = !parse_quantity("2", kLength).has_unit;  // needs no data base
+        std::fprintf(stderr, "%d %s", bare, refusal("2 mm", kLength).c_str());
+        std::exit(0);
+      },
+      ::testing::ExitedWithCode(0), "1 needs the UDUNITS-2 data base to read a unit");
 }
 
 TEST(Numbers, AreDecimalFiniteAndWhole) {

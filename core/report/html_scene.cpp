@@ -1,0 +1,230 @@
+#include "report/html_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/comparison_rows.h"
+#include "report/html_text.h"
+#include "report/phase_spread.h"
+#include "report/scene_drawing.h"
+#include "report/selection.h"
+#include "report/strip_chart.h"
+
+namespace slipcheck {
+namespace {
+
+// What keeps the page of a scene of many bodies readable; the result file has everything.
+constexpr std::size_t kMostCharts = 8;
+constexpr std::size_t kMostRows = 40;
+
+std::string list(const std::string& head, const std::vector<std::string>& items,
+                 const char* css_class) {
+  if (items.empty()) return {};
+  std::string html =
+      fmt::format("<div class=\"{}\"><strong>{}</strong><ul>", css_class, escaped(head));
+  for (const std::string& item : items) html += "<li>" + escaped(item) + "</li>";
+  return html + "</ul></div>\n";
+}
+
+std::string reference_part(const SceneRecord& scene, const std::vector<std::string>& names) {
+  const ReferenceResult& reference = scene.reference;
+  const auto absent = absent_observables(scene);
+  std::vector<std::vector<HtmlCell>> rows;
+  for (const std::string& name : names) {
+    if (rows.size() == kMostRows) break;
+    const QuantityFormat format = format_for(scene, name, nullptr);
+    const auto reason = absent.find(name);
+    rows.push_back(
+        {{name, ""},
+         {reference_text(scene, name, format), "number"},
+         {reason != absent.end() ? reason->second : closed_form_text(reference, name, format),
+          "faint"}});
+  }
+  std::string html = "<div class=\"reference\"><h3>The reference</h3>\n" +
+                     html_paragraph("faint", "", reference_summary(reference));
+  html += html_table("Reference values",
+                     {{"observable", ""}, {"value", "number"}, {"closed form", ""}}, rows);
+  if (names.size() > rows.size())
+    html += html_paragraph("faint", "",
+                           fmt::format("… {} observables more", names.size() - rows.size()));
+  return html + list("Warnings", reference.warnings, "warnings") + "</div>\n";
+}
+
+/// What is charted first: effective restitution, then what is worst by its tolerance.
+std::vector<std::string> charted(const SceneRecord& scene, const std::vector<std::string>& names) {
+  struct Candidate {
+    std::string name;
+    bool is_first;
+    double severity;
+  };
+  std::vector<Candidate> candidates;
+  for (const std::string& name : names) {
+    Candidate candidate{name, name.ends_with(".effective_restitution"), 0};
+    bool has_tolerance = false;
+    for (const EngineRecord& run : scene.runs)
+      for (const ComparisonRow& row : comparison_rows(scene, run, {name})) {
+        has_tolerance |= row.mark != Mark::no_tolerance;
+        candidate.severity = std::fmax(candidate.severity, row.severity);
+      }
+    if (has_tolerance) candidates.push_back(std::move(candidate));
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return a.is_first != b.is_first ? a.is_first : a.severity > b.severity;
+  });
+  std::vector<std::string> result;
+  for (const Candidate& candidate : candidates) result.push_back(candidate.name);
+  return result;
+}
+
+std::string chart(const PhaseSpread& spread) {
+  const auto worst = std::max_element(
+      spread.runs.begin(), spread.runs.end(), [](const RunSpread& a, const RunSpread& b) {
+        return std::pair(a.outside, a.far_off) < std::pair(b.outside, b.far_off);
+      });
+  std::string html = fmt::format("<figure class=\"chart\"><h4>{}</h4>\n", escaped(spread.name));
+  html += strip_chart(spread) + "<figcaption>";
+  html += escaped(fmt::format("{}: {}", run_name(*worst->run), words_of(spread, *worst)));
+  for (const std::string& words : words_on_convergence(spread))
+    html += " <strong>" + escaped(words) + "</strong>";
+  return html + "</figcaption></figure>\n";
+}
+
+std::string charts_part(const SceneRecord& scene, const std::vector<std::string>& names) {
+  std::string html;
+  std::size_t drawn = 0, left_out = 0;
+  for (const std::string& name : charted(scene, names)) {
+    const auto spread = phase_spread(scene, name);
+    if (!spread) continue;
+    if (drawn == kMostCharts) {
+      ++left_out;
+      continue;
+    }
+    html += chart(*spread);
+    ++drawn;
+  }
+  if (html.empty()) return {};
+  std::string part = "<h3>Phase by phase</h3>\n";
+  part += html_paragraph(
+      "faint", "",
+      "Each mark is one run; the runs of a strip differ only in where within a time step the first "
+      "contact falls, from its beginning (top) to its end (bottom). The line is the reference, the "
+      "shaded band the tolerance: ● within, × outside, ◀ ▶ beyond the axis.");
+  part += "<div class=\"charts\">\n" + html + "</div>\n";
+  if (left_out > 0)
+    part += html_paragraph("faint", "",
+                           fmt::format("{} observables more are in the tables only.", left_out));
+  return part;
+}
+
+HtmlCell mark_cell(const ComparisonRow& row) {
+  const char* css_class = row.mark == Mark::within     ? "good"
+                          : row.mark == Mark::deviates ? "bad"
+                                                       : "faint";
+  return {std::string(symbol_of(row.mark)) + " " + word_of(row.mark), css_class};
+}
+
+std::string applied_settings(const Applied& applied) {
+  if (applied.settings.empty()) return {};
+  std::vector<std::vector<HtmlCell>> rows;
+  for (const auto& [name, setting] : applied.settings) {
+    std::string text;
+    if (const double* number = std::get_if<double>(&setting)) {
+      text = fmt::format("{}", *number);
+    } else if (const bool* flag = std::get_if<bool>(&setting)) {
+      text = *flag ? "true" : "false";
+    } else {
+      text = std::get<std::string>(setting);
+    }
+    rows.push_back({{name, ""}, {text, ""}});
+  }
+  return "<details><summary>Settings as applied [SI]</summary>\n" +
+         html_table("Settings as applied", {{"setting", ""}, {"value", ""}}, rows) + "</details>\n";
+}
+
+std::string run_table(const SceneRecord& scene, const EngineRecord& run,
+                      const std::vector<std::string>& names) {
+  std::vector<ComparisonRow> comparison = comparison_rows(scene, run, names);
+  const std::size_t count = comparison.size();
+  comparison = most_severe(std::move(comparison), kMostRows);
+  std::vector<std::vector<HtmlCell>> rows;
+  std::vector<std::string> notes;
+  for (const ComparisonRow& row : comparison) {
+    rows.push_back({{row.name, ""},
+                    {row.reference, "number"},
+                    {row.median, "number"},
+                    {row.spread, "number"},
+                    {row.worst, row.mark == Mark::deviates ? "number bad" : "number"},
+                    {row.tolerance, "number"},
+                    mark_cell(row)});
+    if (!row.note.empty()) notes.push_back(row.name + ": " + row.note);
+  }
+  if (count > rows.size())
+    notes.push_back(fmt::format("{} rows more, none more severe", count - rows.size()));
+  return html_table(run_name(run),
+                    {{"observable", ""},
+                     {"reference", "number"},
+                     {"median", "number"},
+                     {"min … max", "number"},
+                     {"max error", "number"},
+                     {"tolerance", "number"},
+                     {"verdict", ""}},
+                    rows) +
+         list("Notes", notes, "faint");
+}
+
+std::string run_part(const SceneRecord& scene, const EngineRecord& run,
+                     const std::vector<std::string>& names) {
+  using Status = EngineRecord::Status;
+  const bool ok = run.status == Status::ok;
+  const Mark mark = ok && run.within()              ? Mark::within
+                    : run.status == Status::skipped ? Mark::no_tolerance
+                                                    : Mark::deviates;
+  const char* css_class = mark == Mark::within ? "good" : mark == Mark::deviates ? "bad" : "faint";
+  const std::string word = ok ? word_of(mark) : status_text(run.status);
+  std::string html =
+      fmt::format("<section class=\"run\"><h4>{} <span class=\"{}\">{} {}</span></h4>\n",
+                  escaped(run_name(run)), css_class, symbol_of(mark), escaped(word));
+  if (ok) {
+    std::string cost = fmt::format("{} phase{}", run.phases, run.phases == 1 ? "" : "s");
+    if (const std::string each = step_cost(run); !each.empty()) cost += ", " + each;
+    html += html_paragraph("faint", "", cost) + run_table(scene, run, names);
+  } else {
+    html += html_paragraph("reason", status_text(run.status) + ":",
+                           run.reason.empty() ? "not known why" : run.reason);
+  }
+  html += list("Not represented", run.applied.not_represented, "missing");
+  html += list("Warnings", run.warnings, "warnings");
+  return html + applied_settings(run.applied) + "</section>\n";
+}
+
+}  // namespace
+
+std::string verdict_class(const SceneRecord& scene) { return name_of(scene.verdict()); }
+
+std::string verdict_label(const SceneRecord& scene) {
+  if (scene.runs.empty()) return "<span class=\"verdict\">– reference only</span>";
+  const char* symbol = scene.verdict() == Verdict::within     ? "✓"
+                       : scene.verdict() == Verdict::deviates ? "✗"
+                                                              : "⚠";
+  return fmt::format("<span class=\"verdict {0}\">{1} {0}</span>", verdict_class(scene), symbol);
+}
+
+std::string html_scene(const SceneRecord& scene, const std::string& id) {
+  const Scenario& scenario = scene.scenario;
+  const std::vector<std::string> names = shown_observables(scene, false);
+  std::string html =
+      fmt::format("<section class=\"scene {}\" id=\"{}\">\n<h2>{} {}</h2>\n", verdict_class(scene),
+                  escaped(id), escaped(scenario.name), verdict_label(scene));
+  html += html_paragraph("title", "", scenario.title);
+  html += html_paragraph("faint", "", scenario.source);
+  html += "<div class=\"setting\">\n" + scene_drawing(scenario) + reference_part(scene, names) +
+          "</div>\n";
+  html += charts_part(scene, names);
+  if (!scene.runs.empty()) html += "<h3>Engine by engine</h3>\n";
+  for (const EngineRecord& run : scene.runs) html += run_part(scene, run, names);
+  return html + "</section>\n";
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slipcheck {
+
+/// Text as it may stand in an element or a quoted attribute: whatever a scene or an engine says, it
+/// cannot become markup.
+std::string escaped(std::string_view text);
+
+/// <p class="…"><strong>head</strong> text</p>, both escaped; nothing for an empty text.
+std::string html_paragraph(std::string_view css_class, std::string_view head,
+                           std::string_view text);
+
+/// A cell of a table: escaped text and its class, if any.
+struct HtmlCell {
+  std::string text;
+  std::string css_class;
+};
+
+/// A table that scrolls by itself where it is wider than the screen, also by keyboard; `label` is
+/// what a screen reader calls it. The first cell of a row is its head.
+std::string html_table(std::string_view label, const std::vector<HtmlCell>& headers,
+                       const std::vector<std::vector<HtmlCell>>& rows);
+
+}  // namespace slipcheck

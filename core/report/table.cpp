@@ -1,0 +1,197 @@
+#include "report/table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "report/comparison_rows.h"
+#include "report/selection.h"
+#include "report/text.h"
+
+namespace slipcheck {
+namespace {
+
+/// A scene of many bodies would fill many screens; the most severe rows tell what there is to tell.
+constexpr std::size_t kMostRows = 20;
+
+constexpr std::size_t kIndent = 2;
+
+/// A paragraph under a head, each line indented to behind it.
+std::string paragraph(const std::string& head, const std::string& text, Ink ink,
+                      const TableStyle& style) {
+  const std::size_t indent = kIndent + display_width(head);
+  const auto width = static_cast<std::size_t>(std::max(style.width, 1));
+  std::string result;
+  for (const std::string& line : wrapped(printable(text), width > indent ? width - indent : 1)) {
+    result += result.empty() ? std::string(kIndent, ' ') + inked(head, ink, style)
+                             : std::string(indent, ' ');
+    result += line + '\n';
+  }
+  return result;
+}
+
+std::string warnings_text(const std::vector<std::string>& warnings, const TableStyle& style) {
+  std::string result;
+  for (const std::string& warning : warnings) result += paragraph("! ", warning, Ink::bad, style);
+  return result;
+}
+
+std::string more_rows(std::size_t count) {
+  return fmt::format("{} rows more, none more severe", count);
+}
+
+std::string reference_block(const SceneRecord& scene, const std::vector<std::string>& names,
+                            const TableStyle& style) {
+  const ReferenceResult& reference = scene.reference;
+  std::string result = paragraph("reference  ", reference_summary(reference), Ink::strong, style);
+
+  const auto absent = absent_observables(scene);
+  std::vector<std::vector<Cell>> rows;
+  bool any_closed_form = false;
+  for (const std::string& name : names) {
+    if (!style.all_observables && rows.size() == kMostRows) break;
+    const QuantityFormat format = format_for(scene, name, nullptr);
+    std::string closed_form = closed_form_text(reference, name, format);
+    any_closed_form |= !closed_form.empty();
+    if (const auto found = absent.find(name); found != absent.end()) closed_form = found->second;
+    rows.push_back({{name}, {reference_text(scene, name, format)}, {closed_form, Ink::faint}});
+  }
+  if (rows.empty()) return result + warnings_text(reference.warnings, style);
+  const std::size_t left_out = names.size() - rows.size();
+  result +=
+      aligned({{"observable"}, {"value", true}, {any_closed_form ? "closed form" : "", false, 1}},
+              std::move(rows), style, 2 * kIndent);
+  if (left_out > 0)
+    result += paragraph("  … ", fmt::format("{} observables more", left_out), Ink::faint, style);
+  return result + warnings_text(reference.warnings, style);
+}
+
+Ink ink_of(Mark mark) {
+  return mark == Mark::within ? Ink::good : mark == Mark::deviates ? Ink::bad : Ink::faint;
+}
+
+std::string rows_text(std::vector<ComparisonRow> comparison, const TableStyle& style) {
+  std::vector<std::vector<Cell>> rows;
+  std::string notes;
+  for (const ComparisonRow& row : comparison) {
+    const Ink ink = ink_of(row.mark);
+    const Ink error_ink = row.mark == Mark::deviates ? Ink::bad : Ink::plain;
+    rows.push_back({{row.name},
+                    {row.reference},
+                    {row.median},
+                    {row.spread},
+                    {row.worst, error_ink},
+                    {row.tolerance},
+                    {symbol_of(row.mark), ink},
+                    {word_of(row.mark), ink}});
+    if (!row.note.empty()) notes += paragraph("  " + row.name + ": ", row.note, Ink::faint, style);
+  }
+  return aligned({{"observable"},
+                  {"reference", true},
+                  {"median", true, 2},
+                  {"min … max", true},
+                  {"max error", true},
+                  {"tolerance", true, 1},
+                  {""},
+                  {"", false, 3}},
+                 std::move(rows), style, 2 * kIndent) +
+         notes;
+}
+
+std::string run_block(const SceneRecord& scene, const EngineRecord& run,
+                      const std::vector<std::string>& names, const TableStyle& style) {
+  using Status = EngineRecord::Status;
+  const bool ok = run.status == Status::ok;
+  std::string head = run_name(run);
+  if (ok) head += fmt::format(", {} phase{}", run.phases, run.phases == 1 ? "" : "s");
+  if (const std::string cost = step_cost(run); ok && !cost.empty()) head += ", " + cost;
+
+  std::string result = "\n";
+  const auto width = static_cast<std::size_t>(std::max(style.width, 1));
+  for (const std::string& line : wrapped(head, width > kIndent ? width - kIndent : 1))
+    result += std::string(kIndent, ' ') + inked(line, Ink::strong, style) + '\n';
+  if (!ok) {
+    const Ink ink = run.status == Status::skipped ? Ink::faint : Ink::bad;
+    const char* symbol = run.status == Status::skipped ? "– " : "✗ ";
+    result += paragraph("  " + std::string(symbol) + status_text(run.status) + ": ",
+                        run.reason.empty() ? "not known why" : run.reason, ink, style);
+  } else {
+    std::vector<ComparisonRow> rows = comparison_rows(scene, run, names);
+    const std::size_t count = rows.size();
+    if (!style.all_observables) rows = most_severe(std::move(rows), kMostRows);
+    const std::size_t left_out = count - rows.size();
+    if (!rows.empty()) result += rows_text(std::move(rows), style);
+    if (left_out > 0) result += paragraph("  … ", more_rows(left_out), Ink::faint, style);
+  }
+  if (!run.applied.not_represented.empty())
+    result += paragraph(
+        "  not represented: ", fmt::format("{}", fmt::join(run.applied.not_represented, ", ")),
+        Ink::faint, style);
+  return result + warnings_text(run.warnings, style);
+}
+
+std::string verdict_text(const SceneRecord& scene, const TableStyle& style) {
+  if (scene.runs.empty()) return inked("reference only", Ink::faint, style);
+  switch (scene.verdict()) {
+    case Verdict::within:
+      return inked("✓ within", Ink::good, style);
+    case Verdict::deviates:
+      return inked("✗ DEVIATES", Ink::bad, style);
+    case Verdict::failed:
+      break;
+  }
+  return inked("✗ FAILED", Ink::bad, style);
+}
+
+std::string plural(std::size_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string table_of(const SceneRecord& scene, const TableStyle& style) {
+  const Scenario& scenario = scene.scenario;
+  std::string result = inked(printable(scenario.name), Ink::strong, style) + "  " +
+                       verdict_text(scene, style) + '\n';
+  if (!scenario.title.empty()) result += paragraph("", scenario.title, Ink::plain, style);
+  if (!scenario.source.empty()) result += paragraph("", scenario.source, Ink::plain, style);
+  result += '\n';
+  const std::vector<std::string> names = shown_observables(scene, style.all_observables);
+  result += reference_block(scene, names, style);
+  for (const EngineRecord& run : scene.runs) result += run_block(scene, run, names, style);
+  return result;
+}
+
+std::string summary_of(const std::vector<SceneRecord>& scenes, const TableStyle& style) {
+  using Status = EngineRecord::Status;
+  std::array<std::size_t, 3> verdicts{};
+  std::size_t runs = 0, deviating = 0, skipped = 0, failed = 0;
+  for (const SceneRecord& scene : scenes) {
+    ++verdicts[static_cast<std::size_t>(scene.verdict())];
+    for (const EngineRecord& run : scene.runs) {
+      ++runs;
+      if (run.status == Status::skipped) {
+        ++skipped;
+      } else if (run.status != Status::ok) {
+        ++failed;
+      } else if (!run.within()) {
+        ++deviating;
+      }
+    }
+  }
+  const auto count = [&](std::size_t number, const char* what, Ink ink) {
+    return inked(fmt::format("{} {}", number, what), number > 0 ? ink : Ink::plain, style);
+  };
+  return fmt::format("{}: {}, {}, {}; {}: {}, {}, {}, {}\n", plural(scenes.size(), "scene"),
+                     count(verdicts[0], "within", Ink::good),
+                     count(verdicts[1], "deviate", Ink::bad),
+                     count(verdicts[2], "failed", Ink::bad), plural(runs, "engine run"),
+                     count(runs - deviating - failed - skipped, "within", Ink::good),
+                     count(deviating, "deviate", Ink::bad), count(failed, "failed", Ink::bad),
+                     count(skipped, "skipped", Ink::faint));
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,60 @@
+#include "harness/reference_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <cmath>
+
+#include "../scenes.h"
+
+namespace slipcheck {
+namespace {
+
+TEST(ReferenceRun, UncertaintyIsOfRoundingAndCoversTheClosedForm) {
+  const ReferenceResult result = run_reference(test::head_on(0.15, -0.15, 0.9),
+                                               {Run::Until::rolling, 0, 10}, {"i", "j"});
+  const UncertainValue e = result.observables.at("i-j.effective_restitution");
+  EXPECT_NEAR(e.value, (2.5 * 0.9 - 1) / 3.5, 1e-12);
+  EXPECT_GT(e.uncertainty, 0);
+  EXPECT_LT(e.uncertainty, 1e-13);
+  EXPECT_LE(std::abs(e.value - (2.5 * 0.9 - 1) / 3.5), 4 * e.uncertainty);
+  EXPECT_GT(result.cpu_seconds, 0);
+  EXPECT_NEAR(result.first_contact, 0.006 / 0.3, 1e-15);
+  EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+}
+
+TEST(ReferenceRun, AChaoticSceneSaysHowLittleItKnows) {
+  // A ball into a tight rack: which of the simultaneous blows comes first is up to rounding.
+  HardScene scene = test::steel_scene(7);
+  scene.initial[0] = test::rolling_at(-0.02, 0, 0.5, 0);
+  std::size_t n = 1;
+  for (int row = 0; row < 3; ++row)
+    for (int k = 0; k <= row; ++k, ++n)
+      scene.initial[n] =
+          test::rolling_at(row * 0.004 * std::sqrt(0.75), (k - 0.5 * row) * 0.004, 0, 0);
+  const ReferenceResult result = run_reference(
+      scene, {Run::Until::rolling, 0, 10}, {"cue", "a", "b", "c", "d", "e", "f"});
+  double worst = 0;
+  for (const auto& [name, value] : result.observables)
+    if (name.find("rolling_velocity") != std::string::npos)
+      worst = std::max(worst, value.uncertainty);
+  EXPECT_GT(worst, 1e-3);
+}
+
+TEST(ReferenceRun, WarnsOfCollapseAndOfRunsThatDoNotEnd) {
+  const ReferenceResult collapse = run_reference(test::head_on(0.15, -0.15, 0.2),
+                                                 {Run::Until::rolling, 0, 10}, {"i", "j"});
+  ASSERT_EQ(collapse.warnings.size(), 1u);
+  EXPECT_NE(collapse.warnings[0].find("inelastic collapse"), std::string::npos);
+  HardScene frictionless = test::steel_scene(1);
+  frictionless.substrate[0].kinetic_friction = 0;
+  frictionless.initial[0].velocity.x() = 1;
+  const ReferenceResult endless =
+      run_reference(frictionless, {Run::Until::rolling, 0, 2}, {"i"});
+  ASSERT_EQ(endless.warnings.size(), 1u);
+  EXPECT_NE(endless.warnings[0].find("did not end"), std::string::npos);
+  EXPECT_EQ(endless.observables.count("i.sliding_time"), 0u);
+}
+
+}  // namespace
+}  // namespace slipcheck

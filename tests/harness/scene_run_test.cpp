@@ -1,0 +1,153 @@
+#include "harness/scene_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "scenario/fault.h"
+#include "scenario/hard_scene.h"
+#include "scenario/load.h"
+
+namespace slipcheck {
+namespace {
+
+std::string pair_scene(const std::string& engines, double speed = 15) {
+  return R"(slipcheck: 1
+name: pair
+title: A pair
+units: cgs
+gravity: 981
+materials: {steel: {density: 7.85}}
+contacts:
+  - {between: [steel, steel], normal: {model: hard, restitution: 0.9}, tangential: {model: none}}
+  - {between: [steel, substrate], friction: {static: 0.5, kinetic: 0.1}}
+substrate: {}
+bodies:
+  - {name: i, material: steel, sphere: {radius: 0.2}, position: [-0.95, 0], velocity: [)" +
+         std::to_string(speed) + R"(, 0], spin: rolling}
+  - {name: j, material: steel, sphere: {radius: 0.2}, position: [0.95, 0], velocity: [)" +
+         std::to_string(-speed) + R"(, 0], spin: rolling}
+run: {until: rolling, limit: 5}
+compare:
+  engines: [)" + engines +
+         R"(]
+  tolerance: {effective_restitution: 0.005, sliding_time: 1 %}
+)";
+}
+
+std::vector<SceneRecord> run(const std::string& text, std::size_t phases = 8) {
+  // Both workers: the program's directory holds Bullet's, its folder `faulty` the one that fails.
+  setenv("SLIPCHECK_ENGINE_PATH",
+         (std::string(SLIPCHECK_BINARY_DIR) + ":" + SLIPCHECK_BINARY_DIR + "/faulty").c_str(), 1);
+  RunOptions options;
+  options.phases = phases;
+  options.time_limit = 20;
+  options.limits.reply = 1;
+  return run_scenes({parse_scenario(text, "scene.yaml")}, options);
+}
+
+TEST(SceneRun, BulletsRestitutionIsALotteryOverThePhases) {
+  // Measured for Bullet 3.24 with its default settings in SI, double precision, 64 phases: e_eff
+  // from 0.358 to 0.498 at 240 Hz and at 16 kHz alike, 56 of 64 phases more than 5 % off. The first
+  // and the last of 64 strata are up to 2/64 of the lottery's 0.143 away from its ends.
+  const auto scenes =
+      run(pair_scene("{engine: bullet, precision: double, rate: [240, 16000]}"), 64);
+  ASSERT_EQ(scenes[0].runs.size(), 2u);
+  for (const EngineRecord& record : scenes[0].runs) {
+    ASSERT_EQ(record.status, EngineRecord::Status::ok) << record.reason;
+    EXPECT_EQ(record.phases, 64u);
+    EXPECT_EQ(record.version, "3.24");
+    EXPECT_GT(record.cpu_seconds, 0);
+    const EnsembleValue& e_eff = record.observables.at("i-j.effective_restitution");
+    EXPECT_NEAR(e_eff.min, 0.358, 0.0045);
+    EXPECT_NEAR(e_eff.max, 0.498, 0.0045);
+    const EnsembleValue& e_n = record.observables.at("i-j.restitution");
+    EXPECT_NEAR(e_n.min, 0.900, 0.00625);
+    EXPECT_NEAR(e_n.max, 1.098, 0.00625);
+    int off = 0;
+    for (double value : e_eff.values) off += std::abs(value / (1.25 / 3.5) - 1) > 0.05;
+    EXPECT_NEAR(off, 56, 2);
+  }
+  EXPECT_EQ(scenes[0].verdict(), Verdict::deviates);
+}
+
+TEST(SceneRun, BelowBulletsThresholdRestitutionIsLost) {
+  const auto scenes =
+      run(pair_scene("{engine: bullet, precision: double, rate: [240, 16000]}", 5), 64);
+  for (const EngineRecord& record : scenes[0].runs) {
+    const EnsembleValue& e_n = record.observables.at("i-j.restitution");
+    EXPECT_GE(e_n.min, -1e-9);
+    EXPECT_LE(e_n.min, 0.2 / 16);
+    EXPECT_LE(e_n.max, 0.2 + 1e-9);
+    EXPECT_GE(e_n.max, 0.19);
+  }
+}
+
+TEST(SceneRun, AKilledWorkerLeavesEveryOtherRunIntact) {
+  const std::string healthy = "{engine: bullet, precision: double, rate: [240, 1000]}";
+  const auto alone = run(pair_scene(healthy));
+  const auto beside = run(pair_scene("{engine: faulty, precision: double, profile: kill-at-step-10,"
+                                     " rate: 240}, " + healthy +
+                                     ", {engine: faulty, precision: double, profile: hang, rate: 60}"));
+  const auto& runs = beside[0].runs;
+  ASSERT_EQ(runs.size(), 4u);
+  EXPECT_EQ(runs[0].status, EngineRecord::Status::crashed);
+  EXPECT_NE(runs[0].reason.find("killed by signal 9"), std::string::npos) << runs[0].reason;
+  EXPECT_EQ(runs[3].status, EngineRecord::Status::timed_out) << runs[3].reason;
+  for (std::size_t k : {0u, 1u}) {
+    const EngineRecord &a = alone[0].runs[k], &b = runs[k + 1];
+    ASSERT_EQ(b.status, EngineRecord::Status::ok);
+    ASSERT_EQ(a.observables.size(), b.observables.size());
+    for (const auto& [name, value] : a.observables)
+      EXPECT_EQ(value.median, b.observables.at(name).median) << name;
+  }
+  EXPECT_EQ(beside[0].verdict(), Verdict::failed);
+}
+
+TEST(SceneRun, NanStatesAreUnstable) {
+  const auto scenes =
+      run(pair_scene("{engine: faulty, precision: double, profile: nan, rate: 240}"));
+  EXPECT_EQ(scenes[0].runs[0].status, EngineRecord::Status::unstable);
+  EXPECT_NE(scenes[0].runs[0].reason.find("not finite"), std::string::npos);
+}
+
+TEST(SceneRun, WhatIsNotThereIsSkippedWithAReason) {
+  const auto scenes = run(pair_scene(
+      "{engine: faulty, precision: single, rate: 240},"
+      "{engine: bullet, precision: double, profile: tuned, rate: 240}"));
+  EXPECT_EQ(scenes[0].runs[0].status, EngineRecord::Status::skipped);
+  EXPECT_EQ(scenes[0].runs[0].reason, "slipcheck-engine-faulty-single is not installed");
+  EXPECT_EQ(scenes[0].runs[1].status, EngineRecord::Status::skipped);
+  EXPECT_NE(scenes[0].runs[1].reason.find("no profile 'tuned'"), std::string::npos);
+  EXPECT_EQ(scenes[0].verdict(), Verdict::within);
+}
+
+TEST(SceneRun, AnUnknownEngineIsRefusedAtItsPlace) {
+  try {
+    run(pair_scene("{engine: bulet, precision: double, rate: 240}"));
+    FAIL() << "accepted";
+  } catch (const BadScenario& bad) {
+    ASSERT_EQ(bad.faults().size(), 1u);
+    EXPECT_EQ(bad.faults()[0].key, "compare.engines[0].engine");
+    EXPECT_GT(bad.faults()[0].location.line, 0);
+    EXPECT_NE(bad.faults()[0].rule.find("bullet"), std::string::npos);
+  }
+}
+
+TEST(SceneRun, AModelWithoutASolverIsRefusedByName) {
+  std::string text = pair_scene("");
+  const std::string hard = "{model: hard, restitution: 0.9}";
+  text.replace(text.find(hard), hard.size(), "{model: hertz}");
+  text.replace(text.find("{density: 7.85}"), 15,
+               "{density: 7.85, young_modulus: 2e12, poisson_ratio: 0.28}");
+  try {
+    run(text);
+    FAIL() << "accepted";
+  } catch (const Unsupported& unsupported) {
+    EXPECT_NE(std::string(unsupported.what()).find("hertz"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace slipcheck
