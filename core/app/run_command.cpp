@@ -13,6 +13,7 @@
 #include "app/load_files.h"
 #include "app/progress_bar.h"
 #include "harness/scene_run.h"
+#include "report/brief.h"
 #include "report/context.h"
 #include "report/files.h"
 #include "report/html_report.h"
@@ -29,7 +30,7 @@ struct RunArguments {
   std::string json, html, directory;
   RunOptions options;
   std::size_t memory_limit = 2048;  // MiB
-  bool all = false, quiet = false;
+  bool all = false, summary = false, quiet = false;
 };
 
 /// What cannot be written in the end is refused before anything runs.
@@ -120,8 +121,11 @@ int run(RunArguments& arguments) {
       style.colour = is_plain_terminal(STDOUT_FILENO);
       style.width = terminal_width();
       style.all_observables = arguments.all;
-      for (const SceneRecord& scene : scenes) fmt::print("{}\n", table_of(scene, style));
-      fmt::print("{}\n", summary_of(scenes, style));
+      if (arguments.summary)
+        fmt::print("{}\n", brief_of(scenes, style));
+      else
+        for (const SceneRecord& scene : scenes) fmt::print("{}\n", table_of(scene, style));
+      fmt::print("{}", summary_of(scenes, style));
     }
     print_warnings(scenes);
     if (interrupted()) fmt::print(stderr, "interrupted: what had finished is kept\n");
@@ -157,6 +161,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(16, 1 << 20))
       ->capture_default_str();
   command->add_flag("--all", arguments->all, "Show every observable, not only those with a tolerance");
+  command->add_flag("--summary", arguments->summary, "One line for each scene instead of its table");
   command->add_flag("-q,--quiet", arguments->quiet, "No table, no progress; the exit code tells");
   command->footer(
       "Examples:\n"

@@ -214,11 +214,12 @@ void Observer::settle_effective_restitution(double t0, double t1, const Frame& f
     const Body &a = bodies_[index(pair.first)], &b = bodies_[index(pair.second)];
     if (a.sliding || b.sliding || !a.supported || !b.supported) continue;
     const double both = std::max(a.slide_end, b.slide_end);
-    const auto velocity_then = [&](int k) {
+    const auto velocity_then = [&](int k) -> Vector3 {
       const std::size_t i = index(k);
       const Vector3& now = frame.bodies[i].velocity;
-      // A slide's end is a kink; after it the body's velocity is the present one.
-      if (t1 <= t0 || both <= t0 || both >= t1 || bodies_[i].slide_end == both) return now;
+      // A slide's end is a kink; after it the body keeps its velocity for now.
+      if (bodies_[i].slide_end == both) return bodies_[i].rolling_velocity;
+      if (t1 <= t0 || both <= t0 || both >= t1) return now;
       return between(last_.bodies[i].velocity, now, (both - t0) / (t1 - t0));
     };
     const Vector3 dv = velocity_then(pair.first) - velocity_then(pair.second);
@@ -244,18 +245,20 @@ void Observer::follow_sliding(Body& body, std::size_t i, double t0, double t1,
     const double left = step_ > 0 ? body.slip.time_to_zero(slip0, slip1, dt) : dt;
     body.slide_end = t0 + left;
     body.slide_time += left;
-    body.slide += left <= dt ? Vector3(way * (left / dt))
-                             : Vector3(way + (left - dt) * s1.velocity);
+    // What counts as zero may last a little longer than the interval.
+    const double beyond = std::max(0.0, left - dt);
+    body.slide += left <= dt ? Vector3(way * (left / dt)) : Vector3(way + beyond * s1.velocity);
+    body.rolling_velocity = s1.velocity + beyond / dt * (s1.velocity - s0.velocity);
   } else if (body.supported && slips) {
     if (body.sliding) body.slip.fall(slip0, slip1, dt);
     body.slide_time += dt;
     body.slide += way;
     body.slide_end = t1;
   }
-  const bool slid = body.sliding;
-  body.sliding = body.supported ? slips : (slid || slips);
-  if (!body.supported) body.rolling_velocity = kVectorNotObserved;
-  if (body.supported && !body.sliding && (slid || std::isnan(body.rolling_velocity.x())))
+  body.sliding = slips || (body.sliding && !body.supported);
+  if (body.sliding || !body.supported)
+    body.rolling_velocity = kVectorNotObserved;
+  else if (std::isnan(body.rolling_velocity.x()))
     body.rolling_velocity = s1.velocity;
 }
 

@@ -32,12 +32,15 @@ Vector3 impulse_for(const Matrix3& mobility, const Vector3& n, const Vector3& ch
   return normal_change / n.dot(mobility * direction) * direction;
 }
 
-void push(CollidingBody& body, const Vector3& n, const Vector3& impulse, bool held) {
+void push(CollidingBody& body, const Vector3& impulse, bool held) {
   Vector3 dv = impulse / body.sphere.mass;
   if (held) dv.z() = 0;
   body.state.velocity += dv;
+}
+
+void turn(CollidingBody& body, const Vector3& n_cross_impulse) {
   body.state.angular_velocity -=
-      (body.sphere.radius / body.sphere.moment_of_inertia()) * n.cross(impulse);
+      (body.sphere.radius / body.sphere.moment_of_inertia()) * n_cross_impulse;
 }
 
 }  // namespace
@@ -75,9 +78,13 @@ CollisionResult collide(const PairContact& contact, const CollisionRule& rule, C
     hold_second = second_down;
   }
 
-  // Both spins turn the same way: n×P is the same for P on the one side and −P on the other.
-  push(first, n, impulse, hold_first);
-  push(second, -n, -impulse, hold_second);
+  push(first, impulse, hold_first);
+  push(second, -impulse, hold_second);
+  if (contact.friction > 0) {
+    // Both spins turn the same way: n×P is the same for P on the one side and −P on the other.
+    turn(first, n.cross(impulse));
+    turn(second, n.cross(impulse));
+  }
 
   if (hold_first && impulse.z() < 0)
     apply_substrate_impulse(first.sphere, first.substrate, -impulse.z(), first.state);

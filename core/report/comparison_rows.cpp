@@ -45,7 +45,7 @@ const char* symbol_of(Mark mark) {
 }
 
 const char* word_of(Mark mark) {
-  return mark == Mark::within ? "within" : mark == Mark::deviates ? "DEVIATES" : "no tolerance";
+  return mark == Mark::within ? "within" : mark == Mark::deviates ? "DEVIATES" : "";
 }
 
 QuantityFormat format_for(const SceneRecord& scene, const std::string& name,
@@ -110,7 +110,9 @@ std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const Engin
     ComparisonRow row;
     row.name = name;
     row.reference = reference_text(scene, name, format);
-    row.median = ensemble ? format.number(ensemble->median) : "–";
+    row.median = !ensemble      ? "–"
+                 : in_reference ? format.number(ensemble->median)
+                                : format.text(ensemble->median);
     row.spread = ensemble ? spread_text(*ensemble, format) : "–";
     row.worst = row.tolerance = "–";
     row.severity = std::numeric_limits<double>::quiet_NaN();

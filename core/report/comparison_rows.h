@@ -20,7 +20,7 @@ const char* word_of(Mark mark);
 struct ComparisonRow {
   std::string name;       ///< "i.sliding_time"
   std::string reference;  ///< "27.67 ms", with "± …" where the uncertainty matters
-  std::string median;     ///< in the reference's unit, "29.20"
+  std::string median;     ///< in the reference's unit, "29.20"; with it where there is no reference
   std::string spread;     ///< "29.00 … 30.50", or one number where all phases agree
   std::string worst;      ///< largest error: "10.2 %", "0.141", "1.2 mm"
   std::string tolerance;  ///< in the same form

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -29,6 +30,14 @@ struct Finding {
 
 std::string scene_id(std::size_t k) { return fmt::format("scene-{}", k + 1); }
 
+/// By tolerances; what an engine does not show at all has no number and comes last.
+bool is_worse(const Finding& a, const Finding& b) {
+  const auto rank = [](const Finding& f) {
+    return std::isfinite(f.row.severity) ? f.row.severity : 0;
+  };
+  return rank(a) > rank(b);
+}
+
 /// All deviations, worst first; of a scene the same observable of twin bodies, or at another rate,
 /// counts once.
 std::vector<Finding> findings(const std::vector<SceneRecord>& scenes) {
@@ -39,9 +48,7 @@ std::vector<Finding> findings(const std::vector<SceneRecord>& scenes) {
       for (ComparisonRow& row : comparison_rows(scenes[k], run, names))
         if (row.mark == Mark::deviates) all.push_back({k, run_name(run), std::move(row)});
   }
-  std::stable_sort(all.begin(), all.end(), [](const Finding& a, const Finding& b) {
-    return a.row.severity > b.row.severity;
-  });
+  std::stable_sort(all.begin(), all.end(), is_worse);
   std::set<std::pair<std::size_t, const ObservableName*>> seen;
   std::erase_if(all, [&](const Finding& finding) {
     return !seen.emplace(finding.scene, observable_of(finding.row.name)).second;
@@ -63,9 +70,7 @@ std::vector<Finding> worst_of(const std::vector<Finding>& all) {
       taken[k] = true;
       result.push_back(all[k]);
     }
-  std::stable_sort(result.begin(), result.end(), [](const Finding& a, const Finding& b) {
-    return a.row.severity > b.row.severity;
-  });
+  std::stable_sort(result.begin(), result.end(), is_worse);
   return result;
 }
 
@@ -120,8 +125,8 @@ std::string filter_part() {
   std::string html = "<fieldset class=\"filter\"><legend>Show scenes</legend>\n";
   for (const char* choice : {"all", "deviates", "failed", "within"})
     html += fmt::format(
-        "<input type=\"radio\" name=\"show\" id=\"show-{0}\"{1}/><label "
-        "for=\"show-{0}\">{0}</label>\n",
+        "<span><input type=\"radio\" name=\"show\" id=\"show-{0}\"{1}/><label "
+        "for=\"show-{0}\">{0}</label></span>\n",
         choice, std::string_view(choice) == "all" ? " checked=\"checked\"" : "");
   return html + "</fieldset>\n";
 }

@@ -1,6 +1,7 @@
 #include "report/html_scene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +79,7 @@ std::vector<std::string> charted(const SceneRecord& scene, const std::vector<std
   return result;
 }
 
-std::string chart(const PhaseSpread& spread) {
+std::string chart(const PhaseSpread& spread, const std::string& twins) {
   const auto worst = std::max_element(
       spread.runs.begin(), spread.runs.end(), [](const RunSpread& a, const RunSpread& b) {
         return std::pair(a.outside, a.far_off) < std::pair(b.outside, b.far_off);
@@ -88,29 +89,40 @@ std::string chart(const PhaseSpread& spread) {
   html += escaped(fmt::format("{}: {}", run_name(*worst->run), words_of(spread, *worst)));
   for (const std::string& words : words_on_convergence(spread))
     html += " <strong>" + escaped(words) + "</strong>";
+  if (!twins.empty()) html += escaped(" It looks the same for " + twins + ".");
   return html + "</figcaption></figure>\n";
 }
 
 std::string charts_part(const SceneRecord& scene, const std::vector<std::string>& names) {
-  std::string html;
-  std::size_t drawn = 0, left_out = 0;
+  struct Chart {
+    PhaseSpread spread;
+    std::string twins;
+  };
+  std::vector<Chart> charts;
+  std::size_t left_out = 0;
   for (const std::string& name : charted(scene, names)) {
     const auto spread = phase_spread(scene, name);
     if (!spread) continue;
-    if (drawn == kMostCharts) {
+    const auto twin = std::find_if(charts.begin(), charts.end(), [&](const Chart& other) {
+      return look_alike(other.spread, *spread);
+    });
+    if (twin != charts.end()) {
+      twin->twins += (twin->twins.empty() ? "" : ", ") + name;
+    } else if (charts.size() < kMostCharts) {
+      charts.push_back({*spread, ""});
+    } else {
       ++left_out;
-      continue;
     }
-    html += chart(*spread);
-    ++drawn;
   }
+  std::string html;
+  for (const Chart& one : charts) html += chart(one.spread, one.twins);
   if (html.empty()) return {};
   std::string part = "<h3>Phase by phase</h3>\n";
   part += html_paragraph(
       "faint", "",
-      "Each mark is one run; the runs of a strip differ only in where within a time step the first "
-      "contact falls, from its beginning (top) to its end (bottom). The line is the reference, the "
-      "shaded band the tolerance: ● within, × outside, ◀ ▶ beyond the axis.");
+      "Each mark is one run. The runs of a strip differ only in where within a time step the first "
+      "contact falls: from top to bottom the start is shifted through one step. The line is the "
+      "reference, the shaded band the tolerance; ● within, × outside, ◀ ▶ beyond the axis.");
   part += "<div class=\"charts\">\n" + html + "</div>\n";
   if (left_out > 0)
     part += html_paragraph("faint", "",
@@ -194,7 +206,8 @@ std::string run_part(const SceneRecord& scene, const EngineRecord& run,
     html += html_paragraph("reason", status_text(run.status) + ":",
                            run.reason.empty() ? "not known why" : run.reason);
   }
-  html += list("Not represented", run.applied.not_represented, "missing");
+  html += html_paragraph(
+      "", "Not represented:", fmt::format("{}", fmt::join(run.applied.not_represented, ", ")));
   html += list("Warnings", run.warnings, "warnings");
   return html + applied_settings(run.applied) + "</section>\n";
 }

@@ -44,8 +44,9 @@ std::string escaped(std::string_view text) {
 std::string html_paragraph(std::string_view css_class, std::string_view head,
                            std::string_view text) {
   if (text.empty()) return {};
-  const std::string strong = head.empty() ? "" : fmt::format("<strong>{}</strong> ", escaped(head));
-  return fmt::format("<p class=\"{}\">{}{}</p>\n", escaped(css_class), strong, escaped(text));
+  std::string html = opening("p", {"", std::string(css_class)});
+  if (!head.empty()) html += "<strong>" + escaped(head) + "</strong> ";
+  return html + escaped(text) + "</p>\n";
 }
 
 std::string html_table(std::string_view label, const std::vector<HtmlCell>& headers,

@@ -10,7 +10,8 @@ namespace slipcheck {
 /// cannot become markup.
 std::string escaped(std::string_view text);
 
-/// <p class="…"><strong>head</strong> text</p>, both escaped; nothing for an empty text.
+/// A paragraph with a bold head, both escaped; nothing for an empty text. Head and class may be
+/// empty.
 std::string html_paragraph(std::string_view css_class, std::string_view head,
                            std::string_view text);
 

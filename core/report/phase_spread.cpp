@@ -120,6 +120,26 @@ std::optional<PhaseSpread> phase_spread(const SceneRecord& scene, const std::str
   return spread;
 }
 
+bool look_alike(const PhaseSpread& a, const PhaseSpread& b) {
+  if (observable_of(a.name) != observable_of(b.name) || a.is_distance != b.is_distance ||
+      a.runs.size() != b.runs.size())
+    return false;
+  double extent = a.high - a.low;
+  for (const RunSpread& run : a.runs) extent = std::max(extent, run.max - run.min);
+  const auto same = [&](double x, double y) {
+    return (std::isnan(x) && std::isnan(y)) || std::abs(x - y) <= 1e-3 * extent;
+  };
+  if (!same(a.reference, b.reference) || !same(a.high, b.high)) return false;
+  for (std::size_t k = 0; k < a.runs.size(); ++k) {
+    const RunSpread &one = a.runs[k], &other = b.runs[k];
+    if (one.run != other.run || one.outside != other.outside ||
+        !std::equal(one.values.begin(), one.values.end(), other.values.begin(), other.values.end(),
+                    same))
+      return false;
+  }
+  return true;
+}
+
 std::string words_of(const PhaseSpread& spread, const RunSpread& run) {
   const double magnitude = spread.is_distance ? run.max : spread.reference;
   const QuantityFormat format(magnitude != 0 ? magnitude : run.max, spread.dimension);

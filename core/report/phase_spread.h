@@ -37,6 +37,9 @@ struct PhaseSpread {
 /// Nothing where the observable has no tolerance or is not comparable.
 std::optional<PhaseSpread> phase_spread(const SceneRecord& scene, const std::string& name);
 
+/// Whether charts of both could not be told apart, as of two bodies that mirror each other.
+bool look_alike(const PhaseSpread& a, const PhaseSpread& b);
+
 /// "Over 64 phases i-j.effective_restitution comes out between 0.358 and 0.498; 0.3571 is right: 64
 /// of 64 phases are outside the tolerance of 0.005, 56 of them more than 5 % off."
 std::string words_of(const PhaseSpread& spread, const RunSpread& run);

@@ -24,8 +24,8 @@ struct Axis {
   double percent(double value) const { return 100 * (value - low) / (high - low); }
 };
 
-/// Covers all values and the tolerance, unless a few outliers would squeeze the rest to nothing:
-/// then what most values and the tolerance span.
+/// Covers the tolerance and all values but outliers that would squeeze the rest to nothing: those
+/// further from the tolerance and the middle four fifths of the values than twice their extent.
 Axis axis_for(const PhaseSpread& spread) {
   std::vector<double> values;
   for (const RunSpread& run : spread.runs)
@@ -35,10 +35,10 @@ Axis axis_for(const PhaseSpread& spread) {
   const std::size_t tenth = values.size() / 10;
   double low = std::min(spread.low, values[tenth]);
   double high = std::max(spread.high, values[values.size() - 1 - tenth]);
-  const double core = high - low;
-  if (std::max(high, values.back()) - std::min(low, values.front()) <= 5 * core) {
-    low = std::min(low, values.front());
-    high = std::max(high, values.back());
+  const double lowest = low - 2 * (high - low), highest = high + 2 * (high - low);
+  for (double value : values) {
+    if (value >= lowest) low = std::min(low, value);
+    if (value <= highest) high = std::max(high, value);
   }
   // Around the tolerance there is always room to see its edges.
   const double band = spread.high - spread.low;

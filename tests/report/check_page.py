@@ -1,0 +1,64 @@
+"""Is the page that the given program writes well-formed, complete in itself and free of scripts?"""
+
+import subprocess
+import sys
+import xml.etree.ElementTree
+from html.parser import HTMLParser
+
+VOID = {"meta", "input", "br", "hr", "img", "link"}
+SVG = {"use", "circle", "path", "line", "rect"}  # may close themselves
+ALLOWED_TAGS = """html head meta title style body svg defs circle path use line rect text header h1 h2
+h3 h4 p span strong ol ul li a dl div dt dd main fieldset legend input label nav section figure
+figcaption table thead tbody tr th td details summary""".split()
+
+
+class Page(HTMLParser):
+    """Keeps the open elements and what breaks the rules."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.faults, self.ids, self.targets = [], [], set(), set()
+
+    def start(self, tag, attributes):
+        if tag not in ALLOWED_TAGS:
+            self.faults.append(f"element {tag}")
+        for name, value in attributes:
+            if name.startswith("on") or name in ("src", "srcset", "action", "style"):
+                self.faults.append(f"attribute {name}")
+            if name == "href":
+                if not value.startswith("#"):
+                    self.faults.append(f"link to {value}")
+                self.targets.add(value[1:])
+            if name == "id":
+                if value in self.ids:
+                    self.faults.append(f"id {value} twice")
+                self.ids.add(value)
+            if "nan" in str(value).split() or "inf" in str(value).split():
+                self.faults.append(f"{name}={value}")
+
+    def handle_starttag(self, tag, attributes):
+        self.start(tag, attributes)
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.start(tag, attributes)
+        if tag not in VOID | SVG:
+            self.faults.append(f"{tag} closes itself")
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.faults.append(f"unexpected </{tag}>")
+
+
+text = subprocess.run([sys.argv[1]], check=True, capture_output=True).stdout.decode("utf-8")
+xml.etree.ElementTree.fromstring(text)  # strict about everything
+page = Page()
+page.feed(text)
+page.close()
+faults = page.faults + [f"<{tag}> left open" for tag in page.open]
+faults += [f"no target for #{target}" for target in page.targets - page.ids]
+faults += [f"{url} on the page" for url in ("http://", "https://", "url(", "@import") if url in text]
+for fault in faults:
+    print(fault)
+sys.exit(1 if faults else 0)

@@ -1,0 +1,172 @@
+#include "report/files.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace slipcheck::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+class WriteFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "slipcheck-files-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override {
+    fs::permissions(folder_, fs::perms::owner_all);
+    fs::remove_all(folder_);
+  }
+
+  std::size_t files() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+  static std::string read(const fs::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+  }
+  static std::string failure(const fs::path& path) {
+    try {
+      write_file_atomically(path, "new");
+    } catch (const WriteFailure& failure) {
+      return failure.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(WriteFile, WritesEveryByteAndNothingElse) {
+  const std::string text = std::string("a\0b\r\n", 5) + std::string(300'000, 'x');
+  write_file_atomically(folder_ / "result.json", text);
+  EXPECT_EQ(read(folder_ / "result.json"), text);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(WriteFile, ReplacesAFileAndKeepsItsPermissions) {
+  const fs::path path = folder_ / "result.json";
+  write_file_atomically(path, "old");
+  fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write);
+  write_file_atomically(path, "new");
+  EXPECT_EQ(read(path), "new");
+  EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(WriteFile, FollowsTheUmask) {
+  const mode_t old = ::umask(027);
+  write_file_atomically(folder_ / "result.json", "");
+  ::umask(old);
+  struct stat status {};
+  ASSERT_EQ(::stat((folder_ / "result.json").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777u, 0640u);
+}
+
+TEST_F(WriteFile, NamesAFolderThatIsNotThere) {
+  const fs::path path = folder_ / "absent" / "result.json";
+  EXPECT_EQ(failure(path), "cannot write " + path.string() + ": No such file or directory");
+}
+
+TEST_F(WriteFile, DoesNotWriteOverAFolder) {
+  EXPECT_EQ(failure(folder_), "cannot write " + folder_.string() + ": Is a directory");
+}
+
+/// Root may write everywhere: for a while be nobody, who owns the folder.
+class AsNobody {
+ public:
+  explicit AsNobody(const fs::path& folder) {
+    if (::geteuid() != 0) return;
+    constexpr uid_t kNobody = 65534;
+    was_root_ = ::chown(folder.c_str(), kNobody, 0) == 0 && ::seteuid(kNobody) == 0;
+  }
+  ~AsNobody() {
+    if (was_root_ && ::seteuid(0) != 0) std::abort();
+  }
+  AsNobody(const AsNobody&) = delete;
+  AsNobody& operator=(const AsNobody&) = delete;
+
+ private:
+  bool was_root_ = false;
+};
+
+TEST_F(WriteFile, LeavesTheOldFileInAReadOnlyFolder) {
+  const AsNobody nobody(folder_);
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const fs::path path = folder_ / "result.json";
+  write_file_atomically(path, "old");
+  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_EQ(failure(path), "cannot write " + path.string() + ": Permission denied");
+  EXPECT_EQ(read(path), "old");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(WriteFile, LeavesTheOldFileWhenWritingBreaksOff) {
+  const fs::path path = folder_ / "result.json";
+  write_file_atomically(path, "old");
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const rlimit small{1, limit.rlim_max};  // the second byte of "new" is too many
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string message = failure(path);
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(message, "cannot write " + path.string() + ": File too large");
+  EXPECT_EQ(read(path), "old");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(WriteFile, LeavesTheOldFileAndNoOtherWhenTheNameIsTooLong) {
+  const fs::path path = folder_ / std::string(300, 'n');
+  EXPECT_EQ(failure(path), "cannot write " + path.string() + ": File name too long");
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(WriteFile, WritesToTheTargetOfALink) {
+  write_file_atomically(folder_ / "target", "old");
+  fs::create_symlink("target", folder_ / "link");
+  write_file_atomically(folder_ / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(read(folder_ / "target"), "new");
+}
+
+TEST_F(WriteFile, WritesToADeviceAsItIs) {
+  write_file_atomically("/dev/null", "text");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(WriteFile, ReportsAFullDisk) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  EXPECT_EQ(failure("/dev/full"), "cannot write /dev/full: No space left on device");
+}
+
+TEST_F(WriteFile, ShowsAReaderTheOldOrTheNewTextOnly) {
+  const fs::path path = folder_ / "result.json";
+  const std::string a(100'000, 'a'), b(100'000, 'b');
+  write_file_atomically(path, a);
+  std::thread writer([&] {
+    for (int k = 0; k < 20; ++k) write_file_atomically(path, k % 2 ? a : b);
+  });
+  for (int k = 0; k < 100; ++k) {
+    const std::string text = read(path);
+    EXPECT_TRUE(text == a || text == b);
+  }
+  writer.join();
+  EXPECT_EQ(files(), 1u);
+}
+
+}  // namespace
+}  // namespace slipcheck::testing

@@ -1,0 +1,162 @@
+#include "report/table.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "records.h"
+#include "report/text.h"
+
+namespace slipcheck::testing {
+namespace {
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) result.push_back(line);
+  return result;
+}
+
+std::string line_with(const std::string& text, const std::string& part) {
+  for (const std::string& line : lines(text))
+    if (line.find(part) != std::string::npos) return line;
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const TableStyle kWide{.colour = false, .width = 120};
+
+TEST(Table, ShowsReferenceSpreadErrorAndVerdict) {
+  const std::string table = table_of(lottery_scene(), kWide);
+  EXPECT_EQ(lines(table)[0], "symmetric-steel  ✗ DEVIATES");
+  EXPECT_TRUE(contains(table, "Two rolling steel spheres collide head-on"));
+  EXPECT_TRUE(contains(
+      table, "reference  event solver, 1 collision, ends at 83.00 ms, 1.2 µs of CPU time"));
+  EXPECT_TRUE(
+      contains(table, "bullet 3.24 double, profile default, 240 Hz, 64 phases, 3.1 µs/step"));
+  const std::size_t run = table.find("240 Hz");
+  const std::string e = line_with(table.substr(run), "effective_restitution");
+  EXPECT_EQ(e,
+            "    i-j.effective_restitution     0.3571  0.4280  0.3580 … 0.4980      0.141      "
+            "0.005  ✗  DEVIATES");
+  const std::string t = line_with(table.substr(run), "i.sliding_time");
+  EXPECT_TRUE(contains(t, "27.78 ms"));
+  EXPECT_TRUE(contains(t, "27.60 … 27.70"));
+  EXPECT_TRUE(contains(t, "0.300 %"));
+  EXPECT_TRUE(contains(t, "1 %"));
+  EXPECT_TRUE(contains(t, "✓  within"));
+  EXPECT_TRUE(contains(table, "not represented: static friction, coupled drilling"));
+}
+
+TEST(Table, SetsTheClosedFormBesideTheReference) {
+  SceneRecord scene = lottery_scene();
+  EXPECT_TRUE(contains(table_of(scene, kWide), "0.3571428571, the same to the last bit"));
+  scene.reference.closed_form["i-j.effective_restitution"] += 1e-15;
+  EXPECT_TRUE(contains(table_of(scene, kWide), "0.3571428571, agrees to 3e-15"));
+}
+
+TEST(Table, ShowsAnUncertaintyThatMatters) {
+  SceneRecord scene = lottery_scene();
+  scene.reference.observables["i.sliding_time"].uncertainty = 3e-5;
+  EXPECT_TRUE(contains(table_of(scene, kWide), "27.78 ± 0.03 ms"));
+  scene.reference.observables["i.sliding_time"].uncertainty = 1e-13;
+  EXPECT_FALSE(contains(table_of(scene, kWide), "±"));
+}
+
+TEST(Table, FitsItsWidth) {
+  SceneRecord scene = lottery_scene();
+  scene.runs[0].warnings = {
+      "a long warning that certainly needs more than a single line, and "
+      "then some more of it to be on the safe side"};
+  for (const int width : {60, 80, 100, 140})
+    for (const std::string& line : lines(table_of(scene, {.colour = false, .width = width})))
+      EXPECT_LE(display_width(line), static_cast<std::size_t>(width)) << line;
+}
+
+TEST(Table, KeepsTheVerdictWhereThereIsLittleRoom) {
+  const std::string table = table_of(lottery_scene(), {.colour = false, .width = 70});
+  EXPECT_TRUE(contains(table, "max error"));
+  EXPECT_TRUE(contains(table, "✗"));
+  EXPECT_FALSE(contains(table, "median"));
+}
+
+TEST(Table, AlignsColumnsByDisplayWidth) {
+  const std::string table = table_of(lottery_scene(), kWide);
+  const std::string run = table.substr(table.find("240 Hz"));
+  const auto column = [&](const std::string& line, const std::string& symbol) {
+    return display_width(line.substr(0, line.find(symbol)));
+  };
+  EXPECT_EQ(column(line_with(run, "i-j.effective_restitution"), "✗"),
+            column(line_with(run, "i.sliding_time"), "✓"));
+}
+
+TEST(Table, HasColourOnlyIfAskedFor) {
+  EXPECT_FALSE(contains(table_of(lottery_scene(), kWide), "\x1b"));
+  EXPECT_TRUE(contains(table_of(lottery_scene(), {.colour = true, .width = 100}), "\x1b[31m✗"));
+}
+
+TEST(Table, HidesWhatHasNoToleranceUnlessAskedFor) {
+  SceneRecord scene = lottery_scene();
+  scene.reference.observables["i.final_velocity.x"] = {1, 0};
+  EXPECT_FALSE(contains(table_of(scene, kWide), "final_velocity"));
+  EXPECT_TRUE(contains(table_of(scene, kWide), "i-j.restitution"));
+  EXPECT_TRUE(contains(table_of(scene, {.colour = false, .width = 120, .all_observables = true}),
+                       "i.final_velocity.x"));
+}
+
+TEST(Table, ShowsAllLengthsOfASceneWithoutEngines) {
+  SceneRecord scene = lottery_scene();
+  scene.runs.clear();
+  scene.reference.observables["i.final_velocity"] = {1, 0};
+  scene.reference.observables["i.final_velocity.x"] = {1, 0};
+  const std::string table = table_of(scene, kWide);
+  EXPECT_TRUE(contains(table, "reference only"));
+  EXPECT_TRUE(contains(table, "i.final_velocity "));
+  EXPECT_FALSE(contains(table, "i.final_velocity.x"));
+}
+
+TEST(Table, SaysWhyARunIsNotThere) {
+  SceneRecord scene = lottery_scene();
+  scene.runs = {failed_run(EngineRecord::Status::timed_out, "no end after 60 s"),
+                failed_run(EngineRecord::Status::skipped, "not installed")};
+  const std::string table = table_of(scene, kWide);
+  EXPECT_TRUE(contains(table, "✗ timed out: no end after 60 s"));
+  EXPECT_TRUE(contains(table, "– skipped: not installed"));
+  EXPECT_EQ(lines(table)[0], "symmetric-steel  ✗ FAILED");
+}
+
+TEST(Table, ShortensASceneOfManyBodies) {
+  SceneRecord scene = lottery_scene();
+  scene.runs.resize(1);
+  for (int k = 0; k < 100; ++k) {
+    const std::string name = fmt::format("g{}.sliding_time", k);
+    scene.reference.observables[name] = {0.1, 0};
+    scene.runs[0].errors[name] = {0.1, 0.1 + 0.01 * k, 0.01, false, false, ""};
+  }
+  const std::string table = table_of(scene, kWide);
+  EXPECT_TRUE(contains(table, "rows more, none more severe"));
+  EXPECT_TRUE(contains(table.substr(table.find("240 Hz")), "g99.sliding_time"));
+  EXPECT_FALSE(contains(table.substr(table.find("240 Hz")), "g0.sliding_time"));
+}
+
+TEST(Table, LetsATitleNotControlTheTerminal) {
+  SceneRecord scene = lottery_scene();
+  scene.scenario.title = "evil \x1b]0;title\x07";
+  EXPECT_FALSE(contains(table_of(scene, kWide), "\x1b"));
+}
+
+TEST(Summary, CountsScenesAndRuns) {
+  SceneRecord good = lottery_scene();
+  good.runs = {failed_run(EngineRecord::Status::skipped, "")};
+  EXPECT_EQ(
+      summary_of({lottery_scene(), good}, kWide),
+      "2 scenes: 1 within, 1 deviate, 0 failed; 3 engine runs: 0 within, 2 deviate, 0 failed, "
+      "1 skipped\n");
+}
+
+}  // namespace
+}  // namespace slipcheck::testing
