@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "harness/observables.h"
 #include "physics/closed_forms.h"
 
 namespace slipcheck {
@@ -96,11 +95,15 @@ Observables two_bodies(const HardScene& scene) {
 
 }  // namespace
 
+Observables closed_form_observables(const HardScene& scene) {
+  if (scene.bodies.size() == 1) return one_body(scene);
+  if (scene.bodies.size() == 2) return two_bodies(scene);
+  return {};
+}
+
 std::map<std::string, double> closed_form_values(const HardScene& scene,
                                                  const std::vector<std::string>& body_names) {
-  if (scene.bodies.size() == 1) return named_values(one_body(scene), body_names);
-  if (scene.bodies.size() == 2) return named_values(two_bodies(scene), body_names);
-  return {};
+  return named_values(closed_form_observables(scene), body_names);
 }
 
 }  // namespace slipcheck

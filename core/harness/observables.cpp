@@ -1,5 +1,6 @@
 #include "harness/observables.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -52,30 +53,71 @@ constexpr std::array kPairScalars = {
 
 }  // namespace
 
-std::map<std::string, double> named_values(const Observables& observables,
-                                           const std::vector<std::string>& body_names) {
-  std::map<std::string, double> values;
-  const auto add = [&](std::string name, double value) {
-    if (!std::isnan(value)) values.emplace(std::move(name), value);
-  };
+std::vector<std::string> value_names(const Observables& observables,
+                                     const std::vector<std::string>& body_names) {
+  std::vector<std::string> names;
+  names.reserve((kScalars.size() + 4 * kVectors.size()) * observables.bodies.size() +
+                kPairScalars.size() * observables.pairs.size());
   for (std::size_t i = 0; i < observables.bodies.size(); ++i) {
-    const BodyObservables& body = observables.bodies[i];
     const std::string prefix = body_names[i] + ".";
-    for (const auto& scalar : kScalars) add(prefix + scalar.name, body.*scalar.value);
+    for (const auto& scalar : kScalars) names.push_back(prefix + scalar.name);
     for (const auto& vector : kVectors) {
-      const Vector3& v = body.*vector.value;
-      add(prefix + vector.name, v.norm());
-      for (int k = 0; k < 3; ++k) add(prefix + vector.name + "." + "xyz"[k], v[k]);
+      names.push_back(prefix + vector.name);
+      for (char axis : {'x', 'y', 'z'}) names.push_back(prefix + vector.name + "." + axis);
     }
   }
   for (const PairObservables& pair : observables.pairs) {
-    const auto name_of = [&](int k) {
-      return k == kSubstrate ? std::string("substrate") : body_names[static_cast<std::size_t>(k)];
-    };
-    const std::string prefix = name_of(pair.first) + "-" + name_of(pair.second) + ".";
-    for (const auto& scalar : kPairScalars) add(prefix + scalar.name, pair.*scalar.value);
+    const std::string second = pair.second == kSubstrate
+                                   ? std::string("substrate")
+                                   : body_names[static_cast<std::size_t>(pair.second)];
+    const std::string prefix =
+        body_names[static_cast<std::size_t>(pair.first)] + "-" + second + ".";
+    for (const auto& scalar : kPairScalars) names.push_back(prefix + scalar.name);
   }
+  return names;
+}
+
+std::vector<double> flat_values(const Observables& observables) {
+  std::vector<double> values;
+  values.reserve((kScalars.size() + 4 * kVectors.size()) * observables.bodies.size() +
+                 kPairScalars.size() * observables.pairs.size());
+  for (const BodyObservables& body : observables.bodies) {
+    for (const auto& scalar : kScalars) values.push_back(body.*scalar.value);
+    for (const auto& vector : kVectors) {
+      const Vector3& v = body.*vector.value;
+      values.insert(values.end(), {v.norm(), v.x(), v.y(), v.z()});
+    }
+  }
+  for (const PairObservables& pair : observables.pairs)
+    for (const auto& scalar : kPairScalars) values.push_back(pair.*scalar.value);
   return values;
+}
+
+std::map<std::string, double> named_values(const Observables& observables,
+                                           const std::vector<std::string>& body_names) {
+  const std::vector<double> values = flat_values(observables);
+  const std::vector<std::string> names = value_names(observables, body_names);
+  std::map<std::string, double> named;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (!std::isnan(values[k])) named.emplace(names[k], values[k]);
+  return named;
+}
+
+Observables aligned(const Observables& observables, const Observables& like) {
+  Observables result;
+  result.bodies = observables.bodies;
+  result.bodies.resize(like.bodies.size());
+  result.pairs.reserve(like.pairs.size());
+  for (const PairObservables& wanted : like.pairs) {
+    const auto found = std::find_if(
+        observables.pairs.begin(), observables.pairs.end(), [&](const PairObservables& pair) {
+          return pair.first == wanted.first && pair.second == wanted.second;
+        });
+    result.pairs.push_back(found != observables.pairs.end()
+                               ? *found
+                               : PairObservables{.first = wanted.first, .second = wanted.second});
+  }
+  return result;
 }
 
 }  // namespace slipcheck

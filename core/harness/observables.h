@@ -48,9 +48,20 @@ struct Observables {
   std::vector<PairObservables> pairs;  ///< that collided, in order of the bodies
 };
 
-/// Values by their full name, "i.sliding_time", "i.final_velocity.x", "i-j.restitution". A vector's
-/// bare name is its length. NaN is left out.
+/// Full names of all values that these bodies and pairs can have: "i.sliding_time",
+/// "i.final_velocity.x", "i-j.restitution". A vector's bare name is its length.
+std::vector<std::string> value_names(const Observables& observables,
+                                     const std::vector<std::string>& body_names);
+
+/// The values in the order of value_names(), NaN where not observed.
+std::vector<double> flat_values(const Observables& observables);
+
+/// Both together, what is not observed left out.
 std::map<std::string, double> named_values(const Observables& observables,
                                            const std::vector<std::string>& body_names);
+
+/// `observables` with the bodies and pairs of `like`, in its order: what has no counterpart there is
+/// dropped, what is missing is not observed.
+Observables aligned(const Observables& observables, const Observables& like);
 
 }  // namespace slipcheck

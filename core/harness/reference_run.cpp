@@ -53,28 +53,33 @@ Solved solve(const HardScene& scene, const RunEnd& end, int rounding, double cut
 ReferenceResult run_reference(const HardScene& scene, const RunEnd& end,
                               const std::vector<std::string>& names) {
   ReferenceResult result;
-  const auto up = named_values(solve(scene, end, FE_UPWARD, 1.5).seen, names);
-  const auto down = named_values(solve(scene, end, FE_DOWNWARD, 0.5).seen, names);
+  const Observables up = solve(scene, end, FE_UPWARD, 1.5).seen;
+  const Observables down = solve(scene, end, FE_DOWNWARD, 0.5).seen;
   const double begin = thread_cpu_seconds();
   const Solved solved = solve(scene, end, FE_TONEAREST, 1);
   result.cpu_seconds = thread_cpu_seconds() - begin;
   result.run = solved.run;
   result.first_contact = EventSolver(scene, scene.initial).first_contact(end.limit);
 
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (const auto& [name, value] : named_values(solved.seen, names)) {
-    double uncertainty = 2 * std::numeric_limits<double>::epsilon() * std::abs(value);
-    for (const auto* other : {&up, &down}) {
-      const auto found = other->find(name);
-      uncertainty = std::max(
-          uncertainty, found == other->end() ? kInfinity : std::abs(found->second - value));
-    }
-    result.observables[name] = {value, uncertainty};
-  }
-  if (result.run.collisions <= 1 && result.run.reached) {
-    // The closed form speaks of what the run can have shown.
-    for (const auto& [name, value] : closed_form_values(scene, names))
-      if (result.observables.count(name)) result.closed_form[name] = value;
+  // The closed form speaks of one collision and of a run that has shown what came of it.
+  const bool has_closed_form = result.run.collisions <= 1 && result.run.reached;
+  const auto flat = [&](const Observables& other) { return flat_values(aligned(other, solved.seen)); };
+  std::vector<std::string> value_name = value_names(solved.seen, names);
+  const std::vector<double> values = flat_values(solved.seen);
+  const std::vector<double> above = flat(up), below = flat(down);
+  const std::vector<double> closed =
+      flat(has_closed_form ? closed_form_observables(scene) : Observables{});
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double value = values[k];
+    if (std::isnan(value)) continue;
+    const double units = 2 * std::numeric_limits<double>::epsilon() * std::abs(value);
+    const double spread = std::max(std::abs(above[k] - value), std::abs(below[k] - value));
+    const bool comparable = !std::isnan(above[k]) && !std::isnan(below[k]);
+    if (!std::isnan(closed[k])) result.closed_form.emplace(value_name[k], closed[k]);
+    result.observables.emplace(
+        std::move(value_name[k]),
+        UncertainValue{value, comparable ? std::max(units, spread)
+                                         : std::numeric_limits<double>::infinity()});
   }
   if (!result.run.reached) result.warnings.push_back("the run did not end: " + result.run.reason);
   if (result.run.collapses > 0)

@@ -17,8 +17,8 @@ namespace slipcheck {
 namespace {
 
 // What keeps the page of a scene of many bodies readable; the result file has everything.
-constexpr std::size_t kMostCharts = 8;
-constexpr std::size_t kMostRows = 40;
+constexpr std::size_t kMostCharts = 6;
+constexpr std::size_t kMostRows = 20;
 
 std::string list(const std::string& head, const std::vector<std::string>& items,
                  const char* css_class) {
