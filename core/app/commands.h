@@ -13,9 +13,11 @@ enum ExitCode {
   kInterrupted = 130,
 };
 
-/// Every command takes --quiet; those that print nothing but their result have nothing to leave out.
+/// Every command takes --quiet; those that print nothing but their result have nothing to leave
+/// out.
 inline void accept_quiet(CLI::App& command) {
-  command.add_flag_callback("-q,--quiet", [] {}, "Say nothing but the result");
+  command.add_flag_callback(
+      "-q,--quiet", [] {}, "Say nothing but the result");
 }
 
 // Each adds its command to the program. The command's callback leaves its exit code in `exit_code`.

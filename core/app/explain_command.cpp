@@ -30,21 +30,22 @@ void print_bodies(const Scenario& scenario, const HardScene& scene) {
   constexpr std::size_t most = 20;
   for (std::size_t i = 0; i < std::min(most, scene.bodies.size()); ++i) {
     const Sphere& s = scene.bodies[i];
-    fmt::print("    {:<12} R = {:.6g} m, m = {:.6g} kg, I = {:.6g} kg m2, A = mR2/I = {:.6g}, "
-               "slip {:.4g} m/s\n",
-               scenario.bodies[i].name, s.radius, s.mass, s.moment_of_inertia(),
-               s.inverse_shape_factor(), slip_velocity(scene.initial[i], s.radius).norm());
+    fmt::print(
+        "    {:<12} R = {:.6g} m, m = {:.6g} kg, I = {:.6g} kg m2, A = mR2/I = {:.6g}, "
+        "slip {:.4g} m/s\n",
+        scenario.bodies[i].name, s.radius, s.mass, s.moment_of_inertia(), s.inverse_shape_factor(),
+        slip_velocity(scene.initial[i], s.radius).norm());
   }
   if (scene.bodies.size() > most) fmt::print("    and {} more\n", scene.bodies.size() - most);
 }
 
 void print_expectations(const Scenario& scenario, const HardScene& scene) {
-  const double contact =
-      EventSolver(scene, scene.initial).first_contact(run_end(scenario).limit);
+  const double contact = EventSolver(scene, scene.initial).first_contact(run_end(scenario).limit);
   fmt::print("\n  Expected\n");
   if (std::isfinite(contact))
-    fmt::print("    first contact after {:.6g} s: engines run as ensembles over its phase in a step\n",
-               contact);
+    fmt::print(
+        "    first contact after {:.6g} s: engines run as ensembles over its phase in a step\n",
+        contact);
   else
     fmt::print("    no contact but with the substrate: engines run once\n");
   const auto values = closed_form_values(scene, body_names(scenario));
@@ -75,8 +76,7 @@ void print_engines(const Scenario& scenario, const HardScene& scene) {
     }
     try {
       RemoteEngine engine(executable->path);
-      const Applied applied =
-          engine.configure(scene, request.profile, 1 / request.rates.front());
+      const Applied applied = engine.configure(scene, request.profile, 1 / request.rates.front());
       for (const std::string& missing : applied.not_represented)
         fmt::print("    not represented: {}\n", missing);
       for (const auto& [name, setting] : applied.settings)

@@ -21,7 +21,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// Asks every worker on this machine who it is; engines that are known but not built are listed too.
+/// Asks every worker on this machine who it is; engines that are known but not built are listed
+/// too.
 Json list_engines() {
   Json list = Json::array();
   const std::vector<EngineExecutable> found = find_engines();

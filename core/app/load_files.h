@@ -7,8 +7,8 @@
 
 namespace slipcheck {
 
-/// Loads all scenes. Throws BadScenario with the faults of all files together, also where two scenes
-/// bear one name.
+/// Loads all scenes. Throws BadScenario with the faults of all files together, also where two
+/// scenes bear one name.
 std::vector<Scenario> load_files(const std::vector<std::string>& files);
 
 }  // namespace slipcheck

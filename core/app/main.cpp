@@ -12,7 +12,8 @@
 int main(int argc, char** argv) {
   using namespace slipcheck;
   CLI::App app{
-      "Slipcheck holds physics engines against a reference of spheres that collide, slide and roll."};
+      "Slipcheck holds physics engines against a reference of spheres that collide, slide and "
+      "roll."};
   app.set_version_flag("--version", fmt::format("slipcheck {} ({}, {})", context().version,
                                                 context().commit, context().build));
   app.require_subcommand(1);

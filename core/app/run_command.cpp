@@ -38,7 +38,8 @@ void check_output(const std::string& option, const fs::path& path, bool is_direc
   std::error_code ignored;
   if (is_directory) {
     if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
-      throw std::runtime_error(fmt::format("{}: must be a directory, got {}", option, path.string()));
+      throw std::runtime_error(
+          fmt::format("{}: must be a directory, got {}", option, path.string()));
     return;
   }
   const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
@@ -111,9 +112,8 @@ int run(RunArguments& arguments) {
     arguments.options.progress = [&](std::size_t done, std::size_t total) { bar.set(done, total); };
     scenes = run_scenes(std::move(scenarios), arguments.options);
   }
-  const std::string command =
-      fmt::format("slipcheck run {} --phases {}", fmt::join(arguments.files, " "),
-                  arguments.options.phases);
+  const std::string command = fmt::format(
+      "slipcheck run {} --phases {}", fmt::join(arguments.files, " "), arguments.options.phases);
   write_results(arguments, scenes, command);
   if (!arguments.quiet) {
     if (arguments.json != "-") {
@@ -149,19 +149,23 @@ void add_run_command(CLI::App& app, int& exit_code) {
                    "Runs in each engine's ensemble, by where in a step the first contact falls")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command->add_option("--workers", arguments->options.workers,
-                      "Engines at work at once; 0: one for each core")
+  command
+      ->add_option("--workers", arguments->options.workers,
+                   "Engines at work at once; 0: one for each core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
-  command->add_option("--time-limit", arguments->options.time_limit,
-                      "Wall-clock seconds for one run of an engine")
+  command
+      ->add_option("--time-limit", arguments->options.time_limit,
+                   "Wall-clock seconds for one run of an engine")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--memory-limit", arguments->memory_limit, "MiB for one engine")
       ->check(CLI::Range(16, 1 << 20))
       ->capture_default_str();
-  command->add_flag("--all", arguments->all, "Show every observable, not only those with a tolerance");
-  command->add_flag("--summary", arguments->summary, "One line for each scene instead of its table");
+  command->add_flag("--all", arguments->all,
+                    "Show every observable, not only those with a tolerance");
+  command->add_flag("--summary", arguments->summary,
+                    "One line for each scene instead of its table");
   command->add_flag("-q,--quiet", arguments->quiet, "No table, no progress; the exit code tells");
   command->footer(
       "Examples:\n"

@@ -18,8 +18,8 @@ using Setting = std::variant<bool, double, std::string>;
 
 /// What an engine made of a scene.
 struct Applied {
-  std::map<std::string, Setting> settings;    ///< by name; SI
-  std::vector<std::string> not_represented;   ///< what of the scene the engine cannot express
+  std::map<std::string, Setting> settings;   ///< by name; SI
+  std::vector<std::string> not_represented;  ///< what of the scene the engine cannot express
 };
 
 /// What an engine is.

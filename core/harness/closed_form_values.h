@@ -10,9 +10,9 @@
 namespace slipcheck {
 
 /// What Kondic's corrected closed forms (closed_forms.h) say of a scene; nothing is observed where
-/// they do not apply. They apply to one body that slides, rolls or spins on the plane, and to two of
-/// one radius that roll without friction until they collide once, centrally or obliquely, without
-/// rubbing.
+/// they do not apply. They apply to one body that slides, rolls or spins on the plane, and to two
+/// of one radius that roll without friction until they collide once, centrally or obliquely,
+/// without rubbing.
 Observables closed_form_observables(const HardScene& scene);
 
 /// The same by observable name.

@@ -51,8 +51,8 @@ const Body* find_body(const Scenario& scenario, const std::string& name) {
   return nullptr;
 }
 
-/// Differences of a vector (its bare name) or of one component, on the scale of the vector's length;
-/// a position's scale is the way from the start.
+/// Differences of a vector (its bare name) or of one component, on the scale of the vector's
+/// length; a position's scale is the way from the start.
 Differences vector_differences(const Scenario& scenario, const ReferenceResult& reference,
                                const Ensemble& ensemble, const std::string& name,
                                const ObservableName& observable) {
@@ -98,9 +98,8 @@ Deviation deviation(const Scenario& scenario, const ReferenceResult& reference,
   const bool is_vector = observable && observable->is_vector;
   Differences differences;
   if (found != ensemble.end())
-    differences = is_vector
-                      ? vector_differences(scenario, reference, ensemble, name, *observable)
-                      : scalar_differences(expected, found->second);
+    differences = is_vector ? vector_differences(scenario, reference, ensemble, name, *observable)
+                            : scalar_differences(expected, found->second);
   if (differences.by_phase.empty()) {
     result.median = result.max = kNotObserved;
     result.reason = "no run of the engine shows it";

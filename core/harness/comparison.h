@@ -6,8 +6,8 @@
 
 namespace slipcheck {
 
-/// The ensemble's observables, by name, from each phase's named values: the names that the reference
-/// has or any phase has.
+/// The ensemble's observables, by name, from each phase's named values: the names that the
+/// reference has or any phase has.
 std::map<std::string, EnsembleValue> ensemble_values(
     const std::vector<std::map<std::string, double>>& phases);
 

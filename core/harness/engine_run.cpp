@@ -65,12 +65,13 @@ class PhaseRun {
     for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
       const BodyState& s = frame.bodies[i];
       if (!s.position.allFinite() || !s.velocity.allFinite() || !s.angular_velocity.allFinite())
-        throw Unstable{fmt::format("body {} has a state that is not finite at t = {:.6g} s", i,
-                                   time_)};
+        throw Unstable{
+            fmt::format("body {} has a state that is not finite at t = {:.6g} s", i, time_)};
       if (s.velocity.norm() > fastest)
-        throw Unstable{fmt::format("body {} moves at {:.3g} m/s at t = {:.6g} s, {} times faster "
-                                   "than anything in the scene",
-                                   i, s.velocity.norm(), time_, kExploded)};
+        throw Unstable{
+            fmt::format("body {} moves at {:.3g} m/s at t = {:.6g} s, {} times faster "
+                        "than anything in the scene",
+                        i, s.velocity.norm(), time_, kExploded)};
     }
   }
 
@@ -160,9 +161,8 @@ void run_ensemble(RemoteEngine& engine, const EnsembleTask& task, EngineRecord& 
   record.observables = ensemble_values(seen);
   record.errors = deviations(*task.scenario, *task.reference, record.observables);
   if (unfinished > 0)
-    record.warnings.push_back(
-        fmt::format("{} of {} phases had not ended at the limit of {} s", unfinished, seen.size(),
-                    task.scenario->run.limit));
+    record.warnings.push_back(fmt::format("{} of {} phases had not ended at the limit of {} s",
+                                          unfinished, seen.size(), task.scenario->run.limit));
   if (std::isfinite(task.reference->first_contact) && task.reference->first_contact < step)
     record.warnings.push_back(
         "the first contact falls inside the first step: its phases cover a part of a step only");

@@ -22,7 +22,7 @@ struct BodyObservables {
   Vector3 slip_after_collision = kVectorNotObserved;              ///< u^f [m/s]
   Vector3 angular_velocity_after_collision = kVectorNotObserved;  ///< Ω^f [rad/s]
   Vector3 rolling_velocity = kVectorNotObserved;                  ///< v^s [m/s]
-  double energy_change_sliding = kNotObserved;    ///< |v^f|² − |v^s|² [m²/s²]
+  double energy_change_sliding = kNotObserved;                    ///< |v^f|² − |v^s|² [m²/s²]
   double momentum_change_sliding = kNotObserved;  ///< (v^f − v^s)·n, n away from the other [m/s]
   double stopping_time = kNotObserved;            ///< [s]
   double stopping_distance = kNotObserved;        ///< [m]
@@ -30,8 +30,8 @@ struct BodyObservables {
   double lift_off_speed = kNotObserved;           ///< v^z [m/s]
   double jump_height = kNotObserved;              ///< h^z [m]
   double flight_time = kNotObserved;              ///< t^z [s]
-  Vector3 final_position = kVectorNotObserved;          ///< [m]
-  Vector3 final_velocity = kVectorNotObserved;          ///< [m/s]
+  Vector3 final_position = kVectorNotObserved;    ///< [m]
+  Vector3 final_velocity = kVectorNotObserved;    ///< [m/s]
   Vector3 final_angular_velocity = kVectorNotObserved;  ///< [rad/s]
 };
 
@@ -60,8 +60,8 @@ std::vector<double> flat_values(const Observables& observables);
 std::map<std::string, double> named_values(const Observables& observables,
                                            const std::vector<std::string>& body_names);
 
-/// `observables` with the bodies and pairs of `like`, in its order: what has no counterpart there is
-/// dropped, what is missing is not observed.
+/// `observables` with the bodies and pairs of `like`, in its order: what has no counterpart there
+/// is dropped, what is missing is not observed.
 Observables aligned(const Observables& observables, const Observables& like);
 
 }  // namespace slipcheck

@@ -23,8 +23,8 @@ class FallingQuantity {
   void reset() { rate_ = 0; }
   /// It was `before` and is `after` at the end of an interval `dt` [s], > 0.
   void fall(double before, double after, double dt) { rate_ = (before - after) / dt; }
-  /// When it reaches zero, counted from the start of an interval `dt` in which it fell from `before`
-  /// to `after` and came to count as zero. The end of the interval where no rate is known.
+  /// When it reaches zero, counted from the start of an interval `dt` in which it fell from
+  /// `before` to `after` and came to count as zero. The end of the interval where no rate is known.
   double time_to_zero(double before, double after, double dt) const;
 
  private:
@@ -35,9 +35,9 @@ class FallingQuantity {
 /// nothing grows with the run's length.
 ///
 /// The reference shows its frames at the events themselves (`step` = 0). An engine shows one frame
-/// a step: a collision ends with the step that applied its impulse, and what ends inside a step (the
-/// slip, the speed, the spin) is found by extrapolating the last two frames. What counts as zero is
-/// half of what friction takes in a step, since friction stops a body inside a step.
+/// a step: a collision ends with the step that applied its impulse, and what ends inside a step
+/// (the slip, the speed, the spin) is found by extrapolating the last two frames. What counts as
+/// zero is half of what friction takes in a step, since friction stops a body inside a step.
 ///
 /// A contact of two bodies is a collision if it closes faster than 7 % of the pair's fastest
 /// collision so far and 0.1 % of the scene's speed; weaker ones are rattling.
@@ -58,6 +58,13 @@ class Observer final : public FrameSink {
   Observables finish(double end) const;
 
  private:
+  /// A collision closes at least at these fractions of the pair's fastest and of the scene's speed.
+  static constexpr double kOfPairsFastest = 0.07;
+  static constexpr double kOfSceneSpeed = 1e-3;
+  /// What an engine leaves in a quantity that should be zero, of the scene's speed.
+  static constexpr double kEngineNoise = 1e-5;
+  static constexpr double kRoundOff = 1e-12;
+
   struct Body {
     Resolution zero;
     double origin_time = 0;
@@ -84,7 +91,7 @@ class Observer final : public FrameSink {
   };
   struct Pair {
     int first, second;
-    double fastest = 0;    ///< approach of its collisions so far [m/s]
+    double fastest = 0;  ///< approach of its collisions so far [m/s]
     bool touched_now = false, colliding = false, collided = false;
     bool awaits_rolling = false;  ///< for the effective restitution
     Vector3 n = Vector3::Zero();
@@ -104,6 +111,7 @@ class Observer final : public FrameSink {
   void follow_landing(Body& body, std::size_t i, bool supported, const Frame& frame);
   void settle_effective_restitution(double t0, double t1, const Frame& frame);
   Vector3 slip_of(std::size_t i, const BodyState& state) const;
+  double vertical_noise() const;
   Pair& pair_of(int first, int second);
 
   const HardScene* scene_;

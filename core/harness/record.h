@@ -19,9 +19,9 @@ struct EnsembleValue {
   std::size_t missing = 0;     ///< how many phases have none; median, min, max are of the others
 };
 
-/// An observable's deviation from the reference: relative, absolute for restitution coefficients and
-/// where the tolerance has a unit; of a vector relative to the reference's length. NaN with a reason
-/// where it is undefined.
+/// An observable's deviation from the reference: relative, absolute for restitution coefficients
+/// and where the tolerance has a unit; of a vector relative to the reference's length. NaN with a
+/// reason where it is undefined.
 struct Deviation {
   double median = 0;  ///< of the absolute deviations over the phases
   double max = 0;

@@ -63,7 +63,9 @@ ReferenceResult run_reference(const HardScene& scene, const RunEnd& end,
 
   // The closed form speaks of one collision and of a run that has shown what came of it.
   const bool has_closed_form = result.run.collisions <= 1 && result.run.reached;
-  const auto flat = [&](const Observables& other) { return flat_values(aligned(other, solved.seen)); };
+  const auto flat = [&](const Observables& other) {
+    return flat_values(aligned(other, solved.seen));
+  };
   std::vector<std::string> value_name = value_names(solved.seen, names);
   const std::vector<double> values = flat_values(solved.seen);
   const std::vector<double> above = flat(up), below = flat(down);
@@ -78,8 +80,8 @@ ReferenceResult run_reference(const HardScene& scene, const RunEnd& end,
     if (!std::isnan(closed[k])) result.closed_form.emplace(value_name[k], closed[k]);
     result.observables.emplace(
         std::move(value_name[k]),
-        UncertainValue{value, comparable ? std::max(units, spread)
-                                         : std::numeric_limits<double>::infinity()});
+        UncertainValue{
+            value, comparable ? std::max(units, spread) : std::numeric_limits<double>::infinity()});
   }
   if (!result.run.reached) result.warnings.push_back("the run did not end: " + result.run.reason);
   if (result.run.collapses > 0)

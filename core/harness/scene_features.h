@@ -9,7 +9,7 @@ namespace slipcheck {
 
 /// What the reference can do, and whether a scene needs it.
 struct Feature {
-  std::string name;    ///< "rolling friction"
+  std::string name;  ///< "rolling friction"
   bool needed = false;
   std::string detail;  ///< why it is needed, or what leaving it out saves
 };

@@ -34,10 +34,9 @@ void refuse_unknown_engines(const std::vector<Scenario>& scenarios) {
       if (std::find(known.begin(), known.end(), engine) != known.end()) continue;
       const std::string key = fmt::format("compare.engines[{}].engine", k);
       const auto place = scenario.locations.find(key);
-      faults.push_back({scenario.file,
-                        place == scenario.locations.end() ? Location{} : place->second, key,
-                        fmt::format("must be one of the engines {}", fmt::join(known, ", ")),
-                        engine});
+      faults.push_back(
+          {scenario.file, place == scenario.locations.end() ? Location{} : place->second, key,
+           fmt::format("must be one of the engines {}", fmt::join(known, ", ")), engine});
     }
   if (!faults.empty()) throw BadScenario(std::move(faults));
 }
@@ -89,8 +88,8 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
     for (EngineRecord& record : scene.runs) {
       const auto executable = find_engine(record.engine, record.precision);
       if (!executable) {
-        record.reason = fmt::format("slipcheck-engine-{}-{} is not installed", record.engine,
-                                    record.precision);
+        record.reason =
+            fmt::format("slipcheck-engine-{}-{} is not installed", record.engine, record.precision);
         continue;
       }
       const EnsembleTask task{&hard[s], &scene.reference, &scene.scenario, options.phases};
@@ -112,8 +111,8 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
     records[k]->status = status_of(results[k].status);
     records[k]->reason = results[k].reason;
     if (records[k]->phases > 0)
-      records[k]->reason += fmt::format(" (in phase {} of {})", records[k]->phases + 1,
-                                        options.phases);
+      records[k]->reason +=
+          fmt::format(" (in phase {} of {})", records[k]->phases + 1, options.phases);
   }
   return scenes;
 }

@@ -14,8 +14,8 @@ namespace slipcheck {
 ///   ΔE = |v^f|² − |v^s|²  (per unit mass, times 2),  Δp = v^f − v^s.
 struct SlideToRoll {
   /// kinetic_friction, gravity [m/s²]: > 0.
-  SlideToRoll(const Sphere& sphere, double kinetic_friction, double gravity, const Vector3& velocity,
-              const Vector3& angular_velocity);
+  SlideToRoll(const Sphere& sphere, double kinetic_friction, double gravity,
+              const Vector3& velocity, const Vector3& angular_velocity);
 
   Vector3 slip;              ///< u^f [m/s]
   double sliding_time;       ///< t^s [s]
@@ -29,8 +29,8 @@ struct SlideToRoll {
 /// Two equal spheres that roll along one line and collide centrally, K Sec. IV. Velocities are
 /// signed along the line; Ω stands for RΩ = v of rolling.
 struct HeadOnCollision {
-  double A = 2.5;            ///< m R²/I [-]
-  double restitution = 1;    ///< e_n [-], in [0, 1]
+  double A = 2.5;          ///< m R²/I [-]
+  double restitution = 1;  ///< e_n [-], in [0, 1]
   /// c in ΔΩ = −c (Ω_i + Ω_j) by the vertical rubbing of the pair, K (55): 0 for smooth spheres,
   /// ½ (1 − e^(−2C)) for viscous rubbing on confined spheres, ½ (1 + β0) for hard sticking ones.
   double spin_exchange = 0;

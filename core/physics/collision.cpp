@@ -65,9 +65,9 @@ CollisionResult collide(const PairContact& contact, const CollisionRule& rule, C
   bool hold_second = second.supported && rule.confined;
   Vector3 impulse;
   for (int round = 0; round < 4; ++round) {
-    impulse = impulse_for(mobility(first.sphere, n, hold_first) +
-                              mobility(second.sphere, n, hold_second),
-                          n, change, contact.friction);
+    impulse =
+        impulse_for(mobility(first.sphere, n, hold_first) + mobility(second.sphere, n, hold_second),
+                    n, change, contact.friction);
     if (rule.confined) break;
     // A vertical impulse within round-off lifts nobody.
     const double round_off = 64 * std::numeric_limits<double>::epsilon() * impulse.norm();

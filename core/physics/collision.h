@@ -15,7 +15,7 @@ struct CollidingBody {
 
 /// What a collision does besides changing the two states.
 struct CollisionResult {
-  double impact_speed = 0;  ///< normal, before [m/s], >= 0
+  double impact_speed = 0;            ///< normal, before [m/s], >= 0
   Vector3 impulse = Vector3::Zero();  ///< on the first body [N s]
 };
 

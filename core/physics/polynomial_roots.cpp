@@ -55,8 +55,8 @@ double root_bound(const Quartic& f) {
   const double lead = std::abs(f[static_cast<std::size_t>(degree)]);
   double bound = 0;
   for (int k = 1; k <= degree; ++k)
-    bound = std::max(
-        bound, std::pow(std::abs(f[static_cast<std::size_t>(degree - k)]) / lead, 1.0 / k));
+    bound = std::max(bound,
+                     std::pow(std::abs(f[static_cast<std::size_t>(degree - k)]) / lead, 1.0 / k));
   return 2 * bound;
 }
 

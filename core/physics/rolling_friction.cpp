@@ -6,9 +6,8 @@
 namespace slipcheck {
 
 double RollingFriction::operator()(double speed) const {
-  const auto above =
-      std::upper_bound(points_.begin(), points_.end(), speed,
-                       [](double v, const Point& point) { return v < point.speed; });
+  const auto above = std::upper_bound(points_.begin(), points_.end(), speed,
+                                      [](double v, const Point& point) { return v < point.speed; });
   if (above == points_.begin()) return points_.front().coefficient;
   if (above == points_.end()) return points_.back().coefficient;
   const Point& low = *(above - 1);

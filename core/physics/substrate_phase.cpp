@@ -54,8 +54,8 @@ SubstratePhase::SubstratePhase(const Sphere& sphere, const SubstrateContact& con
       motion_duration_ = kNever;
     }
     const double spin = start_.angular_velocity.z();
-    const double rate = contact.drilling_length * gravity /
-                        (sphere.shape_factor * sphere.radius * sphere.radius);
+    const double rate =
+        contact.drilling_length * gravity / (sphere.shape_factor * sphere.radius * sphere.radius);
     spin_duration_ = kNever;
     if (spin != 0 && rate > 0) {
       angular_acceleration_.z() = -std::copysign(rate, spin);

@@ -297,8 +297,7 @@ void EventSolver::show(FrameSink* sink) {
   frame_.bodies.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     frame_.bodies[i] = state_of(i);
-    if (bodies_[i].phase.is_supported())
-      frame_.touches.push_back(substrate_touch(i));
+    if (bodies_[i].phase.is_supported()) frame_.touches.push_back(substrate_touch(i));
   }
   sink->take(now_, frame_);
   frame_.touches.clear();

@@ -35,16 +35,16 @@ TEST(Ensemble, MedianMinAndMaxOverThePhases) {
 TEST(Deviations, RelativeForTimesAbsoluteForRestitution) {
   Scenario scenario = with_tolerance("sliding_time", 0.01);
   scenario.compare.tolerance["effective_restitution"] = {0.005, false};
-  const auto found =
-      deviations(scenario, reference({{"i.sliding_time", {2, 1e-15}},
-                                      {"i-j.effective_restitution", {0.4, 1e-15}},
-                                      {"i.stopping_time", {4, 1e-15}}}),
-                 ensemble_values({{{"i.sliding_time", 2.01},
-                                   {"i-j.effective_restitution", 0.41},
-                                   {"i.stopping_time", 6}},
-                                  {{"i.sliding_time", 1.99},
-                                   {"i-j.effective_restitution", 0.4},
-                                   {"i.stopping_time", 4}}}));
+  const auto found = deviations(
+      scenario,
+      reference({{"i.sliding_time", {2, 1e-15}},
+                 {"i-j.effective_restitution", {0.4, 1e-15}},
+                 {"i.stopping_time", {4, 1e-15}}}),
+      ensemble_values(
+          {{{"i.sliding_time", 2.01}, {"i-j.effective_restitution", 0.41}, {"i.stopping_time", 6}},
+           {{"i.sliding_time", 1.99},
+            {"i-j.effective_restitution", 0.4},
+            {"i.stopping_time", 4}}}));
   EXPECT_NEAR(found.at("i.sliding_time").max, 0.005, 1e-12);
   EXPECT_TRUE(found.at("i.sliding_time").within);
   EXPECT_NEAR(found.at("i-j.effective_restitution").max, 0.01, 1e-12);
@@ -59,19 +59,20 @@ TEST(Deviations, RelativeForTimesAbsoluteForRestitution) {
 TEST(Deviations, OneBadPhaseIsEnough) {
   const auto found = deviations(
       with_tolerance("sliding_time", 0.01), reference({{"i.sliding_time", {1, 0}}}),
-      ensemble_values({{{"i.sliding_time", 1}}, {{"i.sliding_time", 1}}, {{"i.sliding_time", 1.1}}}));
+      ensemble_values(
+          {{{"i.sliding_time", 1}}, {{"i.sliding_time", 1}}, {{"i.sliding_time", 1.1}}}));
   EXPECT_EQ(found.at("i.sliding_time").median, 0);
   EXPECT_FALSE(found.at("i.sliding_time").within);
 }
 
 TEST(Deviations, PhaseThatShowsNothingIsNotWithin) {
-  const auto some = deviations(with_tolerance("sliding_time", 0.01),
-                               reference({{"i.sliding_time", {1, 0}}}),
-                               ensemble_values({{{"i.sliding_time", 1}}, {}}));
+  const auto some =
+      deviations(with_tolerance("sliding_time", 0.01), reference({{"i.sliding_time", {1, 0}}}),
+                 ensemble_values({{{"i.sliding_time", 1}}, {}}));
   EXPECT_FALSE(some.at("i.sliding_time").within);
   EXPECT_EQ(some.at("i.sliding_time").reason, "1 of 2 phases do not show it");
-  const auto none = deviations(with_tolerance("sliding_time", 0.01),
-                               reference({{"i.sliding_time", {1, 0}}}), {});
+  const auto none =
+      deviations(with_tolerance("sliding_time", 0.01), reference({{"i.sliding_time", {1, 0}}}), {});
   EXPECT_FALSE(none.at("i.sliding_time").within);
   EXPECT_TRUE(std::isnan(none.at("i.sliding_time").max));
 }
@@ -114,8 +115,8 @@ TEST(Deviations, OfAFinalPositionRelateToTheWayFromTheStart) {
   scenario.bodies[0].initial.position = {100, 0, 0};
   std::map<std::string, UncertainValue> truth;
   for (const auto& [key, value] : vector_values(name, 101, 0)) truth[key] = {value, 1e-15};
-  const auto found = deviations(scenario, reference(truth),
-                                ensemble_values({vector_values(name, 101.1, 0)}));
+  const auto found =
+      deviations(scenario, reference(truth), ensemble_values({vector_values(name, 101.1, 0)}));
   EXPECT_NEAR(found.at(name).max, 0.1, 1e-12);
 }
 

@@ -30,7 +30,8 @@ bodies:
          std::to_string(-speed) + R"(, 0], spin: rolling}
 run: {until: rolling, limit: 5}
 compare:
-  engines: [)" + engines +
+  engines: [)" +
+         engines +
          R"(]
   tolerance: {effective_restitution: 0.005, sliding_time: 1 %}
 )";
@@ -87,9 +88,10 @@ TEST(SceneRun, BelowBulletsThresholdRestitutionIsLost) {
 TEST(SceneRun, AKilledWorkerLeavesEveryOtherRunIntact) {
   const std::string healthy = "{engine: bullet, precision: double, rate: [240, 1000]}";
   const auto alone = run(pair_scene(healthy));
-  const auto beside = run(pair_scene("{engine: faulty, precision: double, profile: kill-at-step-10,"
-                                     " rate: 240}, " + healthy +
-                                     ", {engine: faulty, precision: double, profile: hang, rate: 60}"));
+  const auto beside =
+      run(pair_scene("{engine: faulty, precision: double, profile: kill-at-step-10,"
+                     " rate: 240}, " +
+                     healthy + ", {engine: faulty, precision: double, profile: hang, rate: 60}"));
   const auto& runs = beside[0].runs;
   ASSERT_EQ(runs.size(), 4u);
   EXPECT_EQ(runs[0].status, EngineRecord::Status::crashed);
@@ -113,9 +115,9 @@ TEST(SceneRun, NanStatesAreUnstable) {
 }
 
 TEST(SceneRun, WhatIsNotThereIsSkippedWithAReason) {
-  const auto scenes = run(pair_scene(
-      "{engine: faulty, precision: single, rate: 240},"
-      "{engine: bullet, precision: double, profile: tuned, rate: 240}"));
+  const auto scenes =
+      run(pair_scene("{engine: faulty, precision: single, rate: 240},"
+                     "{engine: bullet, precision: double, profile: tuned, rate: 240}"));
   EXPECT_EQ(scenes[0].runs[0].status, EngineRecord::Status::skipped);
   EXPECT_EQ(scenes[0].runs[0].reason, "slipcheck-engine-faulty-single is not installed");
   EXPECT_EQ(scenes[0].runs[1].status, EngineRecord::Status::skipped);

@@ -166,7 +166,8 @@ TEST(FirstFallingRoot, NeverDoubled) {
     after.v -= 1.9 * approach * normal;
     // It must leave for at least the time in which the acceleration could turn it back.
     const double back = 2 * 0.9 * -approach / (pair.a.norm() + 1e-12);
-    ASSERT_GE(first_falling_root(after.quartic(), 0.5 * std::min(back, 1.0)), 0.49 * std::min(back, 1.0))
+    ASSERT_GE(first_falling_root(after.quartic(), 0.5 * std::min(back, 1.0)),
+              0.49 * std::min(back, 1.0))
         << n;
   }
 }

@@ -219,7 +219,8 @@ TEST(SubstrateImpulse, WhatIsLeftAfterStickingGoesIntoRollingFriction) {
   const SubstratePhase roll(ball, contact, kGravity, slide.at_end());
   const double t_roll = 0.5;
   BodyState pushed = state;
-  apply_substrate_impulse(ball, contact, ball.mass * kGravity * (slide.duration() + t_roll), pushed);
+  apply_substrate_impulse(ball, contact, ball.mass * kGravity * (slide.duration() + t_roll),
+                          pushed);
   expect_close(pushed.velocity, roll.at(t_roll).velocity, 1e-16);
 }
 

@@ -223,7 +223,8 @@ TEST(EventSolver, StrikerIsLiftedFliesAndLandsWhereTheBallisticsSay) {
   const double landing = seen.times[2] + 2 * lift / 9.81;
   bool landed = false;
   for (std::size_t k = 3; k < seen.times.size(); ++k)
-    landed |= std::abs(seen.times[k] - landing) < 1e-15 && seen.frames[k].bodies[0].velocity.z() == 0;
+    landed |=
+        std::abs(seen.times[k] - landing) < 1e-15 && seen.frames[k].bodies[0].velocity.z() == 0;
   EXPECT_TRUE(landed);
   // Confined, it stays.
   scene.confined = true;

@@ -19,8 +19,8 @@ HardScene cloud(std::size_t side, double friction, double restitution, unsigned 
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const double x = 0.006 * (static_cast<double>(i % side) - 0.5 * static_cast<double>(side));
     const double y = 0.006 * (static_cast<double>(i / side) - 0.5 * static_cast<double>(side));
-    scene.initial[i] = test::rolling_at(x + 5e-4 * u(), y + 5e-4 * u(), -5 * x + 0.1 * u(),
-                                        -5 * y + 0.1 * u());
+    scene.initial[i] =
+        test::rolling_at(x + 5e-4 * u(), y + 5e-4 * u(), -5 * x + 0.1 * u(), -5 * y + 0.1 * u());
   }
   return scene;
 }
@@ -59,8 +59,8 @@ TEST(ManyBodies, FrictionlessElasticGasConservesMomentumAndEnergyWithoutOverlap)
   OverlapWatch watch(scene);
   const EventRun run = solver.run({Run::Until::time, 0.5, 0.5}, &watch);
   ASSERT_GT(run.collisions, 50u);
-  const double p_scale = std::sqrt(2 * kinetic_energy(scene, scene.initial) *
-                                   scene.bodies[0].mass * 36);
+  const double p_scale =
+      std::sqrt(2 * kinetic_energy(scene, scene.initial) * scene.bodies[0].mass * 36);
   const double per_collision = 1e-15 * static_cast<double>(run.collisions);
   EXPECT_LE((momentum(scene, solver.states()) - momentum(scene, scene.initial)).norm(),
             per_collision * p_scale);

@@ -2,20 +2,30 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
+#include <algorithm>
+#include <string>
 
 namespace slipcheck::testing {
 namespace {
 
+/// Digits as "0", other characters as they are.
+std::string shape(std::string text) {
+  for (char& c : text)
+    if (c >= '0' && c <= '9') c = '0';
+  return text;
+}
+
 TEST(Context, KnowsWhatWasBuilt) {
   const Context& c = context();
-  EXPECT_TRUE(std::regex_match(c.version, std::regex(R"(\d+\.\d+\.\d+)"))) << c.version;
-  EXPECT_TRUE(std::regex_match(c.commit, std::regex("unknown|[0-9a-f]{12,40}(-modified)?")))
-      << c.commit;
+  EXPECT_EQ(std::count(c.version.begin(), c.version.end(), '.'), 2) << c.version;
+  const std::string commit = c.commit.substr(0, c.commit.find("-modified"));
+  const bool is_hash =
+      commit.size() >= 12 && commit.find_first_not_of("0123456789abcdef") == std::string::npos;
+  EXPECT_TRUE(commit == "unknown" || is_hash) << c.commit;
   EXPECT_FALSE(c.build.empty());
   EXPECT_FALSE(c.compiler.empty());
   EXPECT_FALSE(c.cpu.empty());
-  EXPECT_TRUE(std::regex_match(c.date, std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ)"))) << c.date;
+  EXPECT_EQ(shape(c.date), "0000-00-00T00:00:00Z");
 }
 
 TEST(Context, WarnsOfADebugBuildAndOnlyOfIt) {

@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cmath>
+
+#include "harness/observer.h"
+
+namespace slipcheck {
+namespace {
+
+std::size_t index(int body) { return static_cast<std::size_t>(body); }
+
+/// Velocity of the first body at the contact point relative to the second; n from the second.
+Vector3 contact_velocity(const Sphere& a, const BodyState& sa, const Sphere& b, const BodyState& sb,
+                         const Vector3& n) {
+  return sa.velocity - sb.velocity -
+         (a.radius * sa.angular_velocity + b.radius * sb.angular_velocity).cross(n);
+}
+
+}  // namespace
+
+Observer::Pair& Observer::pair_of(int first, int second) {
+  for (Pair& pair : pairs_)
+    if (pair.first == first && pair.second == second) return pair;
+  Pair& pair = pairs_.emplace_back();
+  pair.first = first;
+  pair.second = second;
+  return pair;
+}
+
+void Observer::note_touches(double t1, const Frame& frame) {
+  for (Pair& pair : pairs_) pair.touched_now = false;
+  for (const Touch& touch : frame.touches)
+    if (touch.second != kSubstrate)
+      note_collision(pair_of(touch.first, touch.second), touch, t1, frame);
+  for (Pair& pair : pairs_)
+    if (!pair.touched_now) pair.colliding = false;
+}
+
+void Observer::note_collision(Pair& pair, const Touch& touch, double t1, const Frame& frame) {
+  pair.touched_now = true;
+  const std::size_t i = index(pair.first), j = index(pair.second);
+  const BodyState& si = last_.bodies[i];
+  const BodyState& sj = last_.bodies[j];
+  const Sphere &a = scene_->bodies[i], &b = scene_->bodies[j];
+  const Vector3 n = (si.position - sj.position).normalized();
+  const Vector3 dv = si.velocity - sj.velocity;
+  const double approach = -n.dot(dv);
+
+  const double weakest = std::max(kOfPairsFastest * pair.fastest, kOfSceneSpeed * speed_scale_);
+  // A blow that passes through a row of bodies in one step finds this pair without an approach;
+  // what sliding bodies that lean on each other push in a step is none.
+  const double blow = 0.5 * touch.normal_impulse * (1 / a.mass + 1 / b.mass);
+  const double leaning =
+      (scene_->on_substrate(i).kinetic_friction + scene_->on_substrate(j).kinetic_friction) *
+      scene_->gravity * step_;
+  if (approach <= weakest && (step_ == 0 || blow <= weakest + leaning)) {
+    pair.colliding = false;
+    return;
+  }
+
+  if (!pair.colliding) {
+    pair.colliding = true;
+    pair.n = n;
+    pair.approach = approach > weakest ? approach : kNotObserved;
+    pair.fastest = std::max({pair.fastest, approach, blow > weakest + leaning ? blow : 0});
+    const Vector3 u = contact_velocity(a, si, b, sj, n);
+    pair.tangential = u - n.dot(u) * n;
+  }
+  const BodyState &after_i = frame.bodies[i], &after_j = frame.bodies[j];
+  pair.collided = true;
+  pair.restitution = pair.n.dot(after_i.velocity - after_j.velocity) / pair.approach;
+  const double before2 = pair.tangential.squaredNorm();
+  pair.tangential_restitution =
+      std::sqrt(before2) > kEngineNoise * speed_scale_
+          ? contact_velocity(a, after_i, b, after_j, pair.n).dot(pair.tangential) / before2
+          : kNotObserved;
+  pair.effective = kNotObserved;
+  // A body that collides again never shows what its earlier collision would have come to.
+  for (Pair& other : pairs_)
+    if (other.first == pair.first || other.first == pair.second || other.second == pair.first ||
+        other.second == pair.second)
+      other.awaits_rolling = false;
+  pair.awaits_rolling = true;
+  for (const auto& [k, away] :
+       {std::pair{i, pair.n}, std::pair<std::size_t, Vector3>{j, -pair.n}}) {
+    Body& body = bodies_[k];
+    body.collided = body.collided_now = true;
+    body.away = away;
+    body.after = frame.bodies[k];
+    body.origin_time = t1;
+    body.origin = frame.bodies[k].position;
+    body.slide_time = 0;
+    body.slide.setZero();
+    body.slide_end = t1;
+    body.rolling_velocity = kVectorNotObserved;
+    body.stop_time = body.spin_stop_time = kNotObserved;
+    body.resting = false;
+    body.spun = std::abs(frame.bodies[k].angular_velocity.z()) > body.zero.spin;
+    body.spinning = body.spun;
+    body.jumping = false;
+    body.lift_off_speed = body.flight_time = kNotObserved;
+  }
+}
+
+void Observer::settle_effective_restitution(double t0, double t1, const Frame& frame) {
+  for (Pair& pair : pairs_) {
+    if (!pair.awaits_rolling || pair.colliding) continue;
+    const Body &a = bodies_[index(pair.first)], &b = bodies_[index(pair.second)];
+    if (a.sliding || b.sliding || !a.supported || !b.supported) continue;
+    const double both = std::max(a.slide_end, b.slide_end);
+    const auto velocity_then = [&](int k) -> Vector3 {
+      const std::size_t i = index(k);
+      const Vector3& now = frame.bodies[i].velocity;
+      // A slide's end is a kink; after it the body keeps its velocity for now.
+      if (bodies_[i].slide_end == both) return bodies_[i].rolling_velocity;
+      if (t1 <= t0 || both <= t0 || both >= t1) return now;
+      return last_.bodies[i].velocity + (both - t0) / (t1 - t0) * (now - last_.bodies[i].velocity);
+    };
+    const Vector3 dv = velocity_then(pair.first) - velocity_then(pair.second);
+    pair.effective = pair.n.dot(dv) / pair.approach;
+    pair.awaits_rolling = false;
+  }
+}
+
+}  // namespace slipcheck
