@@ -156,6 +156,17 @@ std::map<std::string, Deviation> deviations(const Scenario& scenario,
   std::map<std::string, Deviation> result;
   for (const auto& [name, value] : reference.observables)
     result[name] = deviation(scenario, reference, ensemble, name);
+  // A jump or a landing that only the engine has is a deviation too.
+  for (const auto& [name, value] : ensemble) {
+    const auto tolerance = scenario.compare.tolerance.find(FullName(name).observable);
+    if (result.count(name) || tolerance == scenario.compare.tolerance.end()) continue;
+    result[name] = {.median = kNotObserved,
+                    .max = kNotObserved,
+                    .tolerance = tolerance->second.value,
+                    .absolute = tolerance->second.absolute,
+                    .within = false,
+                    .reason = "it does not occur in the reference"};
+  }
   return result;
 }
 

@@ -12,7 +12,8 @@ std::map<std::string, EnsembleValue> ensemble_values(
     const std::vector<std::map<std::string, double>>& phases);
 
 /// Holds an ensemble against the reference. Every observable of the reference gets a deviation, and
-/// a verdict where the scene gives a tolerance.
+/// a verdict where the scene gives a tolerance; what has a tolerance and only the engine shows is
+/// not within it.
 std::map<std::string, Deviation> deviations(const Scenario& scenario,
                                             const ReferenceResult& reference,
                                             const std::map<std::string, EnsembleValue>& ensemble);

@@ -29,7 +29,8 @@ void Observer::follow_flight(Body& body, std::size_t i, bool supported, double t
   double peak = std::max(s0.position.z(), s1.position.z());
   if (v0 > 0 && v1 <= 0 && t1 > t0) peak = s0.position.z() + 0.5 * v0 * v0 * (t1 - t0) / (v0 - v1);
   if (!(supported && v0 < 0 && t1 > t0)) body.peak = std::max(body.peak, peak);
-  if (supported && v1 <= slowest) {
+  // It may bounce again at once.
+  if (supported && (v1 <= slowest || v0 < 0)) {
     const double plane = scene_->bodies[i].radius;
     const double above0 = s0.position.z() - plane, above1 = s1.position.z() - plane;
     const double fraction = above0 > 0 && above1 < 0 ? above0 / (above0 - above1) : 1;

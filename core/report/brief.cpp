@@ -49,7 +49,7 @@ std::string brief_of(const std::vector<SceneRecord>& scenes, const TableStyle& s
          {good ? "✓" : "✗", good ? Ink::good : Ink::bad},
          {fmt::format("{}/{}", within, counted), Ink::plain},
          {worst.run ? fmt::format("{} {}, {} {} {} {:g} Hz", worst.row.name,
-                                  std::isnan(worst.row.severity) ? "never shown" : worst.row.worst,
+                                  worst.row.worst == "–" ? "never shown" : worst.row.worst,
                                   worst.run->engine, worst.run->precision, worst.run->profile,
                                   worst.run->rate)
                     : "",

@@ -93,6 +93,14 @@ TEST(Deviations, OfAZeroAreAbsoluteOrUndefined) {
   EXPECT_TRUE(both.at("i.sliding_distance").within);
 }
 
+TEST(Deviations, WhatOnlyTheEngineShowsIsNotWithin) {
+  const auto found = deviations(with_tolerance("flight_time", 0.01), reference({}),
+                                ensemble_values({{{"i.flight_time", 0.1}, {"i.jump_height", 1}}}));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_FALSE(found.at("i.flight_time").within);
+  EXPECT_EQ(found.at("i.flight_time").reason, "it does not occur in the reference");
+}
+
 std::map<std::string, double> vector_values(const std::string& name, double x, double y) {
   return {{name, std::hypot(x, y)}, {name + ".x", x}, {name + ".y", y}, {name + ".z", 0}};
 }

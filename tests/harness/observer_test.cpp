@@ -128,6 +128,23 @@ TEST(Observer, JumpHasTheBallisticHeightAndTime) {
   EXPECT_TRUE(std::isnan(observer.finish(run.end_time).bodies[1].flight_time));
 }
 
+TEST(Observer, ABounceIsAJumpWithTheHeightOfItsSpeed) {
+  HardScene scene = test::steel_scene(1);
+  scene.substrate[0].restitution = 0.8;
+  scene.initial[0].position.z() = 0.002 + 0.05;
+  EventSolver solver(scene, scene.initial);
+  Observer observer(scene, 0, speed_scale(scene, scene.initial));
+  solver.run({Run::Until::time, 0.3, 0.3}, &observer);
+  const Observables seen = observer.finish(0.3);
+  const double rebound = 0.8 * std::sqrt(2 * 9.81 * 0.05);
+  EXPECT_NEAR(seen.bodies[0].lift_off_speed, rebound, 1e-14);
+  EXPECT_NEAR(seen.bodies[0].jump_height, 0.64 * 0.05, 1e-14);  // e² h
+  EXPECT_NEAR(seen.bodies[0].flight_time, 2 * rebound / 9.81, 1e-14);
+  ASSERT_EQ(seen.pairs.size(), 1u);
+  EXPECT_EQ(seen.pairs[0].second, kSubstrate);
+  EXPECT_NEAR(seen.pairs[0].restitution, 0.8, 1e-14);
+}
+
 TEST(Observer, EffectiveRestitutionOfACollisionThatAnotherInterruptsIsNotObserved) {
   HardScene scene = test::steel_scene(3);
   scene.initial = {test::rolling_at(-0.01, 0, 0.2, 0), test::rolling_at(0, 0, 0, 0),
