@@ -9,10 +9,16 @@
 namespace slipcheck {
 namespace {
 
-struct ScalarOfBody {
+/// An observable's name and where its value is.
+template <class Owner, class Value>
+struct Named {
   const char* name;
-  double BodyObservables::*value;
+  Value Owner::*value;
 };
+using ScalarOfBody = Named<BodyObservables, double>;
+using VectorOfBody = Named<BodyObservables, Vector3>;
+using ScalarOfPair = Named<PairObservables, double>;
+
 constexpr std::array kScalars = {
     ScalarOfBody{"sliding_time", &BodyObservables::sliding_time},
     ScalarOfBody{"sliding_distance", &BodyObservables::sliding_distance},
@@ -26,10 +32,6 @@ constexpr std::array kScalars = {
     ScalarOfBody{"flight_time", &BodyObservables::flight_time},
 };
 
-struct VectorOfBody {
-  const char* name;
-  Vector3 BodyObservables::*value;
-};
 constexpr std::array kVectors = {
     VectorOfBody{"velocity_after_collision", &BodyObservables::velocity_after_collision},
     VectorOfBody{"slip_after_collision", &BodyObservables::slip_after_collision},
@@ -41,10 +43,6 @@ constexpr std::array kVectors = {
     VectorOfBody{"final_angular_velocity", &BodyObservables::final_angular_velocity},
 };
 
-struct ScalarOfPair {
-  const char* name;
-  double PairObservables::*value;
-};
 constexpr std::array kPairScalars = {
     ScalarOfPair{"restitution", &PairObservables::restitution},
     ScalarOfPair{"tangential_restitution", &PairObservables::tangential_restitution},
