@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/commands.h"
+#include "app/explain_contacts.h"
 #include "app/load_files.h"
 #include "engine/engine_registry.h"
 #include "engine/remote_engine.h"
@@ -89,6 +90,21 @@ void print_engines(const Scenario& scenario, const HardScene& scene) {
   }
 }
 
+/// What closed forms say of a scene with soft contacts.
+void explain_without_solver(const Scenario& scenario) {
+  explain_contacts(scenario);
+  const std::optional<Scenario> equivalent = hard_equivalent(scenario);
+  if (!equivalent) return;
+  try {
+    const HardScene scene = make_hard_scene(*equivalent);
+    print_bodies(scenario, scene);
+    fmt::print("\n  With hard contacts of the same restitution, without rubbing");
+    print_expectations(scenario, scene);
+  } catch (const Unsupported&) {
+    // Something else has no solver either; it is named above.
+  }
+}
+
 void explain(const Scenario& scenario) {
   fmt::print("{}  {}\n", scenario.name, scenario.title);
   if (!scenario.source.empty()) fmt::print("  source: {}\n", scenario.source);
@@ -97,6 +113,7 @@ void explain(const Scenario& scenario) {
     scene = make_hard_scene(scenario);
   } catch (const Unsupported& unsupported) {
     fmt::print("\n  No solver for this scene yet:\n{}\n", unsupported.what());
+    explain_without_solver(scenario);
     return;
   }
   fmt::print("  solver: event (every contact is hard; exact phases between collisions)\n");

@@ -246,6 +246,21 @@ class CommandLine(unittest.TestCase):
         self.assertIn("0.3571428571", result.stdout)
         self.assertIn("not represented", result.stdout)
 
+    def test_explain_derives_a_linear_contacts_numbers(self):
+        file = self.scene("")
+        file.write_text(file.read_text().replace(
+            "{model: hard, restitution: 0.9}",
+            "{model: linear, restitution: 0.9, collision_time: 2.55e-5}").replace(
+            "{model: none}", "{model: viscous, damping_ratio: 0.5, friction: 0.5}"))
+        result = run("explain", file)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        # γ_N = −2 ln e_n/t_col, ω0² = (π/t_col)² + γ_N²/4, C = π A γ_S/(2 ω0).
+        gamma = -2 * math.log(0.9) / 2.55e-5
+        omega0 = math.hypot(math.pi / 2.55e-5, gamma / 2)
+        for text in (f"γ_N = {gamma:.6g}", f"ω0 = {omega0:.6g}", "C = 0.1316",
+                     "0.3571428571", "contacts[0].normal.model"):
+            self.assertIn(text, result.stdout)
+
     def test_every_bundled_scene_runs_in_the_reference(self):
         report = json.loads(run("run", *sorted(SCENES.glob("*.yaml")), "--json", "-",
                                 "--phases", "1").stdout)
