@@ -6,8 +6,6 @@
 namespace slipcheck {
 namespace {
 
-std::size_t index(int body) { return static_cast<std::size_t>(body); }
-
 /// Linear between two frames.
 Vector3 between(const Vector3& a, const Vector3& b, double fraction) {
   return a + fraction * (b - a);
@@ -54,21 +52,18 @@ void Observer::take(double time, const Frame& frame) {
   }
   const double t0 = time_, t1 = time;
   note_touches(t1, frame);
-  const auto is_touched = [&](std::size_t i) {
-    return std::any_of(frame.touches.begin(), frame.touches.end(), [&](const Touch& touch) {
-      return touch.second == kSubstrate && index(touch.first) == i;
-    });
-  };
+  for (Body& body : bodies_) body.touched = false;
+  for (const Touch& touch : frame.touches)
+    if (touch.second == kSubstrate) bodies_[static_cast<std::size_t>(touch.first)].touched = true;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
     const BodyState& state = frame.bodies[i];
     const double height = state.position.z() - scene_->bodies[i].radius;
-    const bool touched = is_touched(i);
     // A sleeping body is not solved for, yet it lies on the plane.
     const bool lies = step_ > 0 && height < 1e-3 * scene_->bodies[i].radius &&
                       std::abs(state.velocity.z()) < vertical_noise();
-    const bool supported = touched || lies;
-    follow_landing(body, i, touched, frame);
+    const bool supported = body.touched || lies;
+    follow_landing(body, i, frame);
     follow_flight(body, i, supported, t0, t1, frame);
     body.supported = supported;
     follow_sliding(body, i, t0, t1, frame);
@@ -95,6 +90,7 @@ void Observer::begin(double time, const Frame& frame) {
     body.slide_end = time;
     body.supported = state.position.z() <= scene_->bodies[i].radius * (1 + 1e-9) &&
                      !(state.velocity.z() > body.zero.slip);
+    body.began_on_plane = body.supported;
     body.sliding = body.supported && slip_of(i, state).norm() > body.zero.slip;
     if (body.supported && !body.sliding) body.rolling_velocity = state.velocity;
     body.spinning = std::abs(state.angular_velocity.z()) > body.zero.spin;
@@ -214,8 +210,9 @@ Observables Observer::finish(double end) const {
       out.sliding_time = body.slide_time;
       out.sliding_distance = body.slide.norm();
       out.rolling_velocity = body.rolling_velocity;
-      out.energy_change_sliding =
-          body.after.velocity.squaredNorm() - body.rolling_velocity.squaredNorm();
+      if (body.collided || body.began_on_plane)
+        out.energy_change_sliding =
+            body.after.velocity.squaredNorm() - body.rolling_velocity.squaredNorm();
       if (body.collided)
         out.momentum_change_sliding = (body.after.velocity - body.rolling_velocity).dot(body.away);
     }

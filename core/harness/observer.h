@@ -70,7 +70,7 @@ class Observer final : public FrameSink {
     double origin_time = 0;
     Vector3 origin = Vector3::Zero();
     bool supported = true, sliding = false, resting = false, spinning = false;
-    bool collided_now = false;
+    bool began_on_plane = true, touched = false, collided_now = false;
     FallingQuantity slip, speed, spin;
     double slide_end = 0, slide_time = 0;
     Vector3 slide = Vector3::Zero();
@@ -108,7 +108,7 @@ class Observer final : public FrameSink {
   void follow_stopping(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
   void follow_flight(Body& body, std::size_t i, bool supported, double t0, double t1,
                      const Frame& frame);
-  void follow_landing(Body& body, std::size_t i, bool supported, const Frame& frame);
+  void follow_landing(Body& body, std::size_t i, const Frame& frame);
   void settle_effective_restitution(double t0, double t1, const Frame& frame);
   Vector3 slip_of(std::size_t i, const BodyState& state) const;
   double vertical_noise() const;

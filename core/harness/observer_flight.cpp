@@ -39,19 +39,19 @@ void Observer::follow_flight(Body& body, std::size_t i, bool supported, double t
   }
 }
 
-void Observer::follow_landing(Body& body, std::size_t i, bool touched, const Frame& frame) {
+void Observer::follow_landing(Body& body, std::size_t i, const Frame& frame) {
   const double v0 = last_.bodies[i].velocity.z(), v1 = frame.bodies[i].velocity.z();
   const double slowest =
       std::max(kOfPairsFastest * body.fastest_landing, kOfSceneSpeed * speed_scale_);
-  if (touched && body.fall_speed == 0 && v0 < -std::max(slowest, 2 * scene_->gravity * step_))
+  if (body.touched && body.fall_speed == 0 && v0 < -std::max(slowest, 2 * scene_->gravity * step_))
     body.fall_speed = -v0;
   if (body.fall_speed == 0) return;
-  if (touched && !body.collided_now) {
+  if (body.touched && !body.collided_now) {
     body.fastest_landing = std::max(body.fastest_landing, body.fall_speed);
     body.landing_restitution = std::max(0.0, v1) / body.fall_speed;
   }
   // An engine may take several steps to turn the body round.
-  if (!touched || v1 >= 0) body.fall_speed = 0;
+  if (!body.touched || v1 >= 0) body.fall_speed = 0;
 }
 
 }  // namespace slipcheck
