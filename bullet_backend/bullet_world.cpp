@@ -78,7 +78,7 @@ BulletWorld::Parts::Parts(const HardScene& scene, std::span<const BodyState> sta
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Sphere& sphere = scene.bodies[i];
     shapes.push_back(std::make_unique<btSphereShape>(btScalar(sphere.radius)));
-    const btScalar inertia(sphere.moment_of_inertia());
+    const auto inertia = static_cast<btScalar>(sphere.moment_of_inertia());
     btRigidBody::btRigidBodyConstructionInfo ball(
         btScalar(sphere.mass), nullptr, shapes.back().get(), btVector3(inertia, inertia, inertia));
     ball.m_startWorldTransform.setOrigin(to_bullet(states[i].position));

@@ -23,7 +23,7 @@ Vector3 impulse_for(const Matrix3& mobility, const Vector3& n, const Vector3& ch
                     double friction) {
   const double normal_change = n.dot(change);
   if (friction == 0) return normal_change / n.dot(mobility * n) * n;
-  const Vector3 sticking = mobility.inverse() * change;
+  Vector3 sticking = mobility.inverse() * change;
   const double normal = n.dot(sticking);
   const Vector3 tangential = sticking - normal * n;
   const double size = tangential.norm();

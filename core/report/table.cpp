@@ -73,7 +73,7 @@ Ink ink_of(Mark mark) {
   return mark == Mark::within ? Ink::good : mark == Mark::deviates ? Ink::bad : Ink::faint;
 }
 
-std::string rows_text(std::vector<ComparisonRow> comparison, const TableStyle& style) {
+std::string rows_text(const std::vector<ComparisonRow>& comparison, const TableStyle& style) {
   std::vector<std::vector<Cell>> rows;
   std::string notes;
   for (const ComparisonRow& row : comparison) {
@@ -123,7 +123,7 @@ std::string run_block(const SceneRecord& scene, const EngineRecord& run,
     const std::size_t count = rows.size();
     if (!style.all_observables) rows = most_severe(std::move(rows), kMostRows);
     const std::size_t left_out = count - rows.size();
-    if (!rows.empty()) result += rows_text(std::move(rows), style);
+    if (!rows.empty()) result += rows_text(rows, style);
     if (left_out > 0) result += paragraph("  … ", more_rows(left_out), Ink::faint, style);
   }
   if (!run.applied.not_represented.empty())

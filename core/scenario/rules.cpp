@@ -208,7 +208,7 @@ Rule<std::string> name_text(NameStyle style) {
 }
 
 Rule<std::vector<double>> numbers(const Dimension& dimension, const Range& range,
-                                  std::vector<std::size_t> counts) {
+                                  const std::vector<std::size_t>& counts) {
   const Rule<double> entry = number(dimension, range);
   std::vector<std::string> words;
   for (const std::size_t count : counts) words.push_back(std::to_string(count));
@@ -229,7 +229,7 @@ Rule<std::vector<double>> numbers(const Dimension& dimension, const Range& range
           }};
 }
 
-Rule<std::vector<double>> row(std::vector<std::pair<Dimension, Range>> columns) {
+Rule<std::vector<double>> row(const std::vector<std::pair<Dimension, Range>>& columns) {
   std::vector<Rule<double>> entries;
   for (const auto& [dimension, range] : columns) entries.push_back(number(dimension, range));
   return {[=](const YamlNode& node, Reading& reading, std::vector<double>& target) {

@@ -52,9 +52,9 @@ Rule<std::string> name_text(NameStyle style);
 
 /// [x, y], [x, y, z]: a list of numbers with as many entries as one of the counts.
 Rule<std::vector<double>> numbers(const Dimension& dimension, const Range& range,
-                                  std::vector<std::size_t> counts);
+                                  const std::vector<std::size_t>& counts);
 /// A row of a table, each column with its own dimension: [t, x, y].
-Rule<std::vector<double>> row(std::vector<std::pair<Dimension, Range>> columns);
+Rule<std::vector<double>> row(const std::vector<std::pair<Dimension, Range>>& columns);
 /// [x, y].
 Rule<Vector2> pair_of(const Dimension& dimension, const Range& range);
 
@@ -108,7 +108,7 @@ struct Form {
 
 /// The first form that claims the node reads it; `expectation` is the fault where none does.
 template <class T>
-Rule<T> one_form_of(std::string expectation, std::vector<Form<T>> forms) {
+Rule<T> one_form_of(const std::string& expectation, std::vector<Form<T>> forms) {
   return {[expectation, forms](const YamlNode& node, Reading& reading, T& target) {
             for (const Form<T>& form : forms) {
               if (form.claims(node)) return form.rule.read(node, reading, target);
