@@ -180,7 +180,7 @@ class CommandLine(unittest.TestCase):
         process = subprocess.Popen([SLIPCHECK, "run", file, "--json", out],
                                    env=dict(os.environ, SLIPCHECK_ENGINE_PATH=path),
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        time.sleep(3)
+        time.sleep(6)  # time enough for the first run on a busy machine
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=30)
         self.assertEqual(process.returncode, 130)

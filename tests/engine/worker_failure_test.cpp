@@ -83,10 +83,10 @@ TEST_F(WorkerFailureTest, NoiseIsCutToTheLastWords) {
 }
 
 TEST_F(WorkerFailureTest, AHangTimesOut) {
-  expect_failure("hang", Status::timed_out, "no reply within 0.5 s", kSoon,
-                 {.memory = std::size_t{2} << 30, .reply = 0.5});
-  expect_failure("half-a-reply", Status::timed_out, "no reply within 0.5 s", kSoon,
-                 {.memory = std::size_t{2} << 30, .reply = 0.5});
+  expect_failure("hang", Status::timed_out, "no reply within 2 s", kSoon,
+                 {.memory = std::size_t{2} << 30, .reply = 2});
+  expect_failure("half-a-reply", Status::timed_out, "no reply within 2 s", kSoon,
+                 {.memory = std::size_t{2} << 30, .reply = 2});
 }
 
 TEST_F(WorkerFailureTest, ARunHasItsTimeLimit) {
@@ -143,7 +143,7 @@ int running_in_group(pid_t group) {
 }
 
 TEST_F(WorkerFailureTest, GrandchildrenDieToo) {
-  RemoteEngine engine(faulty_engine(), {.memory = std::size_t{2} << 30, .reply = 0.5});
+  RemoteEngine engine(faulty_engine(), {.memory = std::size_t{2} << 30, .reply = 2});
   const pid_t group = engine.pid();
   EXPECT_EQ(running_in_group(group), 1);
   EXPECT_THROW(run(engine, "fork-and-hang"), WorkerFailure);

@@ -40,7 +40,7 @@ TEST(WorkerPool, OneThatFailsLeavesTheOthersAlone) {
     jobs.push_back(job(profile));
   }
   std::vector<std::size_t> reported;
-  const WorkerPool pool(3, {.memory = std::size_t{2} << 30, .reply = 1});
+  const WorkerPool pool(3, {.memory = std::size_t{2} << 30, .reply = 4});
   const auto results = pool.run_all(jobs, [&](std::size_t done, std::size_t total) {
     EXPECT_EQ(total, 12u);
     reported.push_back(done);

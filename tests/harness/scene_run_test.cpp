@@ -44,7 +44,7 @@ std::vector<SceneRecord> run(const std::string& text, std::size_t phases = 8) {
   RunOptions options;
   options.phases = phases;
   options.time_limit = 20;
-  options.limits.reply = 1;
+  options.limits.reply = 4;
   return run_scenes({parse_scenario(text, "scene.yaml")}, options);
 }
 
