@@ -65,7 +65,7 @@ class WorkerFailureTest : public ::testing::Test {
 };
 
 // The sanitizers slow everything down, and two tests may share a core.
-constexpr double kSoon = 3;
+constexpr double kSoon = 6;
 
 TEST_F(WorkerFailureTest, CrashesHaveTheirSignal) {
   expect_failure("crash", Status::crashed, "killed by signal 11 (Segmentation fault)", kSoon);
