@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <stdexcept>
 
 namespace slipcheck {
 
@@ -10,6 +11,7 @@ enum ExitCode {
   kDeviates = 1,
   kBadInput = 2,
   kEngineFailed = 3,
+  kNotWritten = 4,  ///< after the run: the disk is full, or the like
   kInterrupted = 130,
 };
 
@@ -19,6 +21,12 @@ inline void accept_quiet(CLI::App& command) {
   command.add_flag_callback(
       "-q,--quiet", [] {}, "Say nothing but the result");
 }
+
+/// An option that cannot be followed; the message gives option, rule and value.
+class BadOption : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 // Each adds its command to the program. The command's callback leaves its exit code in `exit_code`.
 void add_run_command(CLI::App& app, int& exit_code);

@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 all within tolerance, 1 something deviates, 2 bad input, 3 an engine failed,\n"
-      "130 interrupted.\n\nExample:\n  slipcheck run scenarios/symmetric-30cms.yaml --phases 64");
+      "4 the results could not be written, 130 interrupted.\n\nExample:\n  slipcheck run "
+      "scenarios/symmetric-30cms.yaml --phases 64");
   int exit_code = kWithinTolerance;
   add_run_command(app, exit_code);
   add_explain_command(app, exit_code);
@@ -36,9 +37,12 @@ int main(int argc, char** argv) {
   } catch (const Unsupported& unsupported) {
     fmt::print(stderr, "{}\n", unsupported.what());
     return kBadInput;
+  } catch (const BadOption& bad) {
+    fmt::print(stderr, "slipcheck: {}\n", bad.what());
+    return kBadInput;
   } catch (const std::exception& error) {
     fmt::print(stderr, "slipcheck: {}\n", error.what());
-    return kBadInput;
+    return kNotWritten;
   }
   return exit_code;
 }

@@ -38,19 +38,17 @@ void check_output(const std::string& option, const fs::path& path, bool is_direc
   std::error_code ignored;
   if (is_directory) {
     if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
-      throw std::runtime_error(
-          fmt::format("{}: must be a directory, got {}", option, path.string()));
+      throw BadOption(fmt::format("{}: must be a directory, got {}", option, path.string()));
     return;
   }
   const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(parent, ignored))
-    throw std::runtime_error(
-        fmt::format("{}: its directory must exist, got {}", option, path.string()));
+    throw BadOption(fmt::format("{}: its directory must exist, got {}", option, path.string()));
   if (access(parent.c_str(), W_OK) != 0)
-    throw std::runtime_error(
+    throw BadOption(
         fmt::format("{}: its directory must be writable, got {}", option, path.string()));
   if (fs::is_directory(path, ignored))
-    throw std::runtime_error(fmt::format("{}: must be a file, got {}", option, path.string()));
+    throw BadOption(fmt::format("{}: must be a file, got {}", option, path.string()));
 }
 
 int terminal_width() {

@@ -136,6 +136,11 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(result.returncode, 2)
                 self.assertNotEqual(result.stderr, "")
 
+    def test_results_that_cannot_be_written_are_no_bad_input(self):
+        result = run("run", self.scene(""), "--json", "/dev/full")
+        self.assertEqual(result.returncode, 4)
+        self.assertIn("cannot write /dev/full", result.stderr)
+
     def test_model_without_a_solver_is_refused_by_name(self):
         file = self.scene("")
         file.write_text(file.read_text().replace(
@@ -257,7 +262,8 @@ class CommandLine(unittest.TestCase):
         # γ_N = −2 ln e_n/t_col, ω0² = (π/t_col)² + γ_N²/4, C = π A γ_S/(2 ω0).
         gamma = -2 * math.log(0.9) / 2.55e-5
         omega0 = math.hypot(math.pi / 2.55e-5, gamma / 2)
-        for text in (f"γ_N = {gamma:.6g}", f"ω0 = {omega0:.6g}", "C = 0.1316",
+        c = math.pi * 2.5 * gamma / 2 / (2 * omega0)
+        for text in (f"γ_N = {gamma:.6g}", f"ω0 = {omega0:.6g}", f"C = {c:.4g}",
                      "0.3571428571", "contacts[0].normal.model"):
             self.assertIn(text, result.stdout)
 

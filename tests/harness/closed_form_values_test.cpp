@@ -69,6 +69,17 @@ TEST(ClosedFormValues, StayAwayFromWhatTheyDoNotCover) {
   EXPECT_TRUE(closed_form_values(test::steel_scene(3), {"a", "b", "c"}).empty());
 }
 
+TEST(ClosedFormValues, AreNotShownWhereTheRunEndsBeforeThePairMeets) {
+  const HardScene scene = test::head_on(0.15, -0.15, 0.9);
+  const ReferenceResult before = run_reference(scene, {Run::Until::time, 0.01, 0.01}, kNames);
+  EXPECT_EQ(before.run.collisions, 0u);
+  EXPECT_TRUE(before.closed_form.empty());
+  // Met, but still sliding: only what has been seen by then.
+  const ReferenceResult sliding = run_reference(scene, {Run::Until::time, 0.03, 0.03}, kNames);
+  EXPECT_EQ(sliding.closed_form.count("i-j.restitution"), 1u);
+  EXPECT_EQ(sliding.closed_form.count("i.sliding_time"), 0u);
+}
+
 TEST(ClosedFormValues, AreNotShownWhereThePairCollidesAgain) {
   // e_n < 1/A: the spins drive the balls together; the closed form's single collision is not all.
   const ReferenceResult result =

@@ -11,6 +11,8 @@
 #include <sstream>
 #include <thread>
 
+#include "../as_nobody.h"
+
 namespace slipcheck::testing {
 namespace {
 
@@ -84,27 +86,9 @@ TEST_F(WriteFile, DoesNotWriteOverAFolder) {
   EXPECT_EQ(failure(folder_), "cannot write " + folder_.string() + ": Is a directory");
 }
 
-/// Root may write everywhere: for a while be nobody, who owns the folder.
-class AsNobody {
- public:
-  explicit AsNobody(const fs::path& folder) {
-    if (::geteuid() != 0) return;
-    constexpr uid_t kNobody = 65534;
-    was_root_ = ::chown(folder.c_str(), kNobody, 0) == 0 && ::seteuid(kNobody) == 0;
-  }
-  ~AsNobody() {
-    if (was_root_ && ::seteuid(0) != 0) std::abort();
-  }
-  AsNobody(const AsNobody&) = delete;
-  AsNobody& operator=(const AsNobody&) = delete;
-
- private:
-  bool was_root_ = false;
-};
-
 TEST_F(WriteFile, LeavesTheOldFileInAReadOnlyFolder) {
   const AsNobody nobody(folder_);
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  if (nobody.is_still_root()) GTEST_SKIP() << "root may write everywhere, and cannot be left";
   const fs::path path = folder_ / "result.json";
   write_file_atomically(path, "old");
   fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
