@@ -4,6 +4,14 @@
 
 namespace slipcheck {
 
+Vector3 rolling_acceleration(double A, const Vector3& downhill, const Vector3& substrate) {
+  return (A * downhill + substrate) / (1 + A);
+}
+
+double rolling_limit(double A, double static_friction, double normal) {
+  return (1 + A) * static_friction * normal;
+}
+
 SlideToRoll::SlideToRoll(const Sphere& sphere, double kinetic_friction, double gravity,
                          const Vector3& velocity, const Vector3& angular_velocity) {
   const double A = sphere.inverse_shape_factor();

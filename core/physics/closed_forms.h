@@ -4,8 +4,21 @@
 
 namespace slipcheck {
 
-// Kondic's closed forms, in their corrected versions (docs/model.md lists the misprints), for a
-// level, still substrate and no rolling friction. They hold whatever the law of the contact.
+// Kondic's closed forms, in their corrected versions (docs/model.md lists the misprints), without
+// rolling friction. They hold whatever the law of the contact, and but for the first two on a
+// level, still substrate.
+
+/// Acceleration [m/s²] of a sphere that rolls without slip on a substrate accelerated by
+/// `substrate`, with gravity's part `downhill` along it; K (22), (24) with gravity beside the
+/// collision forces:
+///   a = (A a_G + a_S)/(1 + A),  (5/7) a_G + (2/7) a_S for a solid sphere.
+/// From m a = m a_G + f and, without slip, a − a_S = −R k̂×Ω̇ = −A f/m, f the substrate's friction.
+Vector3 rolling_acceleration(double A, const Vector3& downhill, const Vector3& substrate);
+
+/// The largest |a_S − a_G| [m/s²] at which it keeps rolling, K (17), (25) with the substrate's
+/// normal force: |f| = m |a_S − a_G|/(1 + A) <= μ_s F_N. `normal` is F_N/m, g on a level substrate:
+/// 1.75 g for a solid sphere with μ_s = 1/2.
+double rolling_limit(double A, double static_friction, double normal);
 
 /// From a sliding start to rolling, given the state v^f, Ω^f in which the sliding begins.
 ///

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "physics/rolling_friction.h"
+#include "physics/tabulated_restitution.h"
 
 namespace slipcheck {
 
@@ -17,11 +18,12 @@ struct PowerLawRestitution {
 };
 
 /// Coefficient of normal restitution: a number in [0, 1] or a law over the impact speed.
-using RestitutionLaw = std::variant<double, PowerLawRestitution>;
+using RestitutionLaw = std::variant<double, PowerLawRestitution, TabulatedRestitution>;
 
 /// e at the normal impact speed g [m/s], > 0.
 inline double restitution_at(const RestitutionLaw& law, double g) {
   if (const double* e = std::get_if<double>(&law)) return *e;
+  if (const auto* table = std::get_if<TabulatedRestitution>(&law)) return (*table)(g);
   const auto& power = std::get<PowerLawRestitution>(law);
   return std::min(1.0, power.coefficient * std::pow(g / power.speed, -power.exponent));
 }
@@ -41,6 +43,12 @@ struct SubstrateContact {
   /// Drilling torque about the vertical per normal force [m], >= 0, uncoupled from the sliding:
   /// (2/3) μ_k a_c for a uniform contact disc of radius a_c, (3π/16) μ_k a_c for a Hertzian one.
   double drilling_length = 0;
+  /// Radius a_c of a contact disc on which sliding and drilling share the friction (Contensou,
+  /// Zhuravlev; coupled_friction.h) [m]; 0: uncoupled. `drilling_length` is then that of pure
+  /// drilling.
+  double coupled_radius = 0;
+  bool hertzian_pressure = false;      ///< on that disc; uniform otherwise
+  bool rolling_while_sliding = false;  ///< rolling friction acts on a sliding body too
   double restitution = 0;  ///< for a body that comes down on the substrate [-], in [0, 1]
 };
 

@@ -33,4 +33,19 @@ inline BodyState integrate(BodyState state, double duration, int steps,
   return state;
 }
 
+/// The same for any vector s with ṡ = rate(t, s).
+template <class State, class Rate>
+State integrate(const Rate& rate, State s, double begin, double end, int steps) {
+  const double h = (end - begin) / steps;
+  for (int n = 0; n < steps; ++n) {
+    const double t = begin + n * h;
+    const State k1 = rate(t, s);
+    const State k2 = rate(t + h / 2, State(s + h / 2 * k1));
+    const State k3 = rate(t + h / 2, State(s + h / 2 * k2));
+    const State k4 = rate(t + h, State(s + h * k3));
+    s += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  return s;
+}
+
 }  // namespace slipcheck::test

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <stdexcept>
+#include <limits>
 
 namespace slipcheck {
 namespace {
@@ -44,7 +44,8 @@ Collision integrated(const LinearContact& contact, double v, End end) {
 
 TEST(LinearContact, CollisionMatchesTheIntegratedForceLaw) {
   for (End end : {End::zero_overlap, End::zero_force})
-    for (double ratio : {0.0, 0.07, 0.5, 1.5}) {
+    for (double ratio : {0.0, 0.07, 0.5, 1.5, 2.0, 4.0}) {
+      if (ratio >= 2 && end == End::zero_overlap) continue;  // never ends
       const double k = 2e6, m = 1.3e-4;
       const LinearContact contact(m, k, ratio * std::sqrt(k / m), end);
       const Collision found = integrated(contact, 0.1, end);
@@ -76,13 +77,35 @@ TEST(LinearContact, DampingSetForZeroOverlapGives90203UnderTheClamp) {
   EXPECT_NEAR(clamped.restitution(), 0.90203, 5e-6);
 }
 
-TEST(LinearContact, RestitutionThatTheClampCannotReachIsToldWithTheRange) {
-  try {
-    LinearContact::with_stiffness(1, 0.1, 1, End::zero_force);
-    FAIL() << "accepted";
-  } catch (const std::domain_error& error) {
-    EXPECT_STREQ(error.what(), "restitution must be in (0.1354, 1] for ends_at: zero_force");
+TEST(LinearContact, DampingRateAndTimeUnderBothEndRules) {
+  for (End end : {End::zero_overlap, End::zero_force})
+    for (double rate : {0.0, 1e3, 1e5, 1e6}) {
+      const LinearContact contact = LinearContact::with_damping_rate(1.3e-4, rate, 2.55e-5, end);
+      EXPECT_EQ(contact.damping_rate(), rate);
+      EXPECT_NEAR(contact.collision_time() / 2.55e-5, 1, 1e-13) << rate;
+    }
+}
+
+TEST(LinearContact, TheClampReachesEveryRestitution) {
+  // e^−2 at critical damping, in proportion to ε^−2 far above it.
+  const LinearContact critical(1, 1, 2, End::zero_force);
+  EXPECT_NEAR(critical.restitution(), std::exp(-2.0), 1e-15);
+  EXPECT_NEAR(critical.collision_time(), 2, 1e-15);
+  for (double e : {1e-6, 0.01, 0.1353, 0.1354}) {
+    const LinearContact contact = LinearContact::with_stiffness(1.3e-4, e, 1e6, End::zero_force);
+    EXPECT_NEAR(contact.restitution() / e, 1, 1e-12);
+    EXPECT_EQ(contact.is_over_critical(), e < std::exp(-2.0));
   }
+}
+
+TEST(LinearContact, OverCriticalNeverReachesZeroOverlap) {
+  for (double ratio : {2.0, 3.0}) {
+    const LinearContact contact(1, 1, ratio, End::zero_overlap);
+    EXPECT_EQ(contact.restitution(), 0);
+    EXPECT_EQ(contact.collision_time(), std::numeric_limits<double>::infinity());
+  }
+  // Critical: ξ = v t e^(−ω0 t), deepest at 1/ω0.
+  EXPECT_NEAR(LinearContact(1, 1, 2, End::zero_overlap).largest_overlap(1), std::exp(-1.0), 1e-15);
 }
 
 TEST(Rubbing, K55FirstOrderAndExponential) {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace slipcheck {
+
+// Tangential forces between two spheres that touch. u is the velocity of the first sphere's surface
+// relative to the second's across the line of centres, both ways: in the plane (K's shear F_S) and
+// vertical (K's rubbing F_R); the law is isotropic in the tangent plane.
+
+struct NoTangentialForce {};
+
+/// K (4), (6) and Haff-Werner, B (39) with its sign mended: F_T = −min(c |u|, ν_s |F_N|) û,
+/// c = γ_S m̄.
+struct ViscousForce {
+  double damping = 0;   ///< c = γ_S m̄ [N s/m], >= 0
+  double friction = 0;  ///< ν_s [-], >= 0
+
+  /// |F_T| [N] at the slip speed |u| [m/s] below Coulomb's cap.
+  double viscous(double slip) const { return damping * slip; }
+  double cap(double normal) const { return friction * std::abs(normal); }
+};
+
+/// Asperities that bend and break, B (35), (37).
+///
+/// printed: F_T = −μ F_N (|ζ|/ζ0 − ⌊|ζ|/ζ0⌋) ζ̂ with the displacement ζ̇ = u since the first touch,
+/// odd in ζ. It follows the present F_N, so a bent asperity gains energy as F_N grows.
+/// passive: ζ is how far the asperity is bent; dF_T = −(μ/ζ0) F_N dζ while F_N grows, F_T scales
+/// with F_N while it falls (Walton 1993), the asperity breaks at |ζ| = ζ0, and where F_N attracts
+/// there is no F_T.
+struct AsperityForce {
+  enum class Form { printed, passive };
+  double friction = 0;  ///< μ [-], >= 0
+  double size = 0;      ///< ζ0 [m], > 0
+  Form form = Form::printed;
+
+  /// |F_T| [N] at the bend |ζ| [m] of an asperity that `broken` others came before.
+  double force(double normal, double bend, double broken) const {
+    return friction * normal * (bend / size - broken);
+  }
+};
+
+using TangentialForce = std::variant<NoTangentialForce, ViscousForce, AsperityForce>;
+
+}  // namespace slipcheck
