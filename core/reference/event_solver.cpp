@@ -18,13 +18,14 @@ using Kind = SubstratePhase::Kind;
 }  // namespace
 
 double speed_scale(const HardScene& scene, std::span<const BodyState> states) {
-  double scale = 0;
+  double scale = scene.motion.largest_speed();
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BodyState& s = states[i];
     const double radius = scene.bodies[i].radius;
     const double height = std::max(0.0, s.position.z() - radius);
     scale = std::max({scale, s.velocity.norm(), radius * s.angular_velocity.norm(),
-                      std::sqrt(2 * scene.gravity * height)});
+                      std::sqrt(2 * scene.gravity * height),
+                      std::sqrt(2 * scene.downhill.norm() * radius)});
   }
   return scale;
 }

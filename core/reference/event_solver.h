@@ -97,7 +97,8 @@ class EventSolver {
 };
 
 /// The largest speed that the bodies bring with them [m/s]: of centres, of surfaces, and of the
-/// fall to the plane. Scales what counts as small.
+/// fall to the plane; of the substrate's motion, and of a fall through a radius down its tilt.
+/// Scales what counts as small.
 double speed_scale(const HardScene& scene, std::span<const BodyState> states);
 
 }  // namespace slipcheck

@@ -40,14 +40,29 @@ Rule<HardRestitution> hard_restitution_rule() {
 }
 
 /// A quantity of the power law, whose dimension depends on the exponents: base · length^−exponent.
-Rule<PowerNormal> power_quantity(double PowerNormal::*field, double PowerNormal::*exponent,
+template <class Field>
+Rule<PowerNormal> power_quantity(Field PowerNormal::*field, double PowerNormal::*exponent,
                                  Dimension base, const Range& range) {
   return {[=](const YamlNode& node, Reading& reading, PowerNormal& target) {
             Dimension dimension = base;
             dimension.length -= target.*exponent;
-            return number(dimension, range).read(node, reading, target.*field);
+            double value = 0;
+            if (!number(dimension, range).read(node, reading, value)) return false;
+            target.*field = value;
+            return true;
           },
           number(base, range).schema};
+}
+
+/// In place of a dissipative parameter: the restitution of an impact at one speed.
+template <class Model>
+void restitution_at_speed(Record<Model>& record) {
+  record
+      .key("restitution", &Model::restitution, number(kPureNumber, {{}, 0, 1, {}}), optional,
+           "coefficient of normal restitution e_n of an impact at_speed")
+      .key("at_speed", &Model::at_speed, number(kVelocity, kPositive), optional,
+           "impact speed that restitution is for")
+      .together({"restitution", "at_speed"});
 }
 
 Rule<NormalModel> normal_rule() {
@@ -93,8 +108,10 @@ Rule<NormalModel> normal_rule() {
              required, "elastic force at unit overlap")
       .whole("viscosity",
              power_quantity(&PowerNormal::viscosity, &PowerNormal::gamma, kForceTime, kNotNegative),
-             required, "dissipative force at unit overlap and speed")
-      .key("ends_at", &PowerNormal::ends_at, ends_at_rule(), optional, kEndsAtDoc);
+             optional, "dissipative force at unit overlap and speed")
+      .key("ends_at", &PowerNormal::ends_at, ends_at_rule(), optional, kEndsAtDoc)
+      .exactly_one_of({"viscosity", "restitution"});
+  restitution_at_speed(power);
 
   using Viscosities = std::pair<double, double>;
   using Form = ViscoelasticNormal::Form;
@@ -111,7 +128,8 @@ Rule<NormalModel> normal_rule() {
            choice<Form>({{"expanded", Form::expanded}, {"compact", Form::compact}}), optional,
            "B (24) or B (25)")
       .key("ends_at", &ViscoelasticNormal::ends_at, ends_at_rule(), optional, kEndsAtDoc)
-      .exactly_one_of({"dissipation_time", "viscosity"});
+      .exactly_one_of({"dissipation_time", "viscosity", "restitution"});
+  restitution_at_speed(viscoelastic);
 
   return one_of<NormalModel>(
       "model",

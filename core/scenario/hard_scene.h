@@ -6,6 +6,7 @@
 
 #include "physics/hard_contact.h"
 #include "physics/sphere.h"
+#include "physics/substrate_motion.h"
 #include "scenario/scenario.h"
 
 namespace slipcheck {
@@ -14,11 +15,15 @@ namespace slipcheck {
 /// what engines are given. Spheres on a plane z = 0; all values SI.
 struct HardScene {
   std::vector<Sphere> bodies;
-  std::vector<BodyState> initial;           ///< one for each body
-  std::vector<std::size_t> material;        ///< of each body, an index below `substrate.size()`
+  std::vector<BodyState> initial;  ///< one for each body
+  /// Of each body, an index below `substrate.size()`. Bodies of one material that a contact tells
+  /// apart by their size count as several (scene_outline.h).
+  std::vector<std::size_t> material;
   std::vector<SubstrateContact> substrate;  ///< by material
   std::vector<PairContact> pairs;           ///< by material × material, symmetric
-  double gravity = 0;                       ///< along −z [m/s²], >= 0
+  double gravity = 0;                       ///< along −z, normal to the plane [m/s²], >= 0
+  Vector2 downhill = Vector2::Zero();       ///< gravity along the tilted plane [m/s²]
+  SubstrateMotion motion;                   ///< of the plane
   bool confined = false;                    ///< bodies never leave the plane
 
   const SubstrateContact& on_substrate(std::size_t body) const { return substrate[material[body]]; }
@@ -33,7 +38,11 @@ class Unsupported : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws Unsupported for what is not a hard contact on a still, level, unbounded substrate.
+/// Throws Unsupported for what is not a hard contact on an unbounded substrate, and for a
+/// restitution `viscoelastic`, which takes an integrator (make_contact_scene).
 HardScene make_hard_scene(const Scenario& scenario);
+
+/// The pair contact of a normal model `hard`; a restitution `viscoelastic` is left at 1.
+PairContact hard_pair(const BodyContact& contact);
 
 }  // namespace slipcheck

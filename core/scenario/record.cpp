@@ -15,9 +15,10 @@ std::vector<std::string> RecordKeys::names() const {
 }
 
 bool RecordKeys::has_required_keys() const {
-  return !groups_.empty() || std::ranges::any_of(keys_, [](const Key& key) {
-    return key.presence == Presence::required;
-  });
+  return std::ranges::any_of(
+             groups_, [](const Group& group) { return group.kind != Group::Kind::together; }) ||
+         std::ranges::any_of(keys_,
+                             [](const Key& key) { return key.presence == Presence::required; });
 }
 
 /// Looks for keys that are unknown or stand there twice.
@@ -67,11 +68,18 @@ bool RecordKeys::read(const YamlNode& node, Reading& reading, void* target) cons
     }
   }
   for (const Group& group : groups_) {
-    const auto count = std::ranges::count_if(
-        group.names, [&](const std::string& name) { return node.find(name) != nullptr; });
-    if (count == 0 || (count > 1 && group.exactly)) {
-      missing(fmt::format("needs {} one of {}", group.exactly ? "exactly" : "at least",
-                          joined(group.names)));
+    const auto is_there = [&](const std::string& name) { return node.find(name) != nullptr; };
+    const auto count = std::ranges::count_if(group.names, is_there);
+    const bool exactly = group.kind == Group::Kind::exactly_one;
+    if (group.kind == Group::Kind::together) {
+      if (count == 0) continue;
+      const std::string& present = *std::ranges::find_if(group.names, is_there);
+      for (const std::string& name : group.names) {
+        if (!is_there(name)) missing(fmt::format("needs the key {} with {}", name, present));
+      }
+    } else if (count == 0 || (count > 1 && exactly)) {
+      missing(
+          fmt::format("needs {} one of {}", exactly ? "exactly" : "at least", joined(group.names)));
     }
   }
   return good;
@@ -93,10 +101,16 @@ json RecordKeys::schema() const {
   if (!needed.empty()) result["required"] = needed;
   json groups = json::array();
   for (const Group& group : groups_) {
+    if (group.kind == Group::Kind::together) {
+      json needs = json::object();
+      for (const std::string& name : group.names) needs[name] = group.names;
+      groups.push_back({{"dependencies", needs}});
+      continue;
+    }
     json alternatives = json::array();
     for (const std::string& name : group.names)
       alternatives.push_back({{"required", json::array({name})}});
-    groups.push_back({{group.exactly ? "oneOf" : "anyOf", alternatives}});
+    groups.push_back({{group.kind == Group::Kind::exactly_one ? "oneOf" : "anyOf", alternatives}});
   }
   if (!groups.empty()) result["allOf"] = groups;
   return result;

@@ -29,10 +29,11 @@ class RecordKeys {
   };
 
   void add(Key key) { keys_.push_back(std::move(key)); }
-  /// Exactly one of these keys, or at least one.
+  /// Exactly one of these keys, at least one, or all or none.
   struct Group {
+    enum class Kind { exactly_one, at_least_one, together };
     std::vector<std::string> names;
-    bool exactly;
+    Kind kind;
   };
   void add(Group group) { groups_.push_back(std::move(group)); }
 
@@ -86,11 +87,16 @@ class Record {
   }
 
   Record& exactly_one_of(std::vector<std::string> names) {
-    keys_->add(RecordKeys::Group{std::move(names), true});
+    keys_->add(RecordKeys::Group{std::move(names), RecordKeys::Group::Kind::exactly_one});
     return *this;
   }
   Record& at_least_one_of(std::vector<std::string> names) {
-    keys_->add(RecordKeys::Group{std::move(names), false});
+    keys_->add(RecordKeys::Group{std::move(names), RecordKeys::Group::Kind::at_least_one});
+    return *this;
+  }
+  /// Each of them needs the others.
+  Record& together(std::vector<std::string> names) {
+    keys_->add(RecordKeys::Group{std::move(names), RecordKeys::Group::Kind::together});
     return *this;
   }
 

@@ -26,6 +26,8 @@ struct Material {
   std::optional<double> density;        ///< [kg/m³], > 0; needed unless every body has a mass
   std::optional<double> young_modulus;  ///< Y [Pa], > 0
   std::optional<double> poisson_ratio;  ///< ν [-], in (−1, 0.5]
+  /// A of B (23) [s], >= 0; an extension. Only a restitution `viscoelastic` needs it.
+  std::optional<double> dissipation_time;
 };
 
 // --- normal contact models -----------------------------------------------------------------------
@@ -38,7 +40,8 @@ struct BridgesRestitution {
   double exponent = 0.234;    ///< [-], >= 0
   double speed = 0.01;        ///< [m/s], > 0
 };
-/// ε over the impact speed from the viscoelastic model and the materials (B 24).
+/// ε over the impact speed from the viscoelastic model and the materials (B 24 until the overlap is
+/// zero).
 struct ViscoelasticRestitution {};
 
 struct HardNormal {
@@ -55,18 +58,23 @@ struct LinearNormal {
 struct HertzNormal {
   EndsAt ends_at = EndsAt::zero_overlap;
 };
-/// K (B1): F = modulus ξ^alpha + viscosity ξ^gamma ξ̇.
+/// K (B1): F = modulus ξ^alpha + viscosity ξ^gamma ξ̇. Exactly one of viscosity and restitution.
 struct PowerNormal {
-  double modulus = 0;    ///< [N/m^alpha], > 0
-  double viscosity = 0;  ///< [N s/m^(1+gamma)], >= 0
-  double alpha = 1.5;    ///< [-], >= 1 (β of K B1)
-  double gamma = 0.5;    ///< [-], >= 0
+  double modulus = 0;                 ///< [N/m^alpha], > 0
+  std::optional<double> viscosity;    ///< [N s/m^(1+gamma)], >= 0
+  std::optional<double> restitution;  ///< e_n [-], (0, 1], of an impact `at_speed`; an extension
+  std::optional<double> at_speed;     ///< [m/s], > 0; with restitution and only then
+  double alpha = 1.5;                 ///< [-], >= 1 (β of K B1)
+  double gamma = 0.5;                 ///< [-], >= 0
   EndsAt ends_at = EndsAt::zero_overlap;
 };
+/// Exactly one of dissipation_time, viscosity and restitution.
 struct ViscoelasticNormal {
   enum class Form { expanded, compact };               ///< B (24), B (25)
   std::optional<double> dissipation_time;              ///< A of B (23) [s], >= 0
   std::optional<std::pair<double, double>> viscosity;  ///< η1, η2 of B (23) [Pa s], >= 0
+  std::optional<double> restitution;  ///< e_n [-], (0, 1], of an impact `at_speed`; an extension
+  std::optional<double> at_speed;     ///< [m/s], > 0; with restitution and only then
   Form form = Form::expanded;
   EndsAt ends_at = EndsAt::zero_overlap;
 };

@@ -18,7 +18,9 @@ Rule<Materials> materials_rule() {
       .key("young_modulus", &Material::young_modulus, number(kPressure, kPositive), optional,
            "Y, where a model needs it")
       .key("poisson_ratio", &Material::poisson_ratio, number(kPureNumber, {{}, -1, 0.5, {}}),
-           optional, "ν, where a model needs it");
+           optional, "ν, where a model needs it")
+      .key("dissipation_time", &Material::dissipation_time, number(kTime, kNotNegative), optional,
+           "A of B (23), for the restitution viscoelastic");
   const Rule<Material> material = record.rule();
   const Rule<std::string> name = name_text(NameStyle::any_case);
   return {[=](const YamlNode& node, Reading& reading, Materials& target) {

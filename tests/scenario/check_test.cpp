@@ -117,6 +117,51 @@ TEST(Check, ModelsHaveWhatTheyNeed) {
                "model hard, got viscous");
 }
 
+TEST(Check, OneWayToGiveTheDissipation) {
+  const auto faults = [](const std::string& normal) {
+    std::string text = with(kHard, "{model: hard, restitution: 0.9}", "{model: " + normal + "}");
+    text = with(text, "    tangential: {model: hard, friction: 0.1, tangential_restitution: 0.5}\n",
+                "");
+    return messages(
+        with(text, "{density: 7850}", "{density: 7850, young_modulus: 2e11, poisson_ratio: 0}"));
+  };
+  const auto one = [](const std::string& rule) {
+    return std::vector<std::string>{"s.yaml:8:13: contacts[0].normal: needs " + rule};
+  };
+  EXPECT_EQ(faults("power, modulus: 1, viscosity: 1"), kNoFaults);
+  EXPECT_EQ(faults("power, modulus: 1, restitution: 0.5, at_speed: 1"), kNoFaults);
+  EXPECT_EQ(faults("power, modulus: 1"), one("exactly one of viscosity or restitution"));
+  EXPECT_EQ(faults("power, modulus: 1, viscosity: 1, restitution: 0.5, at_speed: 1"),
+            one("exactly one of viscosity or restitution"));
+  EXPECT_EQ(faults("power, modulus: 1, restitution: 0.5"),
+            one("the key at_speed with restitution"));
+  EXPECT_EQ(faults("power, modulus: 1, viscosity: 1, at_speed: 1"),
+            one("the key restitution with at_speed"));
+  EXPECT_EQ(faults("viscoelastic, restitution: 0.5, at_speed: 1"), kNoFaults);
+  EXPECT_EQ(faults("viscoelastic, dissipation_time: 1, restitution: 0.5, at_speed: 1"),
+            one("exactly one of dissipation_time, viscosity or restitution"));
+  EXPECT_EQ(faults("viscoelastic"),
+            one("exactly one of dissipation_time, viscosity or restitution"));
+  EXPECT_EQ(faults("viscoelastic, restitution: 0, at_speed: 1"),
+            std::vector<std::string>{
+                "s.yaml:8:48: contacts[0].normal.restitution: must be > 0 and <= 1, got 0"});
+  EXPECT_EQ(
+      faults("viscoelastic, restitution: 0.5, at_speed: 0"),
+      std::vector<std::string>{"s.yaml:8:63: contacts[0].normal.at_speed: must be > 0 m/s, got 0"});
+  // B (23) divides by ν².
+  EXPECT_EQ(
+      faults("viscoelastic, viscosity: [1, 2]"),
+      std::vector<std::string>{"s.yaml:5:62: materials.steel.poisson_ratio: must not be 0, as "
+                               "contacts[0].normal.viscosity divides by it (B 23), got 0"});
+  // K's linear law may be over-critical.
+  EXPECT_EQ(faults("linear, damping_rate: 1e9, stiffness: 1"), kNoFaults);
+}
+
+TEST(Check, DissipationTimeIsNotNegative) {
+  expect_fault(with(kHard, "{density: 7850}", "{density: 7850, dissipation_time: -1}"),
+               "s.yaml:5:44: materials.steel.dissipation_time: must be >= 0 s, got -1");
+}
+
 TEST(Check, Friction) {
   expect_fault(with(kHard, "friction: 0.2", "friction: {static: 0.1, kinetic: 0.2}"),
                "s.yaml:11:24: contacts[1].friction.static: must be at least the kinetic friction "

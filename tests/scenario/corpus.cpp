@@ -21,12 +21,14 @@ using nlohmann::json;
 
 /// A scene that has what the others lack.
 const std::string kRest = R"({slipcheck: 1, name: rest, title: 1, gravity: 0, units: si,
-materials: {m: {density: 1 g/cm3, young_modulus: 1, poisson_ratio: 0.1}},
+materials: {m: {density: 1 g/cm3, young_modulus: 1, poisson_ratio: 0.1, dissipation_time: 1}},
 contacts: [
   {between: [m, m], normal: {model: hard, restitution: {bridges: {coefficient: 1, exponent: 1, speed: 1}}}, tangential: none},
   {between: [m, m], normal: {model: linear, damping_rate: 1, stiffness: 1}, tangential: {model: viscous, damping_rate: 1, friction: 1}},
   {between: [m, m], normal: hertz, tangential: {model: asperity, friction: 1, asperity_size: {relative: 1}, form: passive}},
   {between: [m, m], normal: {model: power, modulus: 1, viscosity: 1, alpha: 1, gamma: 1, ends_at: zero_force}},
+  {between: [m, m], normal: {model: power, modulus: 1, restitution: 1, at_speed: 1}},
+  {between: [m, m], normal: {model: viscoelastic, restitution: 0.5, at_speed: 1}},
   {between: [m, m], normal: {model: viscoelastic, viscosity: [1, 1], form: compact}, tangential: {model: asperity, roughness_factor: 1, asperity_size: 1}},
   {between: [m, substrate], rolling: {coefficient: [[1, 1]], while_sliding: true}, drilling: {model: coupled, contact_radius: hertz}}],
 substrate: {periodic: [1, 1], motion: {kind: table, table: [[0, 0, 0]]}},

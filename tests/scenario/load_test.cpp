@@ -219,7 +219,7 @@ run: {until: 2}
     return std::vector<double>{*from.materials.at("m").density,
                                *from.materials.at("m").young_modulus,
                                power.modulus,
-                               power.viscosity,
+                               power.viscosity.value(),
                                *asperity.roughness_factor,
                                *asperity.asperity_size,
                                from.substrate_contacts[0].rolling.table[0].first,

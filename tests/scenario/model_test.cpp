@@ -77,6 +77,30 @@ TEST(Models, PowerNormal) {
   EXPECT_EQ(model.gamma, 0);
 }
 
+TEST(Models, RestitutionAtASpeed) {
+  const auto power =
+      normal<PowerNormal>("{model: power, modulus: 1e9, restitution: 0.9, at_speed: 10 cm/s}");
+  EXPECT_FALSE(power.viscosity);
+  EXPECT_EQ(power.restitution, 0.9);
+  EXPECT_EQ(power.at_speed, 0.1);
+  const auto viscoelastic =
+      normal<ViscoelasticNormal>("{model: viscoelastic, at_speed: 2, restitution: 1}");
+  EXPECT_FALSE(viscoelastic.dissipation_time);
+  EXPECT_EQ(viscoelastic.restitution, 1);
+  EXPECT_EQ(viscoelastic.at_speed, 2);
+}
+
+TEST(Models, DissipationTimeOfAMaterial) {
+  const auto time = [](const std::string& keys) {
+    return parse_scenario(with(kHard, "{density: 7850}", "{density: 7850" + keys + "}"), "s.yaml")
+        .materials.at("steel")
+        .dissipation_time;
+  };
+  EXPECT_EQ(time(", dissipation_time: 2 us"), 2e-6);
+  EXPECT_EQ(time(", dissipation_time: 0"), 0);
+  EXPECT_FALSE(time(""));
+}
+
 TEST(Models, ViscoelasticNormal) {
   using Form = ViscoelasticNormal::Form;
   const auto one = normal<ViscoelasticNormal>("{model: viscoelastic, dissipation_time: 1e-6}");

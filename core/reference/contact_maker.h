@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+
+#include "physics/elastic_pair.h"
+#include "physics/hard_contact.h"
+#include "reference/contact_scene.h"
+#include "reference/restitution_curve.h"
+#include "scenario/scenario.h"
+#include "scenario/scene_outline.h"
+
+namespace slipcheck {
+
+/// Two classes of bodies that can meet.
+struct ClassPair {
+  const Sphere& first;
+  const Sphere& second;
+  const Material& first_material;
+  const Material& second_material;
+
+  double mass() const { return effective_mass(first, second); }      ///< [kg]
+  double radius() const { return effective_radius(first, second); }  ///< [m]
+  /// ρ of Hertz [N/m^1.5]; the materials must have their elastic constants.
+  double hertz() const;
+  /// A of the pair [s] from that of each material, and the same constants.
+  double dissipation(double first_time, double second_time) const;
+};
+
+ClassPair class_pair(const Scenario& scenario, const BodyClass& first, const BodyClass& second);
+
+/// Gives one contact of a scenario to each pair of classes that has it. What is the same for all of
+/// them, a root or a curve, is found once.
+class ContactMaker {
+ public:
+  /// Both must outlive the maker.
+  ContactMaker(const Scenario& scenario, const BodyContact& contact)
+      : scenario_(scenario), contact_(contact) {}
+
+  const BodyContact& contact() const { return contact_; }
+  bool is_soft() const { return !std::holds_alternative<HardNormal>(contact_.normal); }
+  /// A hard one whose restitution is that of the viscoelastic law.
+  bool is_viscoelastic_restitution() const;
+
+  /// Throws BadScenario for a restitution that the law cannot reach.
+  SoftContact soft(const ClassPair& pair);
+  /// The hard contact that comes closest to a soft one.
+  PairContact hard_equivalent(const SoftContact& soft, const ClassPair& pair);
+  PairContact hard(const ClassPair& pair);
+  /// The law behind a hard restitution `viscoelastic`.
+  static ViscoelasticForce hard_viscoelastic(const ClassPair& pair);
+
+ private:
+  ContactEnd end() const;
+  NormalForce normal(const HardNormal& model, const ClassPair& pair);
+  NormalForce normal(const LinearNormal& model, const ClassPair& pair);
+  NormalForce normal(const HertzNormal& model, const ClassPair& pair);
+  NormalForce normal(const PowerNormal& model, const ClassPair& pair);
+  NormalForce normal(const ViscoelasticNormal& model, const ClassPair& pair);
+  NormalForce with_given_restitution(const NormalForce& force, const ClassPair& pair,
+                                     double restitution, double speed);
+  RestitutionCurve& curve(const ScaledLaw& law);
+
+  const Scenario& scenario_;
+  const BodyContact& contact_;
+  std::optional<double> dissipation_;      // D at the speed that the restitution is given for
+  std::optional<RestitutionCurve> curve_;  // one law for all pairs
+};
+
+}  // namespace slipcheck

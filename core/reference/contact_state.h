@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "physics/collision.h"
+#include "reference/contact_dynamics.h"
+
+namespace slipcheck {
+
+/// What counts as nothing, from the scene's scales and the tolerance of the integration.
+struct ContactScales {
+  double speed = 0;                                 ///< of the scene, speed_scale() [m/s], > 0
+  double slip_floor = 0;                            ///< slower than this is no slip [m/s]
+  double slowest_rebound = 0, slowest_landing = 0;  ///< as of EventSettings [m/s]
+};
+
+/// The state of all bodies with the modes they are in, and the changes of mode at events.
+class ContactState {
+ public:
+  ContactState(const ContactScene& scene, std::span<const BodyState> initial, double time,
+               const ContactScales& scales);
+
+  const ContactScene& scene() const { return *scene_; }
+  ContactDynamics& dynamics() { return dynamics_; }
+  const ContactDynamics& dynamics() const { return dynamics_; }
+  const ContactDynamics::Evaluation& evaluation() const { return evaluation_; }
+  const ContactScales& scales() const { return scales_; }
+
+  double time = 0;
+  std::vector<double> y;
+
+  BodyState body(std::size_t i) const;
+  std::vector<BodyState> bodies() const;
+
+  // --- events ------------------------------------------------------------------------------------
+  void begin_contact(std::size_t i, std::size_t j);
+  void end_contact(std::size_t contact);
+  /// zero_force: the force is gone, or comes back, while the bodies overlap.
+  void clamp_contact(std::size_t contact);
+  void release_contact(std::size_t contact);
+  void break_asperity(std::size_t contact, double change);
+  void switch_growth(std::size_t contact, bool growing);
+  /// A hard pair collides at this instant.
+  CollisionResult collide_now(std::size_t i, std::size_t j);
+  void land_now(std::size_t i);
+  void lift_off(std::size_t i);
+  /// The slip has come to zero: the body sticks if static friction holds it. A slip that merely
+  /// turned right round goes on.
+  void end_slip(std::size_t i);
+  void begin_slip(std::size_t i);
+  void end_roll(std::size_t i);
+  void begin_roll(std::size_t i);
+  void end_spin(std::size_t i);
+  void begin_spin(std::size_t i);
+  /// After the velocity of the substrate jumped.
+  void feel_substrate_jump();
+
+  /// Brings evaluation() up to the present state.
+  void evaluate() { dynamics_.evaluate(time, y.data(), evaluation_); }
+  /// Makes all modes agree with the forces: what cannot hold gives way.
+  void settle();
+  /// Keeps the reference directions of dry friction close to the present ones.
+  void follow_directions();
+  /// Sets what rolling and resting bodies obey exactly, free of the integrator's drift.
+  void project();
+
+  bool in_contact(std::size_t i) const;
+  /// Slides with a slip that counts; sliding coupled to a spin dies out and never ends by itself.
+  bool slides(std::size_t i) const;
+  bool rests(std::size_t i) const;
+
+ private:
+  void place(std::size_t i);
+  void set_body(std::size_t i, const BodyState& state);
+  void set_rolling(std::size_t i);
+  void project(std::size_t i);
+  bool give_way(std::size_t i);
+  void account_impulse(double energy_before, const Vector3& momentum_before,
+                       std::span<const std::size_t> bodies);
+  Vector3 momentum(std::span<const std::size_t> bodies) const;
+
+  const ContactScene* scene_;
+  ContactScales scales_;
+  ContactDynamics dynamics_;
+  ContactDynamics::Evaluation evaluation_;
+  std::vector<std::size_t> free_slots_;
+};
+
+}  // namespace slipcheck

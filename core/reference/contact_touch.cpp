@@ -1,0 +1,98 @@
+#include "reference/contact_touch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace slipcheck {
+namespace {
+
+constexpr std::size_t kBody = ContactDynamics::kBody;
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+Vector3 vector_at(const double* y) { return {y[0], y[1], y[2]}; }
+
+/// Bound of a body's acceleration during the step [m/s²].
+double largest_acceleration(const ContactState& state, std::size_t i) {
+  const HardScene& scene = state.scene().hard;
+  const SubstrateContact& contact = scene.on_substrate(i);
+  const double free = std::hypot(scene.gravity, scene.downhill.norm()) +
+                      contact.static_friction * scene.gravity + scene.motion.largest_acceleration();
+  // In a contact forces can grow within a step, though not by much.
+  return state.in_contact(i) ? 2 * free + 10 * state.evaluation().bodies[i].acceleration.norm()
+                             : free;
+}
+
+struct Approach {
+  double gap, closing;
+};
+
+Approach approach(const ContactDynamics& dynamics, const double* y, std::size_t i, std::size_t j,
+                  double contact) {
+  const Vector3 dx = dynamics.between_centres(i, j, y);
+  const Vector3 dv = vector_at(y + i * kBody + 3) - vector_at(y + j * kBody + 3);
+  const double distance = dx.norm();
+  return {distance - contact, -dx.dot(dv) / distance};
+}
+
+/// Since gap(t + τ) >= gap − c τ − ½ B τ² with the closing speed c and a bound B of the relative
+/// acceleration, steps to the root of that bound never pass a contact.
+double touch_time(const ContactState& state, const Ode& ode, std::size_t i, std::size_t j,
+                  std::vector<double>& y) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const HardScene& scene = state.scene().hard;
+  const double contact = scene.bodies[i].radius + scene.bodies[j].radius;
+  const double touching = 8 * kEpsilon * contact;
+  const double bound = largest_acceleration(state, i) + largest_acceleration(state, j);
+  const double begin = state.time, end = ode.time();
+  double t = begin;
+  const double* now = state.y.data();
+  while (true) {
+    const auto [gap, closing] = approach(state.dynamics(), now, i, j, contact);
+    if (gap <= touching) {
+      if (closing > 1e-13 * state.scales().speed) return t;
+      // At rest against each other: only a push makes it a contact.
+      if (closing > -1e-13 * state.scales().speed) {
+        const auto& bodies = state.evaluation().bodies;
+        const Vector3 n = state.dynamics().between_centres(i, j, now).normalized();
+        const double pushed = -n.dot(bodies[i].acceleration - bodies[j].acceleration);
+        return t == begin && pushed > 1e-12 * bound ? t : never;
+      }
+    }
+    const double open = std::max(gap, touching);
+    const double root = std::sqrt(closing * closing + 2 * bound * open);
+    double step = std::numeric_limits<double>::infinity();
+    if (closing > 0)
+      step = 2 * open / (closing + root);
+    else if (bound > 0)
+      step = (root - closing) / bound;
+    const double next = t + step;
+    if (!(next < end)) return never;  // a contact at the end itself begins the next step
+    if (next == t) return closing > 0 ? t : never;
+    t = next;
+    ode.dense(t, y);
+    now = y.data();
+  }
+}
+
+}  // namespace
+
+std::optional<NextTouch> first_touch(const ContactState& state, const Ode& ode) {
+  const std::size_t count = state.dynamics().modes.size();
+  std::optional<NextTouch> first;
+  std::vector<double> scratch(state.y.size());
+  const auto are_touching = [&](std::size_t i, std::size_t j) {
+    return std::any_of(state.dynamics().contacts.begin(), state.dynamics().contacts.end(),
+                       [&](const ContactMode& c) { return c.first == i && c.second == j; });
+  };
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = i + 1; j < count; ++j) {
+      if (are_touching(i, j)) continue;
+      const double t = touch_time(state, ode, i, j, scratch);
+      if (t <= ode.time() && (!first || t < first->time)) first = NextTouch{t, i, j};
+    }
+  return first;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,145 @@
+#include "reference/contact_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "physics/quasistatic.h"
+#include "reference/asperity_passivity.h"
+#include "scenario/contact_models.h"
+
+namespace slipcheck {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The velocities at which bodies of one class start, as a box.
+struct Velocities {
+  Vector3 least = Vector3::Constant(kInfinity);
+  Vector3 most = Vector3::Constant(-kInfinity);
+};
+
+/// At most how fast bodies of two classes move against each other at the start [m/s]; exact for two
+/// bodies.
+double relative_speed(const Velocities& a, const Velocities& b) {
+  return (a.most - b.least).cwiseMax(b.most - a.least).norm();
+}
+
+/// [m/s]; infinite without a density.
+double sound(const Material& material) {
+  return material.density ? sound_speed(*material.young_modulus, *material.density) : kInfinity;
+}
+
+/// A of a law of B [s], 0 for Hertz'; none for the others.
+std::optional<double> dissipation_time_of(const NormalForce& force) {
+  if (std::holds_alternative<HertzForce>(force)) return 0;
+  if (const auto* expanded = std::get_if<ViscoelasticForce>(&force))
+    return expanded->dissipation_time;
+  if (const auto* compact = std::get_if<CompactViscoelasticForce>(&force))
+    return compact->dissipation_time;
+  return std::nullopt;
+}
+
+/// The worst over all pairs of classes that have the contact.
+struct Worst {
+  QuasistaticCheck fast, viscous;
+  double speed = 0;             ///< of the fast one [m/s]
+  double dissipation_time = 0;  ///< of the viscous one [s]
+  double duration = 0;          ///< its t_c [s]
+  double passive_speed = kInfinity;
+};
+
+void look_at_quasistatic(const ClassPair& pair, double A, double speed, Worst& worst) {
+  if (!(speed > 0)) return;
+  const double duration = hertz_duration(pair.mass(), pair.hertz(), speed);
+  const double slower = std::min(sound(pair.first_material), sound(pair.second_material));
+  const QuasistaticCheck check = quasistatic_check(speed, slower, A, duration);
+  if (check.speed_ratio > worst.fast.speed_ratio) {
+    worst.fast = check;
+    worst.speed = speed;
+  }
+  if (check.time_ratio > worst.viscous.time_ratio) {
+    worst.viscous = check;
+    worst.dissipation_time = A;
+    worst.duration = duration;
+  }
+}
+
+/// The pair of classes whose printed asperities can create energy at the lowest impact speed
+/// counts.
+void look_at_asperities(const ClassPair& pair, const SoftContact& soft, std::optional<double>& bend,
+                        Worst& worst) {
+  const auto* asperity = std::get_if<AsperityForce>(&soft.tangential);
+  if (!asperity || asperity->form != AsperityForce::Form::printed || asperity->friction == 0)
+    return;
+  const ImpactScales at_one = impact_scales(soft.normal, pair.mass(), 1);
+  if (!bend) bend = largest_passive_bend(at_one.law.alpha);
+  const double kappa = tangential_mass_ratio(pair.first, pair.second);
+  worst.passive_speed =
+      std::min(worst.passive_speed,
+               passive_speed(at_one, *bend, asperity->friction / (kappa * asperity->size)));
+}
+
+}  // namespace
+
+std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneOutline& outline,
+                                          ContactMaker& maker) {
+  const BodyContact& contact = maker.contact();
+  std::vector<Velocities> velocities(outline.classes.size());
+  for (std::size_t i = 0; i < outline.scene.bodies.size(); ++i) {
+    Velocities& each = velocities[outline.scene.material[i]];
+    each.least = each.least.cwiseMin(outline.scene.initial[i].velocity);
+    each.most = each.most.cwiseMax(outline.scene.initial[i].velocity);
+  }
+
+  Worst worst;
+  std::optional<double> bend;
+  for (std::size_t a = 0; a < outline.classes.size(); ++a) {
+    for (std::size_t b = a; b < outline.classes.size(); ++b) {
+      if (find_contact(scenario, outline.classes[a].material, outline.classes[b].material) !=
+          &contact)
+        continue;
+      const ClassPair pair = class_pair(scenario, outline.classes[a], outline.classes[b]);
+      const double speed = relative_speed(velocities[a], velocities[b]);
+      if (maker.is_viscoelastic_restitution()) {
+        look_at_quasistatic(pair, ContactMaker::hard_viscoelastic(pair).dissipation_time, speed,
+                            worst);
+      } else if (maker.is_soft()) {
+        const SoftContact soft = maker.soft(pair);
+        if (const auto A = dissipation_time_of(soft.normal))
+          look_at_quasistatic(pair, *A, speed, worst);
+        look_at_asperities(pair, soft, bend, worst);
+      }
+    }
+  }
+
+  std::vector<std::string> warnings;
+  const auto warn = [&](const char* key, const std::string& text) {
+    warnings.push_back(fault_of(scenario, contact.path + key, text).message());
+  };
+  const char* normal = maker.is_soft() ? ".normal.model" : ".normal.restitution";
+  if (worst.fast.too_fast()) {
+    warn(normal, fmt::format("impacts at up to {:.3g} m/s are {:.2g} of the speed of sound; the "
+                             "law holds where that is far below 1 (B 11)",
+                             worst.speed, worst.fast.speed_ratio));
+  }
+  if (worst.viscous.too_viscous()) {
+    warn(
+        normal,
+        fmt::format("the dissipation time {:.3g} s is {:.2g} of an impact's duration {:.3g} s; the "
+                    "law holds where that is far below 1 (B 12)",
+                    worst.dissipation_time, worst.viscous.time_ratio, worst.duration));
+  }
+  if (worst.passive_speed < kInfinity) {
+    warn(".tangential.form",
+         fmt::format("the printed law can create energy in impacts faster than {:.3g} m/s that do "
+                     "not break asperities; passive never does",
+                     worst.passive_speed));
+  }
+  return warnings;
+}
+
+}  // namespace slipcheck

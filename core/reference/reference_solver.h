@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "reference/contact_solver.h"
+#include "reference/event_solver.h"
+
+namespace slipcheck {
+
+/// A reference run in numbers, whichever solver made it.
+struct SolvedRun {
+  double end_time = 0;         ///< [s]
+  bool reached = false;        ///< what RunEnd::until asks for
+  bool failed = false;         ///< the integrator gave up
+  std::string reason;          ///< why not reached
+  std::size_t events = 0;      ///< collisions, landings and changes of mode
+  std::size_t collisions = 0;  ///< of two bodies
+  std::size_t collapses = 0;   ///< of these, the ones below the collapse speed (EventSolver)
+  std::size_t steps = 0;       ///< of the integrator; 0 where phases are exact
+  std::optional<EnergyBalance> balance;  ///< where the solver keeps one
+};
+
+/// How finely a run is made; a second run with other numbers tells the uncertainty.
+struct SolverAccuracy {
+  double tolerance = 1e-13;  ///< of the integrator
+  double cut_offs = 1;       ///< factor on what counts as no rebound
+};
+
+/// The solver that is the truth for a scene, chosen once.
+///
+/// event: hard contacts. On a level, still substrate exact phases from event to event
+/// (EventSolver); else the phases are integrated (ContactSolver) and collisions are instants.
+/// contact: soft contacts resolved in time.
+class ReferenceSolver {
+ public:
+  /// `scene` must outlive the solver.
+  ReferenceSolver(const ContactScene& scene, Compare::Reference asked);
+
+  const char* name() const { return resolved_ ? "contact" : "event"; }
+  bool is_exact() const { return exact_; }        ///< no integrator is needed
+  bool is_resolved() const { return resolved_; }  ///< contacts of bodies last
+  const ContactScene& scene() const { return hardened_ ? *hardened_ : *scene_; }
+
+  SolvedRun run(const RunEnd& end, FrameSink* sink, const SolverAccuracy& accuracy = {}) const;
+  /// The time [s] of the first contact of two bodies or landing, or infinity where none comes
+  /// before `limit` [s].
+  double first_contact(double limit) const;
+  /// All bodies at a time before the first contact [s].
+  std::vector<BodyState> states_at(double time) const;
+  /// When two bodies next meet at `slowest` [m/s] or faster, if they are in `states` at `start`
+  /// [s]; infinity where not before `limit` [s].
+  double next_collision(std::span<const BodyState> states, double start, double limit,
+                        double slowest) const;
+
+ private:
+  const ContactScene* scene_;
+  std::optional<ContactScene> hardened_;  ///< event asked for a scene of soft contacts
+  bool exact_, resolved_;
+};
+
+/// Whether EventSolver has an exact solution for what bodies do between collisions.
+bool has_exact_phases(const HardScene& scene);
+
+}  // namespace slipcheck

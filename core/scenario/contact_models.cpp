@@ -1,0 +1,36 @@
+#include "scenario/contact_models.h"
+
+#include <cmath>
+
+namespace slipcheck {
+
+LinearContact linear_contact(const LinearNormal& model, double reduced_mass) {
+  const ContactEnd end = contact_end(model.ends_at);
+  if (model.restitution && model.collision_time) {
+    return LinearContact::with_collision_time(reduced_mass, *model.restitution,
+                                              *model.collision_time, end);
+  }
+  if (model.restitution)
+    return LinearContact::with_stiffness(reduced_mass, *model.restitution, *model.stiffness, end);
+  if (model.stiffness) return {reduced_mass, *model.stiffness, *model.damping_rate, end};
+  return LinearContact::with_damping_rate(reduced_mass, *model.damping_rate, *model.collision_time,
+                                          end);
+}
+
+ElasticMaterial elastic_material(const Material& material) {
+  return {material.young_modulus.value(), material.poisson_ratio.value(),
+          material.dissipation_time.value_or(0)};
+}
+
+AsperityForce asperity_force(const AsperityTangential& model, double effective_radius) {
+  AsperityForce force;
+  force.size =
+      model.asperity_size ? *model.asperity_size : *model.relative_asperity_size * effective_radius;
+  force.friction =
+      model.friction ? *model.friction : *model.roughness_factor * std::sqrt(force.size);
+  force.form = model.form == AsperityTangential::Form::printed ? AsperityForce::Form::printed
+                                                               : AsperityForce::Form::passive;
+  return force;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,366 @@
+#include "reference/contact_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../scenario/scenes.h"
+#include "physics/elastic_pair.h"
+#include "physics/linear_contact.h"
+#include "reference/impact.h"
+#include "scenario/fault.h"
+
+namespace slipcheck {
+namespace {
+
+using testing::kContainer;
+using testing::kExample;
+using testing::kHard;
+using testing::with;
+
+const std::string kSteel =
+    with(kHard, "{density: 7850}", "{density: 7850, young_modulus: 2e11, poisson_ratio: 0.3}");
+const std::string kTangential = "{model: hard, friction: 0.1, tangential_restitution: 0.5}";
+
+/// Two steel spheres with these models between them.
+std::string pair_text(const std::string& normal, const std::string& tangential = "none") {
+  return with(with(kSteel, "{model: hard, restitution: 0.9}", normal), kTangential, tangential);
+}
+/// Of 0.1 m and 0.05 m radius.
+std::string unlike_text(const std::string& normal, const std::string& tangential = "none") {
+  return with(pair_text(normal, tangential), "name: b, material: steel, sphere: {radius: 0.1}",
+              "name: b, material: steel, sphere: {radius: 0.05}");
+}
+ContactScene scene_of(const std::string& text) {
+  return make_contact_scene(parse_scenario(text, "s.yaml"));
+}
+double mass_of(const ContactScene& scene) {
+  return effective_mass(scene.hard.bodies[0], scene.hard.bodies[1]);
+}
+template <class Force>
+Force normal_of(const ContactScene& scene) {
+  return std::get<Force>(scene.between(0, 1).value().normal);
+}
+std::string refusal(const std::string& text) {
+  try {
+    scene_of(text);
+  } catch (const Unsupported& unsupported) {
+    return unsupported.what();
+  } catch (const BadScenario& bad) {
+    return std::string("bad: ") + bad.what();
+  }
+  return "";
+}
+
+TEST(ContactScene, LinearHasWhatWasAskedForUnderBothEndRules) {
+  for (const std::string end : {"zero_overlap", "zero_force"}) {
+    for (const std::string one : {"restitution: 0.8", "damping_rate: 4000"}) {
+      for (const std::string two : {"collision_time: 1e-4", "stiffness: 1e10"}) {
+        const ContactScene scene = scene_of(
+            unlike_text("{model: linear, " + one + ", " + two + ", ends_at: " + end + "}"));
+        const SoftContact& soft = scene.between(0, 1).value();
+        const double m = mass_of(scene);
+        const auto force = std::get<LinearForce>(soft.normal);
+        EXPECT_EQ(soft.end,
+                  end == "zero_force" ? ContactEnd::zero_force : ContactEnd::zero_overlap);
+        const Impact found = impact(soft.normal, m, 1, soft.end);
+        if (one[0] == 'r') {
+          EXPECT_NEAR(found.restitution, 0.8, 1e-10);
+        } else {
+          EXPECT_NEAR(force.damping, 4000 * m, 1e-9 * m);
+        }
+        if (two[0] == 'c') {
+          EXPECT_NEAR(found.duration, 1e-4, 1e-13);
+        } else {
+          EXPECT_DOUBLE_EQ(force.stiffness, 1e10);
+        }
+        EXPECT_NEAR(std::get<double>(scene.hard.between(0, 1).restitution), found.restitution,
+                    1e-10);
+        EXPECT_FALSE(scene.is_hard());
+      }
+    }
+  }
+}
+
+TEST(ContactScene, LinearMayBeOverCritical) {
+  const std::string text = "{model: linear, damping_rate: 1e6, stiffness: 1e9, ends_at: ";
+  const ContactScene stays = scene_of(pair_text(text + "zero_overlap}"));
+  EXPECT_EQ(std::get<double>(stays.hard.between(0, 1).restitution), 0);
+  const ContactScene ends = scene_of(pair_text(text + "zero_force}"));
+  EXPECT_GT(std::get<double>(ends.hard.between(0, 1).restitution), 0);
+}
+
+TEST(ContactScene, HertzFromUnlikeMaterials) {
+  std::string text = with(unlike_text("hertz"), "substrate: {}",
+                          "  - {between: [glass, steel], normal: hertz}\n"
+                          "  - {between: [glass, substrate]}\nsubstrate: {}");
+  text = with(text, "contacts:",
+              "  glass: {density: 2500, young_modulus: 7e10, poisson_ratio: 0.2}\ncontacts:");
+  text = with(text, "name: b, material: steel", "name: b, material: glass");
+  const ContactScene scene = scene_of(text);
+  // (4/3) E* √R_eff, 1/E* = 0.91/2e11 + 0.96/7e10, R_eff = 1/30 m.
+  const double modulus = 1 / (0.91 / 2e11 + 0.96 / 7e10);
+  EXPECT_NEAR(normal_of<HertzForce>(scene).modulus / (4.0 / 3 * modulus * std::sqrt(1 / 30.0)), 1,
+              1e-14);
+  EXPECT_EQ(std::get<double>(scene.hard.between(0, 1).restitution), 1);
+  EXPECT_EQ(std::get<double>(scene.hard.between(1, 0).restitution), 1);
+}
+
+TEST(ContactScene, ViscoelasticFromTimeOrViscosities) {
+  const auto time = normal_of<ViscoelasticForce>(
+      scene_of(pair_text("{model: viscoelastic, dissipation_time: 1e-6}")));
+  EXPECT_EQ(time.dissipation_time, 1e-6);
+  EXPECT_NEAR(time.modulus / (2 * 2e11 * std::sqrt(0.05) / (3 * 0.91)), 1, 1e-14);
+  const auto viscous = normal_of<CompactViscoelasticForce>(
+      scene_of(pair_text("{model: viscoelastic, viscosity: [0, 3e5], form: compact}")));
+  // B (23) with η1 = 0: η2 (1 − ν²)(1 − 2ν)/(Y ν²).
+  EXPECT_NEAR(viscous.dissipation_time / (3e5 * 0.91 * 0.4 / (2e11 * 0.09)), 1, 1e-14);
+}
+
+TEST(ContactScene, RestitutionAtASpeedHoldsForEveryPairOfBodies) {
+  const std::vector<std::string> models = {"power, modulus: 1e10, alpha: 1.5, gamma: 0.5",
+                                           "power, modulus: 1e10, alpha: 1.5, gamma: 0",
+                                           "viscoelastic", "viscoelastic, form: compact"};
+  for (const std::string& model : models) {
+    for (const std::string end : {"zero_overlap", "zero_force"}) {
+      const ContactScene scene = scene_of(unlike_text(
+          "{model: " + model + ", restitution: 0.7, at_speed: 20 cm/s, ends_at: " + end + "}"));
+      ASSERT_EQ(scene.hard.substrate.size(), 2u);
+      for (const std::size_t i : {0u, 1u}) {
+        for (const std::size_t j : {0u, 1u}) {
+          const SoftContact& soft = scene.between(i, j).value();
+          const double m = effective_mass(scene.hard.bodies[i], scene.hard.bodies[j]);
+          EXPECT_NEAR(impact(soft.normal, m, 0.2, soft.end).restitution, 0.7, 1e-9);
+          EXPECT_NEAR(restitution_at(scene.hard.between(i, j).restitution, 0.2), 0.7, 1e-6);
+          // At another speed the engines get what the law gives there.
+          EXPECT_NEAR(restitution_at(scene.hard.between(i, j).restitution, 3),
+                      impact(soft.normal, m, 3, soft.end).restitution, 1e-6);
+        }
+      }
+    }
+  }
+}
+
+TEST(ContactScene, RestitutionOutOfReachIsABadScenario) {
+  EXPECT_EQ(refusal(pair_text(
+                "{model: viscoelastic, restitution: 1e-6, at_speed: 1, ends_at: zero_force}")),
+            "bad: s.yaml:8:35: contacts[0].normal.restitution: must be in [9.736e-05, 1] at 1 m/s, "
+            "got 1e-06");
+}
+
+TEST(ContactScene, ViscousDampingByRateOrRatio) {
+  const std::string normal = "{model: linear, damping_rate: 3000, stiffness: 1e10}";
+  const ContactScene rate =
+      scene_of(unlike_text(normal, "{model: viscous, damping_rate: 500, friction: 0.3}"));
+  const auto force = std::get<ViscousForce>(rate.between(0, 1)->tangential);
+  EXPECT_NEAR(force.damping / (500 * mass_of(rate)), 1, 1e-14);
+  EXPECT_EQ(force.friction, 0.3);
+  const ContactScene ratio =
+      scene_of(unlike_text(normal, "{model: viscous, damping_ratio: 0.5, friction: 0.3}"));
+  EXPECT_NEAR(
+      std::get<ViscousForce>(ratio.between(0, 1)->tangential).damping / (1500 * mass_of(ratio)), 1,
+      1e-14);
+}
+
+/// Slip of two free spheres after F = −c u acted on both for a time, by Runge-Kutta.
+double slip_left(const Sphere& a, const Sphere& b, double damping, double time) {
+  std::array<double, 4> y{1, 0, 0, 0};  // velocities, surface velocities from the spins
+  const auto slope = [&](const std::array<double, 4>& s) {
+    const double force = -damping * (s[0] + s[2] - s[1] - s[3]);
+    return std::array<double, 4>{force / a.mass, -force / b.mass, force / (a.shape_factor * a.mass),
+                                 -force / (b.shape_factor * b.mass)};
+  };
+  const auto moved = [](std::array<double, 4> s, const std::array<double, 4>& d, double dt) {
+    for (std::size_t i = 0; i < s.size(); ++i) s[i] += dt * d[i];
+    return s;
+  };
+  const int steps = 2000;
+  const double h = time / steps;
+  for (int n = 0; n < steps; ++n) {
+    const auto k1 = slope(y), k2 = slope(moved(y, k1, h / 2)), k3 = slope(moved(y, k2, h / 2)),
+               k4 = slope(moved(y, k3, h));
+    y = moved(moved(moved(moved(y, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
+  }
+  return y[0] + y[2] - y[1] - y[3];
+}
+
+TEST(ContactScene, ViscousEquivalentLeavesTheSlipThatTheForceLeaves) {
+  const std::string tangential = "{model: viscous, damping_rate: 2000, friction: 0.3}";
+  for (const std::string normal : {"{model: linear, restitution: 0.9, collision_time: 1e-4}",
+                                   "hertz", "{model: linear, damping_rate: 1e6, stiffness: 1e9}"}) {
+    const ContactScene scene =
+        scene_of(with(unlike_text(normal, tangential), "sphere: {radius: 0.1}",
+                      "sphere: {radius: 0.1, inertia: shell}"));
+    const SoftContact& soft = scene.between(0, 1).value();
+    const double duration = impact(soft.normal, mass_of(scene), 1, soft.end).duration;
+    const double left = std::isinf(duration) ? 0
+                                             : slip_left(scene.hard.bodies[0], scene.hard.bodies[1],
+                                                         2000 * mass_of(scene), duration);
+    const PairContact& hard = scene.hard.between(0, 1);
+    // The duration is known to 1e-8.
+    EXPECT_NEAR(hard.tangential_restitution, -left, 1e-7) << normal;
+    EXPECT_EQ(hard.friction, 0.3);
+  }
+  const ContactScene smooth =
+      scene_of(pair_text("hertz", "{model: viscous, damping_rate: 0, friction: 0.3}"));
+  EXPECT_EQ(smooth.hard.between(0, 1).tangential_restitution, -1);
+}
+
+TEST(ContactScene, AsperitiesByFrictionOrRoughness) {
+  const auto asperity = [](const std::string& keys) {
+    const ContactScene scene = scene_of(pair_text("hertz", "{model: asperity, " + keys + "}"));
+    return std::pair(std::get<AsperityForce>(scene.between(0, 1)->tangential),
+                     scene.hard.between(0, 1));
+  };
+  const auto [one, hard] = asperity("friction: 0.3, asperity_size: 1 um, form: passive");
+  EXPECT_EQ(one.friction, 0.3);
+  EXPECT_EQ(one.size, 1e-6);
+  EXPECT_EQ(one.form, AsperityForce::Form::passive);
+  EXPECT_EQ(hard.friction, 0.15);
+  EXPECT_EQ(hard.tangential_restitution, 0);
+  // μ = α √ζ0 with ζ0 = 2e-4 · 0.05 m and α = 1 cm^−1/2: √(1e-3).
+  const auto [two, unused] =
+      asperity("roughness_factor: 1 cm^-0.5, asperity_size: {relative: 2e-4}");
+  EXPECT_DOUBLE_EQ(two.size, 1e-5);
+  EXPECT_DOUBLE_EQ(two.friction, std::sqrt(1e-3));
+  EXPECT_EQ(two.form, AsperityForce::Form::printed);
+}
+
+TEST(ContactScene, ClassesDivideOnlyWhatDependsOnTheBodies) {
+  const std::string hard = with(kSteel, "name: b, material: steel, sphere: {radius: 0.1}",
+                                "name: b, material: steel, sphere: {radius: 0.05}");
+  EXPECT_EQ(scene_of(hard).hard.substrate.size(), 1u);
+  EXPECT_TRUE(scene_of(hard).is_hard());
+  EXPECT_EQ(scene_of(pair_text("hertz")).hard.substrate.size(), 1u);
+  const ContactScene unlike = scene_of(unlike_text("hertz"));
+  EXPECT_EQ(unlike.hard.substrate.size(), 2u);
+  EXPECT_EQ(unlike.soft.size(), 4u);
+  EXPECT_EQ(std::get<HertzForce>(unlike.between(0, 1)->normal).modulus,
+            std::get<HertzForce>(unlike.between(1, 0)->normal).modulus);
+  EXPECT_EQ(scene_of(with(pair_text("hertz"), "sphere: {radius: 0.1}",
+                          "sphere: {radius: 0.1, inertia: shell}"))
+                .hard.substrate.size(),
+            2u);
+}
+
+TEST(ContactScene, HardScenesAreThoseOfTheEventSolver) {
+  const Scenario scenario = parse_scenario(kHard, "s.yaml");
+  const ContactScene scene = make_contact_scene(scenario);
+  const HardScene hard = make_hard_scene(scenario);
+  EXPECT_TRUE(scene.is_hard());
+  EXPECT_TRUE(scene.warnings.empty());
+  EXPECT_EQ(std::get<double>(scene.hard.between(0, 1).restitution), 0.9);
+  EXPECT_EQ(scene.hard.between(0, 1).friction, hard.between(0, 1).friction);
+  EXPECT_EQ(scene.hard.gravity, hard.gravity);
+}
+
+// --- normal: {model: hard, restitution: viscoelastic} --------------------------------------------
+
+const std::string kHardViscoelastic =
+    with(with(kHard, "{density: 7850}",
+              "{density: 917, young_modulus: 1e10, poisson_ratio: 0.3, dissipation_time: 2e-5}"),
+         "restitution: 0.9", "restitution: viscoelastic");
+
+TEST(ContactScene, HardViscoelasticRestitutionIsB24) {
+  const ContactScene scene =
+      scene_of(with(kHardViscoelastic, "name: b, material: steel, sphere: {radius: 0.1}",
+                    "name: b, material: steel, sphere: {radius: 0.05}"));
+  EXPECT_TRUE(scene.is_hard());
+  ASSERT_EQ(scene.hard.substrate.size(), 2u);
+  const ElasticMaterial ice{1e10, 0.3};
+  const double rho =
+      hertz_modulus(ice, ice, effective_radius(scene.hard.bodies[0], scene.hard.bodies[1]));
+  for (const double v : {1e-9, 1e-4, 0.01, 1.0, 30.0, 1e5}) {
+    EXPECT_NEAR(restitution_at(scene.hard.between(0, 1).restitution, v),
+                impact(ViscoelasticForce{rho, 2e-5}, mass_of(scene), v, ContactEnd::zero_overlap)
+                    .restitution,
+                1e-6);
+  }
+  EXPECT_EQ(scene.hard.between(0, 1).friction, 0.1);
+}
+
+TEST(ContactScene, HardViscoelasticNeedsDissipationTimes) {
+  EXPECT_EQ(refusal(with(kHardViscoelastic, ", dissipation_time: 2e-5", "")),
+            "s.yaml:8:27: contacts[0].normal.restitution: can only be solved with "
+            "materials.steel.dissipation_time, got viscoelastic");
+}
+
+// --- surroundings --------------------------------------------------------------------------------
+
+TEST(ContactScene, TakesTiltMotionCoupledDrillingAndRollingWhileSliding) {
+  const ContactScene scene = scene_of(kExample);
+  EXPECT_NEAR(scene.hard.gravity, 9.81 * std::cos(5 * M_PI / 180), 1e-14);
+  EXPECT_NEAR(scene.hard.downhill.y(), -9.81 * std::sin(5 * M_PI / 180), 1e-14);
+  EXPECT_EQ(scene.hard.downhill.x(), 0);
+  // 1 mm sin(2π 5 t + 90°).
+  EXPECT_NEAR(scene.hard.motion.position(0).x(), 1e-3, 1e-18);
+  EXPECT_NEAR(scene.hard.motion.position(0.1).x(), -1e-3, 1e-17);
+}
+
+TEST(ContactScene, RefusesPeriodicSubstratesAndContainers) {
+  EXPECT_EQ(refusal(with(kHard, "substrate: {}", "substrate: {periodic: [9, 9]}")),
+            "s.yaml:12:13: substrate.periodic: only an unbounded substrate can be solved, got a "
+            "periodic cell");
+  EXPECT_EQ(refusal(kContainer),
+            "s.yaml:10:1: container: only an unbounded substrate can be solved, got a container");
+}
+
+TEST(ContactScene, MayBeAskedForByName) {
+  EXPECT_EQ(refusal(kHard + "compare: {reference: contact}\n"), "");
+}
+
+// --- warnings ------------------------------------------------------------------------------------
+
+TEST(ContactScene, WarnsOfImpactsThatAreNotQuasistatic) {
+  // Sound in a steel rod: √(2e11/7850) = 5048 m/s.
+  const std::string fast = with(pair_text("hertz"), "velocity: [-1, 0]", "velocity: [-100, 0]");
+  EXPECT_EQ(
+      scene_of(fast).warnings,
+      std::vector<std::string>{"s.yaml:8:13: contacts[0].normal.model: impacts at up to 100 m/s "
+                               "are 0.02 of the speed of sound; the law holds where that is "
+                               "far below 1 (B 11)"});
+  EXPECT_TRUE(scene_of(pair_text("hertz")).warnings.empty());
+  // The same in another law, which is not B's.
+  EXPECT_TRUE(scene_of(with(pair_text("{model: linear, restitution: 1, stiffness: 1e9}"),
+                            "velocity: [-1, 0]", "velocity: [-100, 0]"))
+                  .warnings.empty());
+}
+
+TEST(ContactScene, WarnsOfADissipationTimeNearTheDuration) {
+  const auto warnings = [](const std::string& time) {
+    return scene_of(pair_text("{model: viscoelastic, dissipation_time: " + time + "}")).warnings;
+  };
+  EXPECT_TRUE(warnings("1e-6").empty());
+  const ElasticMaterial steel{2e11, 0.3};
+  const Sphere ball{0.1, 7850 * 4 / 3.0 * M_PI * 1e-3};
+  const double duration = hertz_duration(ball.mass / 2, hertz_modulus(steel, steel, 0.05), 1);
+  ASSERT_EQ(warnings("1e-3").size(), 1u);
+  std::array<char, 200> expected{};
+  std::snprintf(expected.data(), expected.size(),
+                "the dissipation time 0.001 s is %.2g of an impact's duration %.3g s",
+                1e-3 / duration, duration);
+  EXPECT_NE(warnings("1e-3")[0].find(expected.data()), std::string::npos) << warnings("1e-3")[0];
+  const std::string hard = with(kHardViscoelastic, "2e-5", "1e-2");
+  ASSERT_EQ(scene_of(hard).warnings.size(), 1u);
+  EXPECT_EQ(scene_of(hard).warnings[0].find("s.yaml:8:27: contacts[0].normal.restitution: the "),
+            0u);
+}
+
+TEST(ContactScene, WarnsOfPrintedAsperities) {
+  const std::string asperity = "{model: asperity, friction: 0.1, asperity_size: {relative: 2e-4}}";
+  const std::vector<std::string> warnings = scene_of(pair_text("hertz", asperity)).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].find("s.yaml:9:5: contacts[0].tangential.form: the printed law can create "
+                             "energy in impacts faster than "),
+            0u)
+      << warnings[0];
+  EXPECT_TRUE(
+      scene_of(pair_text("hertz", with(asperity, "}}", "}, form: passive}"))).warnings.empty());
+  EXPECT_TRUE(scene_of(pair_text("hertz", with(asperity, "0.1", "0"))).warnings.empty());
+}
+
+}  // namespace
+}  // namespace slipcheck

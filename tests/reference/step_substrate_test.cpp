@@ -1,0 +1,303 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "physics/closed_forms.h"
+#include "physics/coupled_friction.h"
+#include "reference/step_solver.h"
+#include "step_scenes.h"
+
+namespace slipcheck {
+namespace {
+
+using namespace test;
+
+/// One ball, and when it first sticks.
+struct SlideWatch final : FrameSink {
+  explicit SlideWatch(double radius) : radius_(radius) {}
+  void take(double time, const Frame& frame) override {
+    const BodyState& s = frame.bodies[0];
+    const bool slips = slip_velocity(s, radius_).head<2>().norm() > 1e-12;
+    if (!slips && end < 0) end = time;
+  }
+  double end = -1;
+
+ private:
+  double radius_;
+};
+
+TEST(StepSolver, SlidingTimeAndDistanceAreOfFirstOrder) {
+  HardScene scene = test::steel_scene(1);
+  scene.initial[0].velocity = {0.3, 0.1, 0};
+  scene.initial[0].angular_velocity = {20, -10, 0};
+  const SlideToRoll exact(scene.bodies[0], 0.1, 9.81, scene.initial[0].velocity,
+                          scene.initial[0].angular_velocity);
+  const ContactScene all = alone(scene);
+  double worst_time = 0, worst_place = 0;
+  for (int halving = 0; halving < 3; ++halving) {
+    double time_error = 0, place_error = 0;
+    for (int phase = 0; phase < 8; ++phase) {
+      const double h = 1e-4 / (1 << halving) * (1 + phase / 32.0);
+      SlideWatch watch(0.002);
+      StepSolver solver(all, scene.initial, {h});
+      const StepRun run = solver.run(kRolling, &watch);
+      ASSERT_TRUE(run.reached);
+      time_error = std::max(time_error, std::abs(watch.end - exact.sliding_time) / h);
+      const BodyState s = solver.states()[0];
+      const Vector3 place =
+          exact.displacement + exact.rolling_velocity * (run.end_time - exact.sliding_time);
+      place_error = std::max(place_error, (s.position - scene.initial[0].position - place).norm() /
+                                              (h * exact.slip.norm()));
+      // The impulse that stops the slip is exact.
+      EXPECT_LT((s.velocity - exact.rolling_velocity).norm(), 1e-13);
+      EXPECT_LT(slip_velocity(s, 0.002).norm(), 1e-15);
+    }
+    // Both in units of a step: bounded, that is of first order at worst.
+    EXPECT_LT(time_error, 1.5);
+    worst_time = std::max(worst_time, time_error);
+    EXPECT_LT(place_error, 0.5);
+    if (halving > 0) {
+      EXPECT_LT(place_error, 1.2 * worst_place);
+    }
+    worst_place = place_error;
+  }
+  EXPECT_GT(worst_time, 0.1);
+}
+
+TEST(StepSolver, TurningSlipIsOfSecondOrder) {
+  // A ball on a slope that slides across it: friction turns with the slip. Exact: Runge-Kutta.
+  HardScene scene = test::steel_scene(1);
+  scene.downhill = {0, -4};
+  scene.initial[0].velocity = {0.5, 0, 0};
+  const ContactScene all = alone(scene);
+  const double t = 0.05, A = 2.5, a = 0.1 * 9.81;
+  Vector2 v(0.5, 0), u(0.5, 0);
+  const auto step = [&](Vector2 at) -> Vector2 { return -a * at.normalized(); };
+  const int fine = 4000;
+  for (int n = 0; n < fine; ++n) {
+    // u̇ = downhill − (1+A) a û and v̇ = downhill − a û
+    const double h = t / fine;
+    const Vector2 g(0, -4);
+    const auto du = [&](const Vector2& at) -> Vector2 { return g + (1 + A) * step(at); };
+    const Vector2 k1 = du(u), u2 = u + h / 2 * k1, k2 = du(u2), u3 = u + h / 2 * k2, k3 = du(u3),
+                  u4 = u + h * k3, k4 = du(u4);
+    v += h * g + h / 6 * (step(u) + 2 * step(u2) + 2 * step(u3) + step(u4));
+    u += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  const auto error = [&](int steps) {
+    StepSolver solver(all, scene.initial, {t / steps});
+    solver.run(until(t), nullptr);
+    return (solver.states()[0].velocity.head<2>() - v).norm();
+  };
+  EXPECT_NEAR(order(error, 100), 2, 0.1);
+}
+
+TEST(StepSolver, K16RollingStopsAfterItsDistance) {
+  HardScene scene = test::steel_scene(1);
+  scene.substrate[0].rolling = RollingFriction(0.01);
+  scene.initial[0] = test::rolling_at(0, 0, 0.06, 0.08);
+  const ContactScene all = alone(scene);
+  const double a = 0.01 * 9.81;
+  for (const double h : {1e-3, 5e-4, 2.5e-4}) {
+    StepSolver solver(all, scene.initial, {h});
+    const StepRun run = solver.run({Run::Until::rest, 0, 10}, nullptr);
+    ASSERT_TRUE(run.reached);
+    EXPECT_NEAR(run.end_time, 0.1 / a, 1.5 * h);
+    const BodyState s = solver.states()[0];
+    EXPECT_EQ(s.velocity.norm(), 0);
+    // Stopping within the last step costs a h²/8 at most.
+    EXPECT_NEAR(s.position.head<2>().norm(), 0.005 / a, 0.13 * a * h * h);
+  }
+}
+
+TEST(StepSolver, RollingFrictionOfATableFollowsItsExponential) {
+  HardScene scene = test::steel_scene(1);
+  // μ_r = 0.1 v: v̇ = −0.1 g v.
+  scene.substrate[0].rolling =
+      RollingFriction(std::vector<RollingFriction::Point>{{0, 0}, {1, 0.1}});
+  scene.initial[0] = test::rolling_at(0, 0, 0.1, 0);
+  const ContactScene all = alone(scene);
+  const auto error = [&](int steps) {
+    StepSolver solver(all, scene.initial, {1.0 / steps});
+    solver.run(until(1), nullptr);
+    return std::abs(solver.states()[0].velocity.x() - 0.1 * std::exp(-0.981));
+  };
+  EXPECT_LT(error(1000), 1e-4);
+  EXPECT_GT(order(error, 500), 0.9);
+}
+
+TEST(StepSolver, RollingFrictionWhileSlidingTurnsTheSphereOnly) {
+  HardScene scene = test::steel_scene(1);
+  scene.substrate[0].rolling = RollingFriction(0.01);
+  scene.substrate[0].rolling_while_sliding = true;
+  scene.initial[0].velocity = {1, 0, 0};
+  scene.initial[0].angular_velocity = {0, 50, 0};
+  const ContactScene all = alone(scene);
+  StepSolver solver(all, scene.initial, {1e-4});
+  solver.run(until(0.01), nullptr);
+  const BodyState s = solver.states()[0];
+  // I Ω̇ = R μ_k m g − (1+q) μ_r m g R, all constant.
+  EXPECT_NEAR(s.velocity.x(), 1 - 0.01 * 0.981, 1e-13);
+  const double rate = 2.5 / 0.002 * 9.81 * (0.1 - 1.4 * 0.01);
+  EXPECT_NEAR(s.angular_velocity.y(), 50 + 0.01 * rate, 1e-9);
+}
+
+TEST(StepSolver, DrillingStopsLinearly) {
+  HardScene scene = test::steel_scene(1);
+  scene.substrate[0].drilling_length = 2e-6;
+  scene.initial[0].angular_velocity = {0, 0, 30};
+  const ContactScene all = alone(scene);
+  StepSolver solver(all, scene.initial, {1e-4});
+  const double rate = 2e-6 * 9.81 / (0.4 * 0.002 * 0.002);
+  solver.run(until(1), nullptr);
+  EXPECT_NEAR(solver.states()[0].angular_velocity.z(), 30 - rate, 1e-9);
+  const StepRun run = solver.run({Run::Until::rest, 0, 10}, nullptr);
+  EXPECT_NEAR(run.end_time, 30 / rate, 1.5e-4);
+  EXPECT_EQ(solver.states()[0].angular_velocity.z(), 0);
+}
+
+TEST(StepSolver, CoupledDrillingFollowsTheIntegratedLaw) {
+  HardScene scene = test::steel_scene(1);
+  SubstrateContact& contact = scene.substrate[0];
+  contact.coupled_radius = 2e-4;
+  contact.drilling_length = 2.0 / 3 * 0.1 * 2e-4;
+  scene.initial[0].velocity = {0.05, 0, 0};
+  scene.initial[0].angular_velocity = {0, 0, 400};
+  const ContactScene all = alone(scene);
+  // u̇ = −(1+A) μ g f(u, a_c Ω), I Ω̇ = −μ m g a_c t(u, a_c Ω): Runge-Kutta.
+  const double t = 0.01, g = 9.81;
+  double v = 0.05, u = 0.05, w = 400;
+  const int fine = 2000;
+  for (int n = 0; n < fine; ++n) {
+    const double h = t / fine;
+    const auto rates = [&](double slip, double spin) {
+      const CoupledFriction c = coupled_friction(DiscPressure::uniform, slip, 2e-4 * spin);
+      return std::pair(-0.1 * g * c.force, -0.1 * g * 2e-4 * c.torque / (0.4 * 0.002 * 0.002));
+    };
+    const auto [a1, b1] = rates(u, w);
+    const auto [a2, b2] = rates(u + 3.5 * a1 * h / 2, w + b1 * h / 2);
+    const auto [a3, b3] = rates(u + 3.5 * a2 * h / 2, w + b2 * h / 2);
+    const auto [a4, b4] = rates(u + 3.5 * a3 * h, w + b3 * h);
+    const double a = (a1 + 2 * a2 + 2 * a3 + a4) / 6;
+    v += h * a;
+    u += 3.5 * h * a;
+    w += h * (b1 + 2 * b2 + 2 * b3 + b4) / 6;
+  }
+  ASSERT_GT(u, 0.001);
+  const auto error = [&](int steps) {
+    StepSolver solver(all, scene.initial, {t / steps});
+    solver.run(until(t), nullptr);
+    const BodyState s = solver.states()[0];
+    return std::abs(s.velocity.x() - v) / v + std::abs(s.angular_velocity.z() - w) / w;
+  };
+  EXPECT_NEAR(order(error, 100), 2, 0.1);
+  EXPECT_LT(error(1000), 1e-4);
+}
+
+TEST(StepSolver, K24FiveSeventhsDownASlope) {
+  HardScene scene = test::steel_scene(1);
+  const double tilt = 5 * M_PI / 180;
+  scene.gravity = 9.81 * std::cos(tilt);
+  scene.downhill = {0, -9.81 * std::sin(tilt)};
+  const ContactScene all = alone(scene);
+  StepSolver solver(all, scene.initial, {1e-3});
+  solver.run(until(0.5), nullptr);
+  const BodyState s = solver.states()[0];
+  const double a = 5.0 / 7 * 9.81 * std::sin(tilt);
+  EXPECT_NEAR(s.velocity.y(), -a * 0.5, 1e-13);
+  EXPECT_NEAR(s.position.y(), -a * 0.125, 1e-13);
+  EXPECT_NEAR(0.002 * s.angular_velocity.x(), a * 0.5, 1e-13);
+}
+
+TEST(StepSolver, SteepSlopeSlides) {
+  // Rolling needs (2/7) g sinθ of friction: more than μ_s g cosθ beyond tanθ = 3.5 μ_s.
+  HardScene scene = test::steel_scene(1);
+  scene.substrate[0].static_friction = 0.2;
+  for (const double tan : {0.69, 0.71}) {
+    const double tilt = std::atan(tan);
+    scene.gravity = 9.81 * std::cos(tilt);
+    scene.downhill = {9.81 * std::sin(tilt), 0};
+    const ContactScene all = alone(scene);
+    StepSolver solver(all, scene.initial, {1e-3});
+    solver.run(until(0.1), nullptr);
+    const double rolls = 5.0 / 7 * 9.81 * std::sin(tilt);
+    const double slides = 9.81 * (std::sin(tilt) - 0.1 * std::cos(tilt));
+    EXPECT_NEAR(solver.states()[0].velocity.x(), 0.1 * (tan < 0.7 ? rolls : slides), 1e-12);
+  }
+}
+
+TEST(StepSolver, K15TwoSeventhsOfTheSubstratesVelocity) {
+  HardScene scene = test::steel_scene(1);
+  scene.motion = SubstrateMotion::oscillation({0.01, 0.003}, 3, 0);
+  const ContactScene all = alone(scene);
+  // a = (2/7) a_S: v = (2/7) (v_S − v_S(0)) from a start at rest that rolls on the moving plane.
+  BodyState start = scene.initial[0];
+  const Vector3 first = scene.motion.velocity(0);
+  start.angular_velocity = rolling_angular_velocity(-first, 0.002);
+  const std::vector<BodyState> initial = {start};
+  StepSolver solver(all, initial, {1e-4});
+  for (const double t : {0.1, 0.25, 0.5}) {
+    solver.run(until(t), nullptr);
+    const Vector3 expected = 2.0 / 7 * (scene.motion.velocity(t) - first);
+    EXPECT_LT((solver.states()[0].velocity - expected).norm(), 1e-12) << t;
+  }
+}
+
+TEST(StepSolver, FastOscillationMakesTheBallSlide) {
+  // Rolling asks for friction (5/7... of) m a_S/(1+A): K (17) holds up to a_S = 3.5 μ_s g.
+  HardScene scene = test::steel_scene(1);
+  scene.substrate[0].static_friction = 0.1;
+  for (const double share : {0.95, 1.05}) {
+    const double amplitude = share * 3.5 * 0.1 * 9.81 / std::pow(2 * M_PI * 5, 2);
+    scene.motion = SubstrateMotion::oscillation({amplitude, 0}, 5, M_PI / 2);
+    const ContactScene all = alone(scene);
+    StepSolver solver(all, scene.initial, {1e-5});
+    solver.run(until(0.01), nullptr);
+    const BodyState s = solver.states()[0];
+    const double slip =
+        (slip_velocity(s, 0.002) - scene.motion.velocity(solver.now())).head<2>().norm();
+    EXPECT_EQ(slip > 1e-6, share > 1) << slip;
+  }
+}
+
+TEST(StepSolver, FlightLandingAndRestitution) {
+  HardScene scene = test::steel_scene(1);
+  scene.substrate[0].restitution = 0.5;
+  scene.initial[0].position.z() = 0.002 + 0.05;
+  scene.initial[0].velocity = {0.2, 0, 0};
+  const ContactScene all = alone(scene);
+  const double fall = std::sqrt(2 * 0.05 / 9.81), speed = 9.81 * fall;
+  for (const double h : {1e-4, 5e-5}) {
+    StepSolver solver(all, scene.initial, {h});
+    solver.run(until(fall - 1e-3), nullptr);
+    EXPECT_EQ(solver.states()[0].velocity.x(), 0.2);
+    // Half way up and down of the rebound.
+    solver.run(until(fall + 0.5 * speed / 9.81), nullptr);
+    const BodyState s = solver.states()[0];
+    EXPECT_NEAR(s.position.z() - 0.002, 0.25 * 0.05, speed * h);
+    // μ_k (1+e) v_z of slip friction, K (18), below what would make it roll.
+    const double expected = 0.2 - std::min(0.1 * 1.5 * speed, 0.2 / 3.5);
+    EXPECT_NEAR(s.velocity.x(), expected, 1e-3 * 0.2);
+  }
+  StepSolver solver(all, scene.initial, {1e-4});
+  const StepRun run = solver.run(kRolling, nullptr);
+  ASSERT_TRUE(run.reached);
+  EXPECT_EQ(solver.states()[0].position.z(), 0.002);
+}
+
+TEST(StepSolver, LandingOnAMovingSubstrateRubsInItsFrame) {
+  HardScene scene = test::steel_scene(1);
+  scene.motion = SubstrateMotion::constant({0.3, 0});
+  scene.initial[0].position.z() = 0.002 + 0.01;
+  scene.initial[0].velocity = {0.3, 0, 0};  // with the substrate: no slip, no friction
+  const ContactScene all = alone(scene);
+  StepSolver solver(all, scene.initial, {1e-4});
+  ASSERT_TRUE(solver.run(kRolling, nullptr).reached);
+  EXPECT_NEAR(solver.states()[0].velocity.x(), 0.3, 1e-15);
+  EXPECT_EQ(solver.states()[0].angular_velocity.norm(), 0);
+}
+
+}  // namespace
+}  // namespace slipcheck
