@@ -19,17 +19,22 @@ class BulletEngine final : public Engine {
 
   Applied configure(const HardScene& scene, const std::string& profile, double time_step) override {
     const Profile parsed = parse_profile(profile);
+    if (!scene.motion.is_still()) {
+      throw Refused(
+          "bullet: the substrate moves, and a static plane has no velocity that friction could "
+          "feel");
+    }
     if (is_no_time(time_step)) {
       throw Refused(fmt::format("bullet in {} precision takes a step of {} s for none",
                                 bullet_precision(), time_step));
     }
     world_.reset();
     setup_.emplace(Setup{scene, parsed, time_step, PairCoefficients(scene, time_step)});
-    start(scene.initial);
+    start(scene.initial, 0);
     return {world_->settings(time_step), not_represented(scene, parsed, time_step)};
   }
 
-  void start(std::span<const BodyState> states) override {
+  void start(std::span<const BodyState> states, double) override {
     world_.reset();  // not two at a time
     world_.emplace(setup_->scene, setup_->profile, setup_->coefficients, states);
   }

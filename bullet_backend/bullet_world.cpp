@@ -69,7 +69,8 @@ BulletWorld::Parts::Parts(const HardScene& scene, std::span<const BodyState> sta
     : dispatcher(&configuration),
       plane_shape(btVector3(0, 0, 1), 0),
       world(&dispatcher, &broadphase, &solver, &configuration) {
-  world.setGravity(btVector3(0, 0, btScalar(-scene.gravity)));
+  world.setGravity(btVector3(btScalar(scene.downhill.x()), btScalar(scene.downhill.y()),
+                             btScalar(-scene.gravity)));
   const btRigidBody::btRigidBodyConstructionInfo ground(0, nullptr, &plane_shape);
   plane = std::make_unique<btRigidBody>(ground);
   plane->setUserIndex(kSubstrate);

@@ -39,6 +39,17 @@ double PairCoefficients::spinning_friction(int body, int other) const {
   return scene_.on_substrate(index(body)).drilling_length * raise_[index(body)];
 }
 
+namespace {
+
+/// The speed at which somebody who wants one number looks at the law between two bodies.
+double reference_speed(const HardScene& scene, std::size_t i, std::size_t j) {
+  const RestitutionLaw& law = scene.between(i, j).restitution;
+  if (const auto* power = std::get_if<PowerLawRestitution>(&law)) return power->speed;
+  return (scene.initial[i].velocity - scene.initial[j].velocity).norm();
+}
+
+}  // namespace
+
 BodyFields naive_ball(const HardScene& scene, std::size_t body) {
   const SubstrateContact& ground = scene.on_substrate(body);
   BodyFields fields;
@@ -47,9 +58,9 @@ BodyFields naive_ball(const HardScene& scene, std::size_t body) {
   fields.spinning_friction = ground.drilling_length;
   fields.restitution = ground.restitution;
   if (scene.bodies.size() > 1) {
-    const RestitutionLaw& law = scene.between(body, body == 0 ? 1 : 0).restitution;
-    const auto* power = std::get_if<PowerLawRestitution>(&law);
-    fields.restitution = restitution_at(law, power != nullptr ? power->speed : 0);
+    const std::size_t other = body == 0 ? 1 : 0;
+    fields.restitution =
+        restitution_at(scene.between(body, other).restitution, reference_speed(scene, body, other));
   }
   return fields;
 }

@@ -56,7 +56,8 @@ struct BodyFields {
 
 /// The scene's numbers straight: a ball gets μ_k and μ_r of its contact with the substrate, its
 /// drilling length, and the restitution with the first other body (with the substrate when alone).
-/// A law over the speed gives its value at its reference speed, a table of μ_r its first entry.
+/// A power law gives its value at its reference speed, a table of restitutions that at the speed at
+/// which the two start relative to each other, a table of μ_r its first entry.
 BodyFields naive_ball(const HardScene& scene, std::size_t body);
 
 /// μ_k and restitution of the first body's contact with the substrate.

@@ -21,7 +21,7 @@ const std::map<std::string, Profile>& profiles() {
 }
 
 bool depends_on_speed(const PairContact& pair) {
-  return std::holds_alternative<PowerLawRestitution>(pair.restitution);
+  return !std::holds_alternative<double>(pair.restitution);
 }
 
 bool bounces(const PairContact& pair) {
@@ -36,7 +36,8 @@ bool reverses_slip(const PairContact& pair) {
 
 /// What the scene's bodies need of the engine, each found on any of them.
 struct Needs {
-  bool static_friction = false, rolling = false, rolling_table = false, drilling = false;
+  bool static_friction = false, drilling = false, coupled_drilling = false;
+  bool rolling = false, rolling_table = false, rolling_only = false;
   bool bounce = false, bounce_law = false, reversed_slip = false, cut_torque = false;
 };
 
@@ -47,8 +48,10 @@ Needs needs_of(const HardScene& scene, double time_step) {
     const SubstrateContact& ground = scene.on_substrate(i);
     needs.static_friction |= ground.static_friction != ground.kinetic_friction;
     needs.rolling |= !ground.rolling.is_zero();
+    needs.rolling_only |= !ground.rolling.is_zero() && !ground.rolling_while_sliding;
     needs.rolling_table |= !ground.rolling.is_constant();
     needs.drilling |= ground.drilling_length > 0;
+    needs.coupled_drilling |= ground.coupled_radius > 0;
     needs.bounce |= ground.restitution > 0;
     needs.cut_torque |= coefficients.is_cut(static_cast<int>(i)) &&
                         (!ground.rolling.is_zero() || ground.drilling_length > 0);
@@ -89,7 +92,8 @@ std::vector<std::string> not_represented(const HardScene& scene, Profile profile
     if (condition) missing.emplace_back(what);
   };
   note(needs.static_friction, "static friction (one coefficient for sticking and sliding)");
-  note(needs.rolling, "rolling friction only while rolling (it acts while sliding too)");
+  note(needs.coupled_drilling, "coupled drilling (torque and friction are full, each by itself)");
+  note(needs.rolling_only, "rolling friction only while rolling (it acts while sliding too)");
   note(needs.rolling, "rolling friction alike in all headings (up to 1.41 times on diagonals)");
   note(needs.bounce, "restitution below 0.2 m/s of approach");
   note(needs.reversed_slip, "tangential restitution (friction only stops the slip)");

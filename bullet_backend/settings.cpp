@@ -93,9 +93,8 @@ void gather_pairs(Gathered& out, const btDiscreteDynamicsWorld& world, const Har
     for (std::size_t j = i + 1; j < balls.size(); ++j) {
       if (!seen.insert(std::minmax({scene.material[i], scene.material[j]})).second) continue;
       const std::string whose = fmt::format("{}-{}", i, j);
-      const bool by_speed =
-          profile == Profile::default_ &&
-          std::holds_alternative<PowerLawRestitution>(scene.between(i, j).restitution);
+      const bool by_speed = profile == Profile::default_ &&
+                            !std::holds_alternative<double>(scene.between(i, j).restitution);
       out.add("restitution", whose,
               by_speed ? Setting(kBySpeed)
                        : number(gCalculateCombinedRestitutionCallback(balls[i], balls[j])));
@@ -133,6 +132,10 @@ std::map<std::string, Setting> read_settings(btDiscreteDynamicsWorld& world, con
       {"linear_damping", number(ball.getLinearDamping())},
       {"angular_damping", number(ball.getAngularDamping())},
   };
+  if (const btVector3 gravity = world.getGravity(); gravity.x() != 0 || gravity.y() != 0) {
+    settings["downhill_x"] = number(gravity.x());
+    settings["downhill_y"] = number(gravity.y());
+  }
   Gathered by_contact;
   gather_substrate(by_contact, world, scene, profile);
   gather_pairs(by_contact, world, scene, profile);

@@ -49,8 +49,9 @@ class Engine {
   virtual Applied configure(const HardScene& scene, const std::string& profile,
                             double time_step) = 0;
 
-  /// A fresh world, nothing left of an earlier one, with the bodies in these states.
-  virtual void start(std::span<const BodyState> states) = 0;
+  /// A fresh world, nothing left of an earlier one, with the bodies in these states at `time` [s],
+  /// >= 0, of the scene's clock, by which the substrate moves.
+  virtual void start(std::span<const BodyState> states, double time) = 0;
 
   /// One step of the configured length, and nothing else: its CPU time is measured.
   virtual void step() = 0;

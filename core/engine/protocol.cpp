@@ -115,7 +115,9 @@ json to_json(const Configure& request) {
           {"time_step", request.time_step}};
 }
 json to_json(const Start& request) {
-  return {{"type", "start"}, {"states", json::binary(pack_states(request.states))}};
+  return {{"type", "start"},
+          {"states", json::binary(pack_states(request.states))},
+          {"time", request.time}};
 }
 json to_json(const Step& request) { return {{"type", "step"}, {"count", request.count}}; }
 json to_json(const Quit&) { return {{"type", "quit"}}; }
@@ -187,7 +189,9 @@ Request decode_request(std::span<const std::uint8_t> body) {
     return Configure{scene_from_json(fields.object("scene")), fields.text("profile"),
                      fields.number("time_step", std::numeric_limits<double>::min())};
   }
-  if (type == "start") return Start{unpack_states(fields.bytes("states"), "request.states")};
+  if (type == "start") {
+    return Start{unpack_states(fields.bytes("states"), "request.states"), fields.number("time", 0)};
+  }
   if (type == "step") {
     const Step step{fields.count("count", kMaxMessage)};
     if (step.count == 0) throw Rubbish("request.count is 0");

@@ -14,7 +14,7 @@
 /// one request, one reply. docs/engine-protocol.md words it for other languages.
 namespace slipcheck::protocol {
 
-inline constexpr std::size_t kVersion = 1;
+inline constexpr std::size_t kVersion = 2;
 inline constexpr std::size_t kMaxMessage = std::size_t{64} << 20;  ///< of a message's body [bytes]
 inline constexpr std::size_t kPrefix = 4;  ///< the body's length before it, u32 little-endian
 
@@ -30,6 +30,7 @@ struct Configure {
 };
 struct Start {
   std::vector<BodyState> states;
+  double time = 0;  ///< of the states [s], >= 0
 };
 struct Step {
   std::size_t count = 1;  ///< >= 1

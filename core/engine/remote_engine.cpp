@@ -64,13 +64,13 @@ Applied RemoteEngine::configure(const HardScene& scene, const std::string& profi
   return std::move(reply.applied);
 }
 
-void RemoteEngine::start(std::span<const BodyState> states) {
+void RemoteEngine::start(std::span<const BodyState> states, double time) {
   deadline_ = Clock::time_point::max();
   if (run_limit_ < 1e8) {  // an infinite one has no Clock::duration
     deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                    std::chrono::duration<double>(run_limit_));
   }
-  ask<protocol::Started>(protocol::Start{{states.begin(), states.end()}});
+  ask<protocol::Started>(protocol::Start{{states.begin(), states.end()}, time});
 }
 
 double RemoteEngine::advance(std::size_t steps, const std::function<void(const Frame&)>& callback) {

@@ -34,6 +34,23 @@ T copy(const std::uint8_t* at) {
 constexpr double kTiny = std::numeric_limits<double>::min();  // stands for "> 0"
 constexpr double kHuge = std::numeric_limits<double>::max();
 
+std::vector<double> numbers_from_json(const json& list, const std::string& place) {
+  if (!list.is_array()) throw Rubbish(place + " is not a list");
+  std::vector<double> numbers;
+  numbers.reserve(list.size());
+  for (const json& value : list) {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) {
+      throw Rubbish(place + " holds something that is not a finite number");
+    }
+    numbers.push_back(value.get<double>());
+  }
+  return numbers;
+}
+
+std::vector<double> numbers_from_json(const Fields& fields, const char* key) {
+  return numbers_from_json(fields.list(key), fields.place_of(key));
+}
+
 json to_json(const RollingFriction& rolling) {
   json table = json::array();
   for (const RollingFriction::Point& point : rolling.points()) {
@@ -61,17 +78,92 @@ RollingFriction rolling_from_json(const json& table, const std::string& place) {
   return RollingFriction(std::move(points));
 }
 
-json to_json(const RestitutionLaw& law) {
-  if (const double* e = std::get_if<double>(&law)) return *e;
-  const auto& power = std::get<PowerLawRestitution>(law);
-  return {{"coefficient", power.coefficient}, {"exponent", power.exponent}, {"speed", power.speed}};
+json to_json(double restitution) { return restitution; }
+json to_json(const PowerLawRestitution& law) {
+  return {{"coefficient", law.coefficient}, {"exponent", law.exponent}, {"speed", law.speed}};
+}
+json to_json(const TabulatedRestitution& table) {
+  return {{"log_first", table.log_first},
+          {"log_step", table.log_step},
+          {"log_odds", table.log_odds},
+          {"slope", table.slope}};
 }
 
 RestitutionLaw restitution_from_json(const Fields& pair) {
   if (!pair.member("restitution").is_object()) return pair.number("restitution", 0, 1);
-  const Fields power(pair.object("restitution"), pair.place_of("restitution"));
-  return PowerLawRestitution{power.number("coefficient", kTiny), power.number("exponent", 0),
-                             power.number("speed", kTiny)};
+  const json& object = pair.object("restitution");
+  const Fields law(object, pair.place_of("restitution"));
+  if (!object.contains("log_odds")) {
+    return PowerLawRestitution{law.number("coefficient", kTiny), law.number("exponent", 0),
+                               law.number("speed", kTiny)};
+  }
+  TabulatedRestitution table{law.number("log_first"), law.number("log_step", kTiny),
+                             numbers_from_json(law, "log_odds"), numbers_from_json(law, "slope")};
+  if (table.log_odds.empty()) throw Rubbish(law.place_of("log_odds") + " is empty");
+  if (table.slope.size() != table.log_odds.size()) {
+    throw Rubbish(fmt::format("{} has {} entries for {} points", law.place_of("slope"),
+                              table.slope.size(), table.log_odds.size()));
+  }
+  return table;
+}
+
+// --- the substrate's motion ----------------------------------------------------------------------
+
+json to_json(const Vector2& v) { return {v.x(), v.y()}; }
+
+Vector2 vector2_from_json(const Fields& fields, const char* key) {
+  const std::vector<double> numbers = numbers_from_json(fields, key);
+  if (numbers.size() != 2) throw Rubbish(fields.place_of(key) + " is not [x, y]");
+  return {numbers[0], numbers[1]};
+}
+
+json to_json(const SubstrateMotion& motion) {
+  switch (motion.kind()) {
+    case SubstrateMotion::Kind::constant:
+      return {{"kind", "constant"}, {"velocity", to_json(motion.vector())}};
+    case SubstrateMotion::Kind::oscillation:
+      return {{"kind", "oscillation"},
+              {"amplitude", to_json(motion.vector())},
+              {"frequency", motion.frequency()},
+              {"phase", motion.phase()}};
+    case SubstrateMotion::Kind::table: {
+      json points = json::array();
+      for (const SubstrateMotion::Point& point : motion.points()) {
+        points.push_back({point.time, point.position.x(), point.position.y()});
+      }
+      return {{"kind", "table"}, {"points", std::move(points)}};
+    }
+    case SubstrateMotion::Kind::still:
+      break;
+  }
+  return {{"kind", "still"}};
+}
+
+std::vector<SubstrateMotion::Point> motion_points_from_json(const Fields& motion) {
+  const std::string place = motion.place_of("points");
+  std::vector<SubstrateMotion::Point> points;
+  for (const json& row : motion.list("points")) {
+    const std::vector<double> point = numbers_from_json(row, place);
+    if (point.size() != 3) throw Rubbish(place + ": a point is not [time, x, y]");
+    if (!points.empty() && point[0] <= points.back().time) {
+      throw Rubbish(place + ": the times do not rise");
+    }
+    points.push_back({point[0], {point[1], point[2]}});
+  }
+  if (points.empty()) throw Rubbish(place + " is empty");
+  return points;
+}
+
+SubstrateMotion motion_from_json(const Fields& motion) {
+  const std::string kind = motion.text("kind");
+  if (kind == "still") return {};
+  if (kind == "constant") return SubstrateMotion::constant(vector2_from_json(motion, "velocity"));
+  if (kind == "oscillation") {
+    return SubstrateMotion::oscillation(vector2_from_json(motion, "amplitude"),
+                                        motion.number("frequency", kTiny), motion.number("phase"));
+  }
+  if (kind == "table") return SubstrateMotion::table(motion_points_from_json(motion));
+  throw Rubbish(fmt::format("{} is '{}', no kind of motion", motion.place_of("kind"), kind));
 }
 
 }  // namespace
@@ -123,18 +215,23 @@ json scene_to_json(const HardScene& scene) {
                          {"kinetic_friction", contact.kinetic_friction},
                          {"rolling", to_json(contact.rolling)},
                          {"drilling_length", contact.drilling_length},
+                         {"coupled_radius", contact.coupled_radius},
+                         {"hertzian_pressure", contact.hertzian_pressure},
+                         {"rolling_while_sliding", contact.rolling_while_sliding},
                          {"restitution", contact.restitution}});
   }
   json pairs = json::array();
   for (const PairContact& pair : scene.pairs) {
-    pairs.push_back({{"restitution", to_json(pair.restitution)},
+    pairs.push_back({{"restitution",
+                      std::visit([](const auto& law) { return to_json(law); }, pair.restitution)},
                      {"friction", pair.friction},
                      {"tangential_restitution", pair.tangential_restitution}});
   }
   return {
       {"bodies", std::move(bodies)},       {"initial", json::binary(pack_states(scene.initial))},
       {"substrate", std::move(substrate)}, {"pairs", std::move(pairs)},
-      {"gravity", scene.gravity},          {"confined", scene.confined}};
+      {"gravity", scene.gravity},          {"downhill", to_json(scene.downhill)},
+      {"motion", to_json(scene.motion)},   {"confined", scene.confined}};
 }
 
 HardScene scene_from_json(const json& object) {
@@ -147,6 +244,9 @@ HardScene scene_from_json(const json& object) {
     out.static_friction = contact.number("static_friction", out.kinetic_friction);
     out.rolling = rolling_from_json(contact.list("rolling"), contact.place_of("rolling"));
     out.drilling_length = contact.number("drilling_length", 0);
+    out.coupled_radius = contact.number("coupled_radius", 0);
+    out.hertzian_pressure = contact.flag("hertzian_pressure");
+    out.rolling_while_sliding = contact.flag("rolling_while_sliding");
     out.restitution = contact.number("restitution", 0, 1);
     scene.substrate.push_back(std::move(out));
   }
@@ -175,6 +275,8 @@ HardScene scene_from_json(const json& object) {
                               scene.bodies.size()));
   }
   scene.gravity = fields.number("gravity", 0);
+  scene.downhill = vector2_from_json(fields, "downhill");
+  scene.motion = motion_from_json(Fields(fields.object("motion"), fields.place_of("motion")));
   scene.confined = fields.flag("confined");
   return scene;
 }

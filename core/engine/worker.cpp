@@ -108,7 +108,7 @@ class Worker {
   protocol::Reply handle(const protocol::Start& request) {
     if (bodies_ == 0) return protocol::Failed{"start before configure"};
     if (request.states.size() != bodies_) return protocol::Failed{"wrong number of states"};
-    engine_.start(request.states);
+    engine_.start(request.states, request.time);
     started_ = true;
     return protocol::Started{};
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "bullet_run.h"
 
 namespace slipcheck::bullet {
@@ -55,6 +57,23 @@ TEST(BulletCoefficients, APairThatKeepsItsSlipHasNoFriction) {
   EXPECT_EQ(PairCoefficients(two_balls(ball, ground, pair), 1e-3).friction(0, 1), 0.3);
   pair.tangential_restitution = -1;
   EXPECT_EQ(PairCoefficients(two_balls(ball, ground, pair), 1e-3).friction(0, 1), 0);
+}
+
+TEST(BulletCoefficients, ATableOfRestitutionsIsFollowed) {
+  // ln(e/(1 − e)) falls by 0.2 for each factor e in the speed, from 2 at 1 m/s: at two points.
+  const TabulatedRestitution table{0, 1, {2, 1.8}, {-0.2, -0.2}};
+  PairContact pair;
+  pair.restitution = table;
+  const HardScene scene = two_balls(steel_ball(0.01), {}, pair);
+  const PairCoefficients map(scene, 1e-3);
+  for (const double g : {1.0, 2.0, std::exp(1.0)}) {
+    EXPECT_NEAR(map.restitution(0, 1, g), 1 / (1 + std::exp(-2 + 0.2 * std::log(g))), 1e-15);
+  }
+  // Outside 1 − e goes on as a power: its logarithm rises with 0.2 e.
+  const double e = 1 / (1 + std::exp(-2.0));
+  EXPECT_NEAR(map.restitution(0, 1, 0.01), 1 - (1 - e) * std::pow(0.01, 0.2 * e), 1e-15);
+  // What people type: the value at the speed at which the two start, here 1 m/s.
+  EXPECT_NEAR(naive_ball(scene, 1).restitution, 1 / (1 + std::exp(-2)), 1e-15);
 }
 
 TEST(BulletCoefficients, NaiveTakesTheNumbersStraight) {

@@ -160,6 +160,16 @@ TEST(BulletProfiles, WhatIsNotRepresentedIsSaid) {
     EXPECT_TRUE(lists(rich, what)) << what;
   }
   EXPECT_FALSE(lists(rich, "rolling friction that depends on the speed"));
+  EXPECT_FALSE(lists(rich, "coupled drilling"));
+  HardScene scene = everything();
+  scene.substrate[0].coupled_radius = 1e-3;
+  scene.substrate[0].rolling_while_sliding = true;
+  const Applied coupled = engine.configure(scene, "default", 1e-3);
+  EXPECT_TRUE(lists(coupled, "coupled drilling"));
+  EXPECT_EQ(number(coupled, "spinning_friction"), 2e-5);
+  // Bullet's rolling friction acts on what slides too.
+  EXPECT_FALSE(lists(coupled, "rolling friction only while rolling"));
+  EXPECT_TRUE(lists(coupled, "rolling friction alike"));
   const Applied naive = engine.configure(everything(), "naive", 1e-3);
   EXPECT_TRUE(lists(naive, "rolling friction that depends on the speed"));
 

@@ -98,7 +98,7 @@ class FaultyEngine final : public Engine {
     return {{{"time_step", time_step}, {"strict", true}, {"pid", double(getpid())}}, {"physics"}};
   }
 
-  void start(std::span<const BodyState> states) override {
+  void start(std::span<const BodyState> states, double) override {
     states_.assign(states.begin(), states.end());
     steps_ = 0;
   }

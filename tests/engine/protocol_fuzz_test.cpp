@@ -28,10 +28,15 @@ std::vector<Bytes> good_messages() {
   for (int n = 0; n < 3; ++n) {
     frames.frames.push_back({some_scene(3).initial, {{0, kSubstrate, 1}, {0, 2, 0.5}}});
   }
+  HardScene on_table = some_scene(1), on_belt = some_scene(1);
+  on_table.motion = SubstrateMotion::table({{0, {0, 1}}, {1, {0.1, 1}}});
+  on_belt.motion = SubstrateMotion::constant({0.1, 0});
   std::vector<Bytes> messages = {
       encode(Request(Hello{})),
       encode(Request(Configure{some_scene(3), "default", 0.01})),
-      encode(Request(Start{some_scene(3).initial})),
+      encode(Request(Configure{on_table, "default", 0.01})),
+      encode(Request(Configure{on_belt, "default", 0.01})),
+      encode(Request(Start{some_scene(3).initial, 0.5})),
       encode(Request(Step{100})),
       encode(Reply(Welcome{1, {"bullet", "3.24", "double", {"default", "naive"}}})),
       encode(Reply(Configured{{{{"erp", 0.2}, {"on", true}}, {"this", "that"}}})),

@@ -108,12 +108,40 @@ TEST(Protocol, TheSceneComesThroughWhole) {
   EXPECT_EQ(request.scene.on_substrate(0).rolling(0.25), 0.0015);
   EXPECT_EQ(restitution_at(request.scene.between(0, 1).restitution, 0.01), 0.32);
   EXPECT_EQ(std::get<double>(request.scene.between(0, 2).restitution), 0.9);
+  EXPECT_EQ(restitution_at(request.scene.between(1, 1).restitution, 0.2),
+            restitution_at(scene.between(1, 1).restitution, 0.2));
+  EXPECT_EQ(request.scene.on_substrate(1).coupled_radius, 1e-4);
+  EXPECT_TRUE(request.scene.on_substrate(1).hertzian_pressure);
+  EXPECT_TRUE(request.scene.on_substrate(1).rolling_while_sliding);
+  EXPECT_FALSE(request.scene.on_substrate(0).rolling_while_sliding);
+  EXPECT_EQ(request.scene.downhill, Vector2(0, -0.8));
+}
+
+TEST(Protocol, EveryKindOfMotionComesThroughBitForBit) {
+  const std::vector<SubstrateMotion> motions = {
+      {},
+      SubstrateMotion::constant({0.1, -1.0 / 3}),
+      SubstrateMotion::oscillation({0.1, 0.02}, 1.0 / 7, 0.3),
+      SubstrateMotion::table({{0, {0, 1}}, {1, {0.1, 1}}, {3, {0.2, -1}}})};
+  for (const SubstrateMotion& motion : motions) {
+    HardScene scene = some_scene();
+    scene.motion = motion;
+    const auto received = request_through<Configure>(Configure{scene, "default", 1e-3}).scene;
+    EXPECT_EQ(received.motion.kind(), motion.kind());
+    EXPECT_EQ(received.motion.next_kink(0), motion.next_kink(0));
+    for (double t : {0.0, 0.7, 1.9, 4.0}) {
+      EXPECT_EQ(received.motion.position(t), motion.position(t));
+      EXPECT_EQ(received.motion.velocity(t), motion.velocity(t));
+    }
+  }
 }
 
 TEST(Protocol, TheOtherMessagesComeThrough) {
   EXPECT_EQ(request_through<Hello>(Hello{}).version, kVersion);
   EXPECT_EQ(request_through<Step>(Step{77}).count, 77u);
-  EXPECT_EQ(request_through<Start>(Start{some_scene().initial}).states.size(), 2u);
+  const auto start = request_through<Start>(Start{some_scene().initial, 0.125});
+  EXPECT_EQ(start.states.size(), 2u);
+  EXPECT_EQ(start.time, 0.125);
   request_through<Quit>(Quit{});
 
   const auto welcome = through<Welcome>(Welcome{1, {"bullet", "3.24", "single", {"a", "b"}}});
@@ -217,6 +245,32 @@ TEST(Protocol, ABadSceneIsNamed) {
   expect([](json& s) { s["confined"] = 0; }, "scene.confined is neither true nor false");
   expect([](json& s) { s["pairs"][0]["restitution"] = 1.5; },
          "scene.pairs[0].restitution is 1.5, not in [0, 1]");
+  expect([](json& s) { s["pairs"][3]["restitution"]["slope"].erase(0); },
+         "scene.pairs[3].restitution.slope has 2 entries for 3 points");
+  expect([](json& s) { s["pairs"][3]["restitution"]["log_odds"] = json::array(); },
+         "scene.pairs[3].restitution.log_odds is empty");
+  expect([](json& s) { s["pairs"][3]["restitution"]["slope"][1] = "x"; },
+         "scene.pairs[3].restitution.slope holds something that is not a finite number");
+  expect([](json& s) { s["substrate"][1].erase("coupled_radius"); },
+         "scene.substrate[1].coupled_radius is missing");
+  expect([](json& s) { s["downhill"] = {1, 2, 3}; }, "scene.downhill is not [x, y]");
+  expect([](json& s) { s["motion"]["kind"] = "wobble"; },
+         "scene.motion.kind is 'wobble', no kind of motion");
+  expect(
+      [](json& s) {
+        s["motion"] = {{"kind", "table"}, {"points", json::array()}};
+      },
+      "scene.motion.points is empty");
+  expect(
+      [](json& s) {
+        s["motion"] = {{"kind", "table"}, {"points", {{0, 0, 0}, {0, 1, 0}}}};
+      },
+      "scene.motion.points: the times do not rise");
+  expect(
+      [](json& s) {
+        s["motion"] = {{"kind", "table"}, {"points", {{0, 0}, {0, 1}}}};
+      },
+      "scene.motion.points: a point is not [time, x, y]");
 }
 
 TEST(Protocol, DeepNestingAndOddCborAreRefused) {

@@ -23,9 +23,20 @@ inline HardScene some_scene(std::size_t count = 2) {
   ground.kinetic_friction = 0.1;
   ground.rolling = RollingFriction({{0, 0.001}, {0.5, 0.002}});
   ground.drilling_length = 1e-5;
-  scene.substrate = {ground, {}};
-  scene.pairs = {{0.9, 0.5, 0}, {PowerLawRestitution{}, 0, -1}, {PowerLawRestitution{}, 0, -1}, {}};
+  SubstrateContact coupled;
+  coupled.drilling_length = 2e-5;
+  coupled.coupled_radius = 1e-4;
+  coupled.hertzian_pressure = true;
+  coupled.rolling_while_sliding = true;
+  scene.substrate = {ground, coupled};
+  const TabulatedRestitution table{-2, 0.5, {3, 2, 1}, {-1, -2, -3}};
+  scene.pairs = {{0.9, 0.5, 0},
+                 {PowerLawRestitution{}, 0, -1},
+                 {PowerLawRestitution{}, 0, -1},
+                 {table, 0, -1}};
   scene.gravity = 9.81;
+  scene.downhill = {0, -0.8};
+  scene.motion = SubstrateMotion::oscillation({0.1, 0.02}, 5, 0.3);
   return scene;
 }
 
