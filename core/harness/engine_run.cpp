@@ -25,12 +25,13 @@ struct Unstable {
 class PhaseRun {
  public:
   PhaseRun(const EnsembleTask& task, double step, double start)
-      : scene_(*task.scene),
+      : solver_(*task.solver),
+        scene_(task.solver->scene().hard),
         end_(run_end(*task.scenario)),
         scale_(speed_scale(scene_, scene_.initial)),
         step_(step),
         start_(start),
-        observer_(scene_, step, scale_) {
+        observer_(scene_, step, scale_, task.solver->is_resolved()) {
     Frame frame;
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
       if (scene_.initial[i].position.z() <= scene_.bodies[i].radius * (1 + 1e-12))
@@ -38,7 +39,7 @@ class PhaseRun {
     frame.bodies = scene_.initial;
     observer_.take(0, frame);
     if (start > 0) {
-      frame.bodies = states_at(scene_, start);
+      frame.bodies = solver_.states_at(start);
       observer_.take(start, frame);
     }
   }
@@ -98,21 +99,21 @@ class PhaseRun {
   bool collides_again(const Frame& frame) {
     if (time_ <= next_look_) return true;
     std::vector<BodyState> states = frame.bodies;
+    const Vector3 frame_velocity = scene_.motion.velocity(time_);
     for (std::size_t i = 0; i < states.size(); ++i) {
       states[i].position.z() = scene_.bodies[i].radius;
       states[i].velocity.z() = 0;
       const double spin = states[i].angular_velocity.z();
       states[i].angular_velocity =
-          rolling_angular_velocity(states[i].velocity, scene_.bodies[i].radius);
+          rolling_angular_velocity(states[i].velocity - frame_velocity, scene_.bodies[i].radius);
       states[i].angular_velocity.z() = spin;
     }
     // What closes slower than this is no collision (Observer).
-    const double next =
-        EventSolver(scene_, states).next_collision(end_.limit - time_, 2e-3 * scale_);
-    next_look_ = time_ + next;
-    return std::isfinite(next);
+    next_look_ = solver_.next_collision(states, time_, end_.limit, 2e-3 * scale_);
+    return std::isfinite(next_look_);
   }
 
+  const ReferenceSolver& solver_;
   const HardScene& scene_;
   RunEnd end_;
   double scale_, step_, start_;
@@ -133,7 +134,7 @@ std::size_t steps_at_once(double expected_time, double step) {
 void run_ensemble(RemoteEngine& engine, const EnsembleTask& task, EngineRecord& record) {
   const double step = 1 / record.rate;
   record.version = engine.info().version;
-  record.applied = engine.configure(*task.scene, record.profile, step);
+  record.applied = engine.configure(task.solver->scene().hard, record.profile, step);
 
   const auto names = body_names(*task.scenario);
   const auto starts = phase_starts(task.reference->first_contact, step, task.phases);
@@ -143,7 +144,7 @@ void run_ensemble(RemoteEngine& engine, const EnsembleTask& task, EngineRecord& 
   try {
     for (double start : starts) {
       PhaseRun run(task, step, start);
-      engine.start(states_at(*task.scene, start));
+      engine.start(task.solver->states_at(start), start);
       while (!run.ended()) {
         record.cpu_seconds += engine.advance(chunk, [&](const Frame& frame) { run.take(frame); });
         record.steps += chunk;

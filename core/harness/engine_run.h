@@ -11,7 +11,7 @@ namespace slipcheck {
 
 /// What an ensemble of one engine's runs needs to know.
 struct EnsembleTask {
-  const HardScene* scene = nullptr;
+  const ReferenceSolver* solver = nullptr;
   const ReferenceResult* reference = nullptr;
   const Scenario* scenario = nullptr;
   std::size_t phases = 32;  ///< >= 1

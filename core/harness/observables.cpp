@@ -47,6 +47,9 @@ constexpr std::array kPairScalars = {
     ScalarOfPair{"restitution", &PairObservables::restitution},
     ScalarOfPair{"tangential_restitution", &PairObservables::tangential_restitution},
     ScalarOfPair{"effective_restitution", &PairObservables::effective_restitution},
+    ScalarOfPair{"contact_time", &PairObservables::contact_time},
+    ScalarOfPair{"max_overlap", &PairObservables::max_overlap},
+    ScalarOfPair{"sliding_onset", &PairObservables::sliding_onset},
 };
 
 }  // namespace

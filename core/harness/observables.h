@@ -41,6 +41,10 @@ struct PairObservables {
   double restitution = kNotObserved;             ///< normal: −g'/g of the centres
   double tangential_restitution = kNotObserved;  ///< ε^T: g' = +ε^T g at the contact point
   double effective_restitution = kNotObserved;   ///< once neither slides
+  // Of a contact that lasts:
+  double contact_time = kNotObserved;   ///< [s]
+  double max_overlap = kNotObserved;    ///< [m]
+  double sliding_onset = kNotObserved;  ///< from the first touch [s]
 };
 
 struct Observables {

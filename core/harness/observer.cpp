@@ -21,28 +21,76 @@ double FallingQuantity::time_to_zero(double before, double after, double dt) con
   return std::abs(after - expected) <= 0.1 * rate_ * dt ? before / rate_ : dt;
 }
 
-Observer::Observer(const HardScene& scene, double step, double speed_scale)
-    : scene_(&scene), step_(step), speed_scale_(speed_scale), bodies_(scene.bodies.size()) {
+Observer::Observer(const HardScene& scene, double step, double speed_scale, bool resolved)
+    : scene_(&scene),
+      step_(step),
+      speed_scale_(speed_scale),
+      resolved_(resolved),
+      bodies_(scene.bodies.size()) {
   const double floor = (step > 0 ? kEngineNoise : kRoundOff) * speed_scale;
   const double g = scene.gravity;
+  const double per_step = 0.5 * g * step;
+  // What pulls or shakes a body is left in its slip where an engine adds it after the friction.
+  const double driven = 0.5 * step * (scene.downhill.norm() + scene.motion.largest_acceleration());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Sphere& s = scene.bodies[i];
     const SubstrateContact& c = scene.on_substrate(i);
-    const double per_step = 0.5 * g * step;
     // Rolling friction that is solved for after the sliding leaves its own step of slip.
     const double slip_friction = c.kinetic_friction + 2 * c.rolling.largest_up_to(speed_scale);
-    bodies_[i].zero.slip =
-        std::max(floor, per_step * (1 + s.inverse_shape_factor()) * slip_friction);
-    bodies_[i].zero.speed = std::max(floor, per_step * c.rolling(0));
-    bodies_[i].zero.spin = std::max(
-        floor / s.radius, per_step * c.drilling_length / (s.shape_factor * s.radius * s.radius));
+    Resolution& zero = bodies_[i].zero;
+    zero.slip = std::max(floor, per_step * (1 + s.inverse_shape_factor()) * slip_friction + driven);
+    if (resolved && step == 0) zero.slip = std::max(zero.slip, kIntegrationError * speed_scale);
+    if (c.coupled_radius > 0) zero.slip = std::max(zero.slip, kCoupledSlip * speed_scale);
+    zero.speed = std::max(floor, per_step * c.rolling(0));
+    zero.spin = std::max(floor / s.radius,
+                         per_step * c.drilling_length / (s.shape_factor * s.radius * s.radius));
   }
 }
 
-Vector3 Observer::slip_of(std::size_t i, const BodyState& state) const {
-  Vector3 slip = slip_velocity(state, scene_->bodies[i].radius);
+// --- over the substrate --------------------------------------------------------------------------
+
+void Observer::look_at_ground(double t0, double t1) {
+  const SubstrateMotion& motion = scene_->motion;
+  if (motion.is_still()) return;
+  // A frame at a kink itself is one after it; the reference shows the one before it an instant
+  // earlier.
+  ground0_ = {motion.position(t0), motion.velocity(t0)};
+  ground1_ = {motion.position(t1), motion.velocity(t1)};
+}
+
+Vector3 Observer::slip_of(std::size_t i, const BodyState& state, const Ground& ground) const {
+  Vector3 slip = slip_velocity(state, scene_->bodies[i].radius) - ground.velocity;
   slip.z() = 0;
   return slip;
+}
+
+bool Observer::slips(std::size_t i, const BodyState& state, const Ground& ground) const {
+  // A body that falls down a slope becomes faster than anything it began with.
+  const double fastest =
+      std::max(state.velocity.norm(), scene_->bodies[i].radius * state.angular_velocity.norm());
+  const double noise = (step_ > 0 ? kEngineNoise : kRoundOff) * fastest;
+  return slip_speed(i, state, ground) > std::max(bodies_[i].zero.slip, noise);
+}
+
+/// A rolling sphere that gravity and the substrate drive moves over the substrate with
+/// A/(1+A) (a_G − a_S), K (22), (24), unless rolling friction μ_r g can take as much.
+bool Observer::can_rest(std::size_t i, double time) const {
+  Vector3 drive = -scene_->motion.acceleration(time);
+  drive.head<2>() += scene_->downhill;
+  const double A = scene_->bodies[i].inverse_shape_factor();
+  const double hold = scene_->on_substrate(i).rolling(0) * scene_->gravity;
+  return A / (1 + A) * drive.norm() <= hold * (1 + 1e-9);
+}
+
+// --- frame by frame ------------------------------------------------------------------------------
+
+bool Observer::is_supported(std::size_t i, const Frame& frame) const {
+  if (bodies_[i].touched) return true;
+  // A sleeping body of an engine is not solved for, yet it lies on the plane.
+  const BodyState& state = frame.bodies[i];
+  const double radius = scene_->bodies[i].radius;
+  return step_ > 0 && state.position.z() - radius < 1e-3 * radius &&
+         std::abs(state.velocity.z()) < vertical_noise();
 }
 
 void Observer::take(double time, const Frame& frame) {
@@ -51,18 +99,14 @@ void Observer::take(double time, const Frame& frame) {
     return;
   }
   const double t0 = time_, t1 = time;
-  note_touches(t1, frame);
+  look_at_ground(t0, t1);
   for (Body& body : bodies_) body.touched = false;
   for (const Touch& touch : frame.touches)
     if (touch.second == kSubstrate) bodies_[static_cast<std::size_t>(touch.first)].touched = true;
+  note_touches(t0, t1, frame);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
-    const BodyState& state = frame.bodies[i];
-    const double height = state.position.z() - scene_->bodies[i].radius;
-    // A sleeping body is not solved for, yet it lies on the plane.
-    const bool lies = step_ > 0 && height < 1e-3 * scene_->bodies[i].radius &&
-                      std::abs(state.velocity.z()) < vertical_noise();
-    const bool supported = body.touched || lies;
+    const bool supported = is_supported(i, frame);
     follow_landing(body, i, frame);
     follow_flight(body, i, supported, t0, t1, frame);
     body.supported = supported;
@@ -81,96 +125,29 @@ void Observer::begin(double time, const Frame& frame) {
   started_ = true;
   time_ = time_before_ = time;
   last_ = before_last_ = frame;
+  look_at_ground(time, time);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
     const BodyState& state = frame.bodies[i];
     body.origin_time = time;
-    body.origin = state.position;
+    body.origin = position_over(state, ground1_);
     body.after = state;
     body.slide_end = time;
     body.supported = state.position.z() <= scene_->bodies[i].radius * (1 + 1e-9) &&
                      !(state.velocity.z() > body.zero.slip);
+    if (!body.supported) body.unsupported_since = time;
     body.began_on_plane = body.supported;
-    body.sliding = body.supported && slip_of(i, state).norm() > body.zero.slip;
+    body.sliding = body.supported && slips(i, state, ground1_);
     if (body.supported && !body.sliding) body.rolling_velocity = state.velocity;
     body.spinning = std::abs(state.angular_velocity.z()) > body.zero.spin;
     body.spun = body.spinning;
-    body.resting = body.supported && !body.sliding && state.velocity.norm() <= body.zero.speed;
+    body.resting = body.supported && !body.sliding && can_rest(i, time) &&
+                   velocity_over(state, ground1_).norm() <= body.zero.speed;
     if (body.resting) {
       body.stop_time = time;
-      body.stop_position = state.position;
+      body.stop_position = body.origin;
     }
   }
-}
-
-// --- single bodies -------------------------------------------------------------------------------
-
-void Observer::follow_sliding(Body& body, std::size_t i, double t0, double t1, const Frame& frame) {
-  const BodyState &s0 = last_.bodies[i], &s1 = frame.bodies[i];
-  const double dt = t1 - t0;
-  const double slip0 = slip_of(i, s0).norm(), slip1 = slip_of(i, s1).norm();
-  const bool slips = slip1 > body.zero.slip;
-  const Vector3 way = s1.position - s0.position;
-
-  if (body.collided_now || dt <= 0) {
-    body.slip.reset();
-    if (body.sliding && !slips && !body.collided_now) body.slide_end = t1;
-  } else if (body.sliding && body.supported && !slips) {
-    const double left = step_ > 0 ? body.slip.time_to_zero(slip0, slip1, dt) : dt;
-    body.slide_end = t0 + left;
-    body.slide_time += left;
-    // What counts as zero may last a little longer than the interval.
-    const double beyond = std::max(0.0, left - dt);
-    body.slide += left <= dt ? Vector3(way * (left / dt)) : Vector3(way + beyond * s1.velocity);
-    body.rolling_velocity = s1.velocity + beyond / dt * (s1.velocity - s0.velocity);
-  } else if (body.supported && slips) {
-    if (body.sliding) body.slip.fall(slip0, slip1, dt);
-    body.slide_time += dt;
-    body.slide += way;
-    body.slide_end = t1;
-  }
-  body.sliding = slips || (body.sliding && !body.supported);
-  if (body.sliding || !body.supported)
-    body.rolling_velocity = kVectorNotObserved;
-  else if (std::isnan(body.rolling_velocity.x()))
-    body.rolling_velocity = s1.velocity;
-}
-
-void Observer::follow_stopping(Body& body, std::size_t i, double t0, double t1,
-                               const Frame& frame) {
-  const BodyState &s0 = last_.bodies[i], &s1 = frame.bodies[i];
-  const double dt = t1 - t0;
-  const double speed0 = s0.velocity.norm(), speed1 = s1.velocity.norm();
-  const bool rests = body.supported && !body.sliding && speed1 <= body.zero.speed;
-  if (rests && !body.resting) {
-    double left = dt;
-    if (step_ > 0 && dt > 0) left = body.speed.time_to_zero(speed0, speed1, dt);
-    body.stop_time = t0 + left;
-    body.stop_position = left < dt ? between(s0.position, s1.position, left / dt) : s1.position;
-  } else if (!rests) {
-    body.stop_time = kNotObserved;
-    if (dt > 0 && !body.collided_now)
-      body.speed.fall(speed0, speed1, dt);
-    else
-      body.speed.reset();
-  }
-  body.resting = rests;
-
-  const double spin0 = std::abs(s0.angular_velocity.z());
-  const double spin1 = std::abs(s1.angular_velocity.z());
-  const bool spins = spin1 > body.zero.spin;
-  if (body.spinning && !spins) {
-    body.spin_stop_time =
-        t0 + (step_ > 0 && dt > 0 ? body.spin.time_to_zero(spin0, spin1, dt) : dt);
-  } else if (spins) {
-    body.spun = true;
-    body.spin_stop_time = kNotObserved;
-    if (dt > 0 && !body.collided_now)
-      body.spin.fall(spin0, spin1, dt);
-    else
-      body.spin.reset();
-  }
-  body.spinning = spins;
 }
 
 // --- the end -------------------------------------------------------------------------------------
@@ -218,7 +195,7 @@ Observables Observer::finish(double end) const {
     }
     if (body.collided) {
       out.velocity_after_collision = body.after.velocity;
-      out.slip_after_collision = slip_of(i, body.after);
+      out.slip_after_collision = body.slip_after;
       out.angular_velocity_after_collision = body.after.angular_velocity;
     }
     if (body.resting && !std::isnan(body.stop_time)) {
@@ -238,13 +215,24 @@ Observables Observer::finish(double end) const {
     out.final_velocity = between(s0.velocity, s1.velocity, fraction);
     out.final_angular_velocity = between(s0.angular_velocity, s1.angular_velocity, fraction);
     if (!std::isnan(body.landing_restitution))
-      seen.pairs.push_back(
-          {static_cast<int>(i), kSubstrate, body.landing_restitution, kNotObserved, kNotObserved});
+      seen.pairs.push_back({.first = static_cast<int>(i),
+                            .second = kSubstrate,
+                            .restitution = body.landing_restitution});
   }
-  for (const Pair& pair : pairs_)
-    if (pair.collided)
-      seen.pairs.push_back(
-          {pair.first, pair.second, pair.restitution, pair.tangential_restitution, pair.effective});
+  for (const Pair& pair : pairs_) {
+    if (!pair.collided) continue;
+    PairObservables& out = seen.pairs.emplace_back();
+    out.first = pair.first;
+    out.second = pair.second;
+    out.restitution = pair.restitution;
+    out.tangential_restitution = pair.tangential_restitution;
+    out.effective_restitution = pair.effective;
+    // A hard pair in a scene of resolved ones collides at an instant.
+    if (!resolved_ || !(pair.contact_time > 0)) continue;
+    out.contact_time = pair.contact_time;
+    out.max_overlap = pair.max_overlap;
+    out.sliding_onset = pair.sliding_onset;
+  }
   std::sort(seen.pairs.begin(), seen.pairs.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second < b.second;
   });

@@ -40,11 +40,17 @@ class FallingQuantity {
 /// zero is half of what friction takes in a step, since friction stops a body inside a step.
 ///
 /// A contact of two bodies is a collision if it closes faster than 7 % of the pair's fastest
-/// collision so far and 0.1 % of the scene's speed; weaker ones are rattling.
+/// collision so far and 0.1 % of the scene's speed; weaker ones are rattling. A collision that the
+/// reference resolves in time lasts from the frame before the first of consecutive frames in which
+/// the pair touches to the last of them, whatever happens in between.
+///
+/// Slip, rest and the ways to both are relative to the substrate, which may move; velocities and
+/// final positions are those of the laboratory.
 class Observer final : public FrameSink {
  public:
-  /// step [s], >= 0; speed_scale [m/s] as of event_solver.h.
-  Observer(const HardScene& scene, double step, double speed_scale);
+  /// step [s], >= 0; speed_scale [m/s] as of event_solver.h. `resolved`: the reference's contacts
+  /// of bodies last, so that their duration, overlap and what happens in them are observed.
+  Observer(const HardScene& scene, double step, double speed_scale, bool resolved = false);
 
   void take(double time, const Frame& frame) override;
 
@@ -64,11 +70,20 @@ class Observer final : public FrameSink {
   /// What an engine leaves in a quantity that should be zero, of the scene's speed.
   static constexpr double kEngineNoise = 1e-5;
   static constexpr double kRoundOff = 1e-12;
+  /// What an integration leaves in the slip of a body that sticks.
+  static constexpr double kIntegrationError = 1e-9;
+  /// Slip that shares its friction with a spin dies out exponentially: below this fraction of the
+  /// scene's speed it has ended.
+  static constexpr double kCoupledSlip = 1e-6;
 
+  /// The substrate at one instant.
+  struct Ground {
+    Vector3 position = Vector3::Zero(), velocity = Vector3::Zero();
+  };
   struct Body {
     Resolution zero;
     double origin_time = 0;
-    Vector3 origin = Vector3::Zero();
+    Vector3 origin = Vector3::Zero();  ///< over the substrate, as are all ways below
     bool supported = true, sliding = false, resting = false, spinning = false;
     bool began_on_plane = true, touched = false, collided_now = false;
     FallingQuantity slip, speed, spin;
@@ -79,11 +94,14 @@ class Observer final : public FrameSink {
     Vector3 stop_position = kVectorNotObserved;
     bool spun = false;
     bool jumping = false;
+    double unsupported_since = kNotObserved, unsupported_height = 0;
     double lift_off_time = 0, lift_off_speed = kNotObserved, lift_off_height = 0;
     double peak = 0, flight_time = kNotObserved;
     // The last collision.
     bool collided = false;
     BodyState after;
+    Vector3 slip_after = Vector3::Zero();
+    double collision_begin = 0, collision_height = 0;
     Vector3 away = Vector3::Zero();  ///< n from the other body
     double fall_speed = 0;           ///< of the last landing, for the pair with the substrate
     double landing_restitution = kNotObserved;
@@ -92,34 +110,57 @@ class Observer final : public FrameSink {
   struct Pair {
     int first, second;
     double fastest = 0;  ///< approach of its collisions so far [m/s]
-    bool touched_now = false, colliding = false, collided = false;
+    bool touched_before = false, touched_now = false, colliding = false, collided = false;
     bool awaits_rolling = false;  ///< for the effective restitution
     Vector3 n = Vector3::Zero();
     double approach = 0;
     Vector3 tangential = Vector3::Zero();
     double restitution = kNotObserved, tangential_restitution = kNotObserved;
     double effective = kNotObserved;
+    double begin_time = 0, contact_time = 0, max_overlap = 0;
+    bool slid_before = false;
+    double sliding_onset = kNotObserved;
   };
 
   void begin(double time, const Frame& frame);
-  void note_touches(double t1, const Frame& frame);
-  void note_collision(Pair& pair, const Touch& touch, double t1, const Frame& frame);
+  void look_at_ground(double t0, double t1);
+  bool is_supported(std::size_t i, const Frame& frame) const;
+  void note_touches(double t0, double t1, const Frame& frame);
+  void note_collision(Pair& pair, const Touch& touch, double t0, double t1, const Frame& frame);
+  /// Whether this touch belongs to a collision, and whether it is the first.
+  bool continues_or_begins(Pair& pair, const Touch& touch, double t0);
+  void resolve(Pair& pair, double t0, double t1, const Frame& frame);
   void follow_sliding(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
   void follow_stopping(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
   void follow_flight(Body& body, std::size_t i, bool supported, double t0, double t1,
                      const Frame& frame);
   void follow_landing(Body& body, std::size_t i, const Frame& frame);
   void settle_effective_restitution(double t0, double t1, const Frame& frame);
-  Vector3 slip_of(std::size_t i, const BodyState& state) const;
+  /// Over the substrate: the slip of the lowest point, the centre's velocity and position.
+  Vector3 slip_of(std::size_t i, const BodyState& state, const Ground& ground) const;
+  double slip_speed(std::size_t i, const BodyState& state, const Ground& ground) const {
+    return slip_of(i, state, ground).norm();
+  }
+  bool slips(std::size_t i, const BodyState& state, const Ground& ground) const;
+  static Vector3 velocity_over(const BodyState& state, const Ground& ground) {
+    return state.velocity - ground.velocity;
+  }
+  static Vector3 position_over(const BodyState& state, const Ground& ground) {
+    return state.position - ground.position;
+  }
+  /// Whether rolling friction could hold the body at rest.
+  bool can_rest(std::size_t i, double time) const;
   double vertical_noise() const;
   Pair& pair_of(int first, int second);
 
   const HardScene* scene_;
   double step_;
   double speed_scale_;
+  bool resolved_;
   bool started_ = false;
   double time_ = 0, time_before_ = 0;
   Frame last_, before_last_;
+  Ground ground0_, ground1_;  ///< at the start and at the end of the interval
   std::vector<Body> bodies_;
   std::vector<Pair> pairs_;
 };

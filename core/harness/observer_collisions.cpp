@@ -15,6 +15,10 @@ Vector3 contact_velocity(const Sphere& a, const BodyState& sa, const Sphere& b, 
          (a.radius * sa.angular_velocity + b.radius * sb.angular_velocity).cross(n);
 }
 
+double overlap(const Sphere& a, const BodyState& sa, const Sphere& b, const BodyState& sb) {
+  return a.radius + b.radius - (sa.position - sb.position).norm();
+}
+
 }  // namespace
 
 Observer::Pair& Observer::pair_of(int first, int second) {
@@ -26,52 +30,96 @@ Observer::Pair& Observer::pair_of(int first, int second) {
   return pair;
 }
 
-void Observer::note_touches(double t1, const Frame& frame) {
-  for (Pair& pair : pairs_) pair.touched_now = false;
+void Observer::note_touches(double t0, double t1, const Frame& frame) {
+  for (Pair& pair : pairs_) {
+    pair.touched_before = pair.touched_now;
+    pair.touched_now = false;
+  }
   for (const Touch& touch : frame.touches)
     if (touch.second != kSubstrate)
-      note_collision(pair_of(touch.first, touch.second), touch, t1, frame);
+      note_collision(pair_of(touch.first, touch.second), touch, t0, t1, frame);
   for (Pair& pair : pairs_)
     if (!pair.touched_now) pair.colliding = false;
 }
 
-void Observer::note_collision(Pair& pair, const Touch& touch, double t1, const Frame& frame) {
+bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
   pair.touched_now = true;
+  // The reference's contact is a collision or none from its beginning on.
+  if (step_ == 0 && pair.touched_before) return pair.colliding;
+
   const std::size_t i = index(pair.first), j = index(pair.second);
-  const BodyState& si = last_.bodies[i];
-  const BodyState& sj = last_.bodies[j];
+  const BodyState &si = last_.bodies[i], &sj = last_.bodies[j];
   const Sphere &a = scene_->bodies[i], &b = scene_->bodies[j];
   const Vector3 n = (si.position - sj.position).normalized();
-  const Vector3 dv = si.velocity - sj.velocity;
-  const double approach = -n.dot(dv);
+  const double approach = -n.dot(si.velocity - sj.velocity);
 
   const double weakest = std::max(kOfPairsFastest * pair.fastest, kOfSceneSpeed * speed_scale_);
   // A blow that passes through a row of bodies in one step finds this pair without an approach;
   // what sliding bodies that lean on each other push in a step is none.
   const double blow = 0.5 * touch.normal_impulse * (1 / a.mass + 1 / b.mass);
   const double leaning =
-      (scene_->on_substrate(i).kinetic_friction + scene_->on_substrate(j).kinetic_friction) *
-      scene_->gravity * step_;
+      ((scene_->on_substrate(i).kinetic_friction + scene_->on_substrate(j).kinetic_friction) *
+           scene_->gravity +
+       scene_->downhill.norm()) *
+      step_;
   if (approach <= weakest && (step_ == 0 || blow <= weakest + leaning)) {
     pair.colliding = false;
-    return;
+    return false;
   }
+  if (pair.colliding) return true;
 
-  if (!pair.colliding) {
-    pair.colliding = true;
-    pair.n = n;
-    pair.approach = approach > weakest ? approach : kNotObserved;
-    pair.fastest = std::max({pair.fastest, approach, blow > weakest + leaning ? blow : 0});
-    const Vector3 u = contact_velocity(a, si, b, sj, n);
-    pair.tangential = u - n.dot(u) * n;
+  pair.colliding = true;
+  pair.n = n;
+  pair.approach = approach > weakest ? approach : kNotObserved;
+  pair.fastest = std::max({pair.fastest, approach, blow > weakest + leaning ? blow : 0});
+  const Vector3 u = contact_velocity(a, si, b, sj, n);
+  pair.tangential = u - n.dot(u) * n;
+  pair.begin_time = t0;
+  pair.max_overlap = std::max(0.0, overlap(a, si, b, sj));
+  pair.slid_before = bodies_[i].sliding || bodies_[j].sliding;
+  pair.sliding_onset = kNotObserved;
+  for (std::size_t k : {i, j}) {
+    bodies_[k].collision_begin = t0;
+    bodies_[k].collision_height = last_.bodies[k].position.z();
   }
+  return true;
+}
+
+/// What a collision shows that lasts.
+void Observer::resolve(Pair& pair, double t0, double t1, const Frame& frame) {
+  const std::size_t i = index(pair.first), j = index(pair.second);
+  pair.contact_time = t1 - pair.begin_time;
+  pair.max_overlap = std::max(pair.max_overlap, overlap(scene_->bodies[i], frame.bodies[i],
+                                                        scene_->bodies[j], frame.bodies[j]));
+  if (pair.slid_before || !std::isnan(pair.sliding_onset)) return;
+  for (std::size_t k : {i, j})
+    if (is_supported(k, frame) && !slips(k, last_.bodies[k], ground0_) &&
+        slips(k, frame.bodies[k], ground1_))
+      pair.sliding_onset = t0 - pair.begin_time;
+}
+
+void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double t1,
+                              const Frame& frame) {
+  if (!continues_or_begins(pair, touch, t0)) return;
+  if (resolved_) resolve(pair, t0, t1, frame);
+
+  const std::size_t i = index(pair.first), j = index(pair.second);
+  const Sphere &a = scene_->bodies[i], &b = scene_->bodies[j];
   const BodyState &after_i = frame.bodies[i], &after_j = frame.bodies[j];
+  // The line of centres turns while a contact lasts; an engine's normal is that before the step.
+  const Vector3 tangential = pair.tangential;
+  Vector3 direction = tangential;
+  if (step_ == 0 && t1 > pair.begin_time) {
+    pair.n = (after_i.position - after_j.position).normalized();
+    direction -= pair.n.dot(direction) * pair.n;
+    if (direction.squaredNorm() > 0) direction *= tangential.norm() / direction.norm();
+  }
   pair.collided = true;
   pair.restitution = pair.n.dot(after_i.velocity - after_j.velocity) / pair.approach;
-  const double before2 = pair.tangential.squaredNorm();
+  const double before2 = tangential.squaredNorm();
   pair.tangential_restitution =
       std::sqrt(before2) > kEngineNoise * speed_scale_
-          ? contact_velocity(a, after_i, b, after_j, pair.n).dot(pair.tangential) / before2
+          ? contact_velocity(a, after_i, b, after_j, pair.n).dot(direction) / before2
           : kNotObserved;
   pair.effective = kNotObserved;
   // A body that collides again never shows what its earlier collision would have come to.
@@ -86,8 +134,9 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t1, const F
     body.collided = body.collided_now = true;
     body.away = away;
     body.after = frame.bodies[k];
+    body.slip_after = slip_of(k, body.after, ground1_);
     body.origin_time = t1;
-    body.origin = frame.bodies[k].position;
+    body.origin = position_over(body.after, ground1_);
     body.slide_time = 0;
     body.slide.setZero();
     body.slide_end = t1;

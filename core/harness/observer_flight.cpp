@@ -16,12 +16,26 @@ void Observer::follow_flight(Body& body, std::size_t i, bool supported, double t
   const BodyState &s0 = last_.bodies[i], &s1 = frame.bodies[i];
   const double v0 = s0.velocity.z(), v1 = s1.velocity.z();
   const double slowest = vertical_noise();
+  if (supported) {
+    body.unsupported_since = kNotObserved;
+  } else if (std::isnan(body.unsupported_since)) {
+    body.unsupported_since = t1;
+    body.unsupported_height = s1.position.z();
+  }
   if (!body.jumping) {
-    if (v1 > slowest && std::isnan(body.lift_off_speed)) {
+    // The reference shows that the support is gone; only at an instant, in a bounce, it does not.
+    const bool is_free = step_ > 0 || !supported || t1 == t0;
+    if (is_free && v1 > slowest && std::isnan(body.lift_off_speed)) {
       body.jumping = true;
-      body.lift_off_time = t0;
       body.lift_off_speed = v1;
+      body.lift_off_time = t0;
       body.lift_off_height = s0.position.z();
+      if (step_ == 0 && !supported) {
+        // Since the support went, though that was in the middle of a collision.
+        const bool flew_before = body.collided_now && body.unsupported_since < body.collision_begin;
+        body.lift_off_time = flew_before ? body.collision_begin : body.unsupported_since;
+        body.lift_off_height = flew_before ? body.collision_height : body.unsupported_height;
+      }
       body.peak = std::max(s0.position.z(), s1.position.z());
     }
     return;

@@ -20,11 +20,4 @@ std::vector<double> phase_starts(double first_contact, double step, std::size_t 
   return starts;
 }
 
-std::vector<BodyState> states_at(const HardScene& scene, double time) {
-  if (time == 0) return scene.initial;
-  EventSolver solver(scene, scene.initial);
-  solver.run({Run::Until::time, time, time}, nullptr);
-  return solver.states();
-}
-
 }  // namespace slipcheck

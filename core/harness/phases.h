@@ -3,10 +3,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "physics/sphere.h"
-#include "reference/event_solver.h"
-#include "scenario/hard_scene.h"
-
 namespace slipcheck {
 
 /// Where the runs of an ensemble start, so that the first contact falls everywhere inside a step:
@@ -14,8 +10,5 @@ namespace slipcheck {
 /// fixed seed). A first contact before the end of the first step shortens the range to it. One
 /// start at 0 where there is no contact (`first_contact` infinite).
 std::vector<double> phase_starts(double first_contact, double step, std::size_t count);
-
-/// The reference's exact state at a time before the first contact [s].
-std::vector<BodyState> states_at(const HardScene& scene, double time);
 
 }  // namespace slipcheck

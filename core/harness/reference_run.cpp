@@ -31,59 +31,89 @@ double thread_cpu_seconds() {
 }
 
 struct Solved {
-  EventRun run;
+  SolvedRun run;
   Observables seen;
 };
 
-Solved solve(const HardScene& scene, const RunEnd& end, int rounding, double cut_offs) {
+Solved solve(const ReferenceSolver& solver, const RunEnd& end, int rounding,
+             const SolverAccuracy& accuracy) {
   const RoundingMode mode(rounding);
-  EventSettings settings;
-  settings.collapse_fraction *= cut_offs;
-  settings.landing_fraction *= cut_offs;
-  EventSolver solver(scene, scene.initial, settings);
-  Observer observer(scene, 0, speed_scale(scene, scene.initial));
+  const HardScene& scene = solver.scene().hard;
+  Observer observer(scene, 0, speed_scale(scene, scene.initial), solver.is_resolved());
   Solved solved;
-  solved.run = solver.run(end, &observer);
+  solved.run = solver.run(end, &observer, accuracy);
   solved.seen = observer.finish(solved.run.end_time);
   return solved;
 }
 
+/// The run that the values come from and those that tell their uncertainty.
+struct SolvedRuns {
+  Solved value;
+  std::vector<Observables> others;
+  double cpu_seconds = 0;
+};
+
+SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double tolerance) {
+  SolvedRuns runs;
+  if (solver.is_exact()) {
+    runs.others.push_back(solve(solver, end, FE_UPWARD, {tolerance, 1.5}).seen);
+    runs.others.push_back(solve(solver, end, FE_DOWNWARD, {tolerance, 0.5}).seen);
+  } else {
+    runs.others.push_back(solve(solver, end, FE_TONEAREST, {10 * tolerance, 1.5}).seen);
+  }
+  const double begin = thread_cpu_seconds();
+  runs.value = solve(solver, end, FE_TONEAREST, {tolerance, 1});
+  runs.cpu_seconds = thread_cpu_seconds() - begin;
+  return runs;
+}
+
 }  // namespace
 
-ReferenceResult run_reference(const HardScene& scene, const RunEnd& end,
+ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
                               const std::vector<std::string>& names) {
+  const HardScene& scene = solver.scene().hard;
   ReferenceResult result;
-  const Observables up = solve(scene, end, FE_UPWARD, 1.5).seen;
-  const Observables down = solve(scene, end, FE_DOWNWARD, 0.5).seen;
-  const double begin = thread_cpu_seconds();
-  const Solved solved = solve(scene, end, FE_TONEAREST, 1);
-  result.cpu_seconds = thread_cpu_seconds() - begin;
+  result.solver = solver.name();
+  double tolerance = SolverAccuracy{}.tolerance;
+  SolvedRuns runs = solve_all(solver, end, tolerance);
+  // A scene whose scales lie too far apart for its last digits.
+  while (runs.value.run.failed && tolerance < 1e-9) {
+    tolerance *= 10;
+    runs = solve_all(solver, end, tolerance);
+  }
+  if (tolerance > SolverAccuracy{}.tolerance)
+    result.warnings.push_back("integrated at a relative tolerance of 1e" +
+                              std::to_string(std::lround(std::log10(tolerance))));
+  const Solved& solved = runs.value;
+  result.cpu_seconds = runs.cpu_seconds;
   result.run = solved.run;
-  result.first_contact = EventSolver(scene, scene.initial).first_contact(end.limit);
+  result.first_contact = solver.first_contact(end.limit);
 
   // Closed forms are of a body alone, or of two that have met once and not again.
-  const bool has_closed_form =
-      result.run.reached && result.run.collisions + 1 == scene.bodies.size();
+  const bool has_closed_form = result.run.reached && has_exact_phases(scene) &&
+                               !solver.is_resolved() &&
+                               result.run.collisions + 1 == scene.bodies.size();
   const auto flat = [&](const Observables& other) {
     return flat_values(aligned(other, solved.seen));
   };
   std::vector<std::string> value_name = value_names(solved.seen, names);
   const std::vector<double> values = flat_values(solved.seen);
-  const std::vector<double> above = flat(up), below = flat(down);
+  std::vector<std::vector<double>> others;
+  for (const Observables& other : runs.others) others.push_back(flat(other));
   const std::vector<double> closed =
       flat(has_closed_form ? closed_form_observables(scene) : Observables{});
   for (std::size_t k = 0; k < values.size(); ++k) {
     const double value = values[k];
     if (std::isnan(value)) continue;
     const double units = 2 * std::numeric_limits<double>::epsilon() * std::abs(value);
-    const double spread = std::max(std::abs(above[k] - value), std::abs(below[k] - value));
-    const bool comparable = !std::isnan(above[k]) && !std::isnan(below[k]);
+    double uncertainty = units;
+    for (const auto& other : others)
+      uncertainty = std::isnan(other[k]) ? std::numeric_limits<double>::infinity()
+                                         : std::max(uncertainty, std::abs(other[k] - value));
     if (!std::isnan(closed[k])) result.closed_form.emplace(value_name[k], closed[k]);
-    result.observables.emplace(
-        std::move(value_name[k]),
-        UncertainValue{
-            value, comparable ? std::max(units, spread) : std::numeric_limits<double>::infinity()});
+    result.observables.emplace(std::move(value_name[k]), UncertainValue{value, uncertainty});
   }
+  for (const std::string& warning : solver.scene().warnings) result.warnings.push_back(warning);
   if (!result.run.reached) result.warnings.push_back("the run did not end: " + result.run.reason);
   if (result.run.collapses > 0)
     result.warnings.push_back(

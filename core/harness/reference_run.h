@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/event_solver.h"
+#include "reference/reference_solver.h"
 #include "scenario/hard_scene.h"
 #include "scenario/scenario.h"
 
@@ -17,19 +17,21 @@ struct UncertainValue {
 
 /// What the reference says of a scene.
 struct ReferenceResult {
-  std::string solver = "event";
-  double cpu_seconds = 0;  ///< of the one run that the values come from
+  std::string solver = "event";  ///< or "contact"
+  double cpu_seconds = 0;        ///< of the one run that the values come from
   std::map<std::string, UncertainValue> observables;
   std::map<std::string, double> closed_form;  ///< where one applies
-  EventRun run;
+  SolvedRun run;
   double first_contact = 0;  ///< time of the first collision or landing [s], maybe infinite
   std::vector<std::string> warnings;
 };
 
-/// Solves a scene. The uncertainty is the spread over runs under all three rounding modes, in which
-/// also the cut-offs for vanishing rebounds differ by half, and never less than two units in the
-/// last place: what depends on rounding (a rack of balls struck at once) shows.
-ReferenceResult run_reference(const HardScene& scene, const RunEnd& end,
+/// Solves a scene. Where phases are exact the uncertainty is the spread over runs under all three
+/// rounding modes, in which also the cut-offs for vanishing rebounds differ by half; where they are
+/// integrated it is the difference to a run at ten times the tolerance with other cut-offs. It is
+/// never less than two units in the last place. What depends on rounding (a rack of balls struck at
+/// once) shows.
+ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
                               const std::vector<std::string>& body_names);
 
 RunEnd run_end(const Scenario& scenario);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/hard_scene.h"
+#include "reference/contact_scene.h"
 
 namespace slipcheck {
 
@@ -14,7 +14,7 @@ struct Feature {
   std::string detail;  ///< why it is needed, or what leaving it out saves
 };
 
-/// Every feature of the event-driven reference, needed by the scene or left out.
-std::vector<Feature> scene_features(const HardScene& scene);
+/// Every feature of the reference, needed by the scene or left out.
+std::vector<Feature> scene_features(const ContactScene& scene);
 
 }  // namespace slipcheck

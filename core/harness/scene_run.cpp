@@ -73,9 +73,13 @@ EngineRecord::Status status_of(JobResult::Status status) {
 
 std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOptions& options) {
   refuse_unknown_engines(scenarios);
-  std::vector<HardScene> hard;
-  hard.reserve(scenarios.size());
-  for (const Scenario& scenario : scenarios) hard.push_back(make_hard_scene(scenario));
+  std::vector<ContactScene> contact_scenes;
+  contact_scenes.reserve(scenarios.size());
+  for (const Scenario& scenario : scenarios) contact_scenes.push_back(make_contact_scene(scenario));
+  std::vector<ReferenceSolver> solvers;
+  solvers.reserve(scenarios.size());
+  for (std::size_t s = 0; s < scenarios.size(); ++s)
+    solvers.emplace_back(contact_scenes[s], scenarios[s].compare.reference);
 
   std::vector<SceneRecord> scenes(scenarios.size());
   std::vector<EngineJob> jobs;
@@ -83,7 +87,8 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     SceneRecord& scene = scenes[s];
     scene.scenario = std::move(scenarios[s]);
-    scene.reference = run_reference(hard[s], run_end(scene.scenario), body_names(scene.scenario));
+    scene.reference =
+        run_reference(solvers[s], run_end(scene.scenario), body_names(scene.scenario));
     scene.runs = requested_runs(scene.scenario);
     for (EngineRecord& record : scene.runs) {
       const auto executable = find_engine(record.engine, record.precision);
@@ -92,7 +97,7 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
             fmt::format("slipcheck-engine-{}-{} is not installed", record.engine, record.precision);
         continue;
       }
-      const EnsembleTask task{&hard[s], &scene.reference, &scene.scenario, options.phases};
+      const EnsembleTask task{&solvers[s], &scene.reference, &scene.scenario, options.phases};
       jobs.push_back({executable->path, [&record, task, &options](RemoteEngine& engine) {
                         engine.limit_run(options.time_limit);
                         run_ensemble(engine, task, record);

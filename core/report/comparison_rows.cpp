@@ -149,7 +149,7 @@ std::string run_name(const EngineRecord& run) {
 }
 
 std::string reference_summary(const ReferenceResult& reference) {
-  const EventRun& run = reference.run;
+  const SolvedRun& run = reference.run;
   return fmt::format("{} solver, {} collision{}, ends at {}, {} of CPU time", reference.solver,
                      run.collisions, run.collisions == 1 ? "" : "s", quantity(run.end_time, kTime),
                      quantity(reference.cpu_seconds, kTime, 2));

@@ -46,6 +46,9 @@ Json reference_json(const SceneRecord& scene) {
   put(json, "cpu_seconds", reference.cpu_seconds);
   put(json, "end_time", reference.run.end_time);
   json["collisions"] = reference.run.collisions;
+  json["events"] = reference.run.events;
+  json["steps"] = reference.run.steps;
+  if (reference.run.balance) put(json, "energy_error", reference.run.balance->error());
 
   // In alphabetical order, what is absent between what is shown.
   std::map<std::string, Json> observables;

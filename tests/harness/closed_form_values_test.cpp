@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "../scenes.h"
-#include "harness/reference_run.h"
+#include "hard_run.h"
 
 namespace slipcheck {
 namespace {
@@ -14,7 +14,7 @@ const std::vector<std::string> kNames = {"i", "j"};
 /// thousand roundings, and never further than ten times the solver's own uncertainty says.
 void expect_agreement(const HardScene& scene, std::size_t least) {
   const RunEnd end{Run::Until::rolling, 0, 100};
-  const ReferenceResult result = run_reference(scene, end, kNames);
+  const ReferenceResult result = test::run_hard(scene, end, kNames);
   ASSERT_TRUE(result.run.reached) << result.run.reason;
   EXPECT_GE(result.closed_form.size(), least);
   for (const auto& [name, expected] : result.closed_form)
@@ -51,7 +51,7 @@ TEST(ClosedFormValues, AgreeOnOneBody) {
   roll.substrate[0].drilling_length = 1e-5;
   roll.initial[0] = test::rolling_at(0, 0, 0.3, 0.4);
   roll.initial[0].angular_velocity.z() = 7;
-  const ReferenceResult result = run_reference(roll, {Run::Until::rest, 0, 100}, {"i"});
+  const ReferenceResult result = test::run_hard(roll, {Run::Until::rest, 0, 100}, {"i"});
   ASSERT_EQ(result.closed_form.size(), 3u);
   for (const auto& [name, expected] : result.closed_form)
     EXPECT_NEAR(result.observables.at(name).value, expected, 1e-12 * expected) << name;
@@ -71,11 +71,11 @@ TEST(ClosedFormValues, StayAwayFromWhatTheyDoNotCover) {
 
 TEST(ClosedFormValues, AreNotShownWhereTheRunEndsBeforeThePairMeets) {
   const HardScene scene = test::head_on(0.15, -0.15, 0.9);
-  const ReferenceResult before = run_reference(scene, {Run::Until::time, 0.01, 0.01}, kNames);
+  const ReferenceResult before = test::run_hard(scene, {Run::Until::time, 0.01, 0.01}, kNames);
   EXPECT_EQ(before.run.collisions, 0u);
   EXPECT_TRUE(before.closed_form.empty());
   // Met, but still sliding: only what has been seen by then.
-  const ReferenceResult sliding = run_reference(scene, {Run::Until::time, 0.03, 0.03}, kNames);
+  const ReferenceResult sliding = test::run_hard(scene, {Run::Until::time, 0.03, 0.03}, kNames);
   EXPECT_EQ(sliding.closed_form.count("i-j.restitution"), 1u);
   EXPECT_EQ(sliding.closed_form.count("i.sliding_time"), 0u);
 }
@@ -83,7 +83,7 @@ TEST(ClosedFormValues, AreNotShownWhereTheRunEndsBeforeThePairMeets) {
 TEST(ClosedFormValues, AreNotShownWhereThePairCollidesAgain) {
   // e_n < 1/A: the spins drive the balls together; the closed form's single collision is not all.
   const ReferenceResult result =
-      run_reference(test::head_on(0.15, -0.15, 0.3), {Run::Until::rolling, 0, 10}, kNames);
+      test::run_hard(test::head_on(0.15, -0.15, 0.3), {Run::Until::rolling, 0, 10}, kNames);
   EXPECT_GT(result.run.collisions, 1u);
   EXPECT_TRUE(result.closed_form.empty());
 }

@@ -1,18 +1,17 @@
-#include "harness/reference_run.h"
-
 #include <gtest/gtest.h>
 
 #include <cfenv>
 #include <cmath>
 
 #include "../scenes.h"
+#include "hard_run.h"
 
 namespace slipcheck {
 namespace {
 
 TEST(ReferenceRun, UncertaintyIsOfRoundingAndCoversTheClosedForm) {
   const ReferenceResult result =
-      run_reference(test::head_on(0.15, -0.15, 0.9), {Run::Until::rolling, 0, 10}, {"i", "j"});
+      test::run_hard(test::head_on(0.15, -0.15, 0.9), {Run::Until::rolling, 0, 10}, {"i", "j"});
   const UncertainValue e = result.observables.at("i-j.effective_restitution");
   EXPECT_NEAR(e.value, (2.5 * 0.9 - 1) / 3.5, 1e-12);
   EXPECT_GT(e.uncertainty, 0);
@@ -33,7 +32,7 @@ TEST(ReferenceRun, AChaoticSceneSaysHowLittleItKnows) {
       scene.initial[n] =
           test::rolling_at(row * 0.004 * std::sqrt(0.75), (k - 0.5 * row) * 0.004, 0, 0);
   const ReferenceResult result =
-      run_reference(scene, {Run::Until::rolling, 0, 10}, {"cue", "a", "b", "c", "d", "e", "f"});
+      test::run_hard(scene, {Run::Until::rolling, 0, 10}, {"cue", "a", "b", "c", "d", "e", "f"});
   double worst = 0;
   for (const auto& [name, value] : result.observables)
     if (name.find("rolling_velocity") != std::string::npos)
@@ -43,13 +42,13 @@ TEST(ReferenceRun, AChaoticSceneSaysHowLittleItKnows) {
 
 TEST(ReferenceRun, WarnsOfCollapseAndOfRunsThatDoNotEnd) {
   const ReferenceResult collapse =
-      run_reference(test::head_on(0.15, -0.15, 0.2), {Run::Until::rolling, 0, 10}, {"i", "j"});
+      test::run_hard(test::head_on(0.15, -0.15, 0.2), {Run::Until::rolling, 0, 10}, {"i", "j"});
   ASSERT_EQ(collapse.warnings.size(), 1u);
   EXPECT_NE(collapse.warnings[0].find("inelastic collapse"), std::string::npos);
   HardScene frictionless = test::steel_scene(1);
   frictionless.substrate[0].kinetic_friction = 0;
   frictionless.initial[0].velocity.x() = 1;
-  const ReferenceResult endless = run_reference(frictionless, {Run::Until::rolling, 0, 2}, {"i"});
+  const ReferenceResult endless = test::run_hard(frictionless, {Run::Until::rolling, 0, 2}, {"i"});
   ASSERT_EQ(endless.warnings.size(), 1u);
   EXPECT_NE(endless.warnings[0].find("did not end"), std::string::npos);
   EXPECT_EQ(endless.observables.count("i.sliding_time"), 0u);

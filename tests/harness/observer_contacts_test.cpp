@@ -1,0 +1,232 @@
+// Collisions that last, from made-up frames whose observables are known by construction.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "../scenes.h"
+#include "harness/observer.h"
+
+namespace slipcheck {
+namespace {
+
+constexpr double kR = 0.002;
+
+/// What one frame of two bodies on the x axis shows.
+struct Shown {
+  double time;
+  double gap;     ///< between the surfaces [m]
+  double v0, v1;  ///< velocities along x [m/s]
+  bool touch = false;
+  double slip0 = 0, slip1 = 0;  ///< on the substrate [m/s]
+  bool supported0 = true;
+  double height0 = 0, vz0 = 0;  ///< of the first body's lowest point
+};
+
+Frame frame_of(const Shown& shown) {
+  Frame frame;
+  frame.bodies = {test::rolling_at(-kR - shown.gap / 2, 0, shown.v0 - shown.slip0, 0),
+                  test::rolling_at(kR + shown.gap / 2, 0, shown.v1 - shown.slip1, 0)};
+  frame.bodies[0].velocity.x() = shown.v0;
+  frame.bodies[1].velocity.x() = shown.v1;
+  frame.bodies[0].position.z() += shown.height0;
+  frame.bodies[0].velocity.z() = shown.vz0;
+  if (shown.supported0) frame.touches.push_back({0, kSubstrate, 1});
+  frame.touches.push_back({1, kSubstrate, 1});
+  if (shown.touch) frame.touches.push_back({0, 1, 1e-300});
+  return frame;
+}
+
+Observables seen_in(const std::vector<Shown>& frames, double step = 0, bool resolved = true) {
+  const HardScene scene = test::head_on(0.2, -0.2, 0.9);
+  Observer observer(scene, step, 0.2, resolved);
+  for (const Shown& shown : frames) observer.take(shown.time, frame_of(shown));
+  return observer.finish(frames.back().time);
+}
+
+constexpr double kBegin = 0.02;
+
+/// Meets at ±0.2 m/s, starts to slide 10 ns after the first touch, is deepest after 10 µs, parts
+/// after 25 µs, then slides for 1 ms.
+std::vector<Shown> resolved_collision() {
+  return {{0, 0.008, 0.2, -0.2},
+          {kBegin, 0, 0.2, -0.2},
+          {kBegin + 1e-8, -4e-9, 0.2, -0.2, true},
+          {kBegin + 1e-5, -3e-6, 0, 0, true, -0.2, 0.2},
+          // Parting faster than at the end, as under a force that attracts.
+          {kBegin + 2e-5, -1e-6, -0.19, 0.19, true, -0.38, 0.38},
+          {kBegin + 2.5e-5, 0, -0.16, 0.16, true, -0.36, 0.36},
+          {kBegin + 1.025e-3, 3e-4, -0.1, 0.1}};
+}
+
+TEST(ObserverOfResolvedContacts, IsOneCollisionFromTheFrameBeforeTheTouchToTheLastWithIt) {
+  const Observables seen = seen_in(resolved_collision());
+  ASSERT_EQ(seen.pairs.size(), 1u);
+  EXPECT_NEAR(seen.pairs[0].restitution, 0.8, 1e-14);
+  EXPECT_NEAR(seen.pairs[0].effective_restitution, 0.5, 1e-14);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(seen.bodies[i].velocity_after_collision.norm(), 0.16, 1e-15);
+    EXPECT_NEAR(seen.bodies[i].slip_after_collision.norm(), 0.36, 1e-15);
+    // Counted from the end of the contact.
+    EXPECT_NEAR(seen.bodies[i].sliding_time, 1e-3, 1e-15);
+    EXPECT_NEAR(seen.bodies[i].sliding_distance, 1.5e-4, 1e-15);
+  }
+}
+
+TEST(ObserverOfResolvedContacts, ContactTimeOverlapAndOnset) {
+  const Observables seen = seen_in(resolved_collision());
+  EXPECT_NEAR(seen.pairs[0].contact_time, 2.5e-5, 1e-17);
+  EXPECT_NEAR(seen.pairs[0].max_overlap, 3e-6, 1e-17);
+  EXPECT_NEAR(seen.pairs[0].sliding_onset, 1e-8, 1e-17);
+}
+
+TEST(ObserverOfResolvedContacts, HardContactsHaveNoDurationToShow) {
+  const Observables told_hard = seen_in(resolved_collision(), 0, false);
+  EXPECT_TRUE(std::isnan(told_hard.pairs[0].contact_time));
+  EXPECT_TRUE(std::isnan(told_hard.pairs[0].max_overlap));
+  EXPECT_TRUE(std::isnan(told_hard.pairs[0].sliding_onset));
+  // A hard pair among resolved ones: the frames before and after are of one time.
+  const Observables at_once = seen_in({{0, 0.008, 0.2, -0.2},
+                                       {kBegin, 0, 0.2, -0.2},
+                                       {kBegin, 0, -0.16, 0.16, true, -0.36, 0.36},
+                                       {kBegin + 1e-3, 3e-4, -0.1, 0.1}});
+  EXPECT_NEAR(at_once.pairs[0].restitution, 0.8, 1e-14);
+  EXPECT_TRUE(std::isnan(at_once.pairs[0].contact_time));
+  EXPECT_TRUE(std::isnan(at_once.pairs[0].sliding_onset));
+}
+
+TEST(ObserverOfResolvedContacts, NoOnsetWhereABodySlidBeforeOrNoneSlides) {
+  std::vector<Shown> slid = resolved_collision();
+  slid[0].slip1 = slid[1].slip1 = slid[2].slip1 = 1e-3;
+  EXPECT_TRUE(std::isnan(seen_in(slid).pairs[0].sliding_onset));
+  std::vector<Shown> rolls = resolved_collision();
+  for (Shown& shown : rolls) shown.slip0 = shown.slip1 = 0;
+  EXPECT_TRUE(std::isnan(seen_in(rolls).pairs[0].sliding_onset));
+  // What an integration leaves in the slip of a body that sticks is none.
+  rolls[3].slip0 = 1e-11;
+  EXPECT_TRUE(std::isnan(seen_in(rolls).pairs[0].sliding_onset));
+}
+
+TEST(ObserverOfResolvedContacts, TheFirstBodyToSlideMakesTheOnset) {
+  std::vector<Shown> frames = resolved_collision();
+  frames[3].slip0 = 0;
+  EXPECT_NEAR(seen_in(frames).pairs[0].sliding_onset, 1e-8, 1e-17);
+  frames[3].slip1 = 0;
+  EXPECT_NEAR(seen_in(frames).pairs[0].sliding_onset, 1e-5, 1e-17);
+}
+
+TEST(ObserverOfResolvedContacts, ASecondCollisionIsTheLastOne) {
+  std::vector<Shown> frames = resolved_collision();
+  frames.push_back({0.1, 0, 0.05, -0.05});
+  frames.push_back({0.1 + 1.5e-5, -1e-6, 0, 0, true});
+  frames.push_back({0.1 + 3e-5, 0, -0.045, 0.045, true});
+  frames.push_back({0.2, 0.01, -0.045, 0.045});
+  const PairObservables pair = seen_in(frames).pairs[0];
+  EXPECT_NEAR(pair.restitution, 0.9, 1e-14);
+  EXPECT_NEAR(pair.contact_time, 3e-5, 1e-16);
+  EXPECT_NEAR(pair.max_overlap, 1e-6, 1e-17);
+}
+
+TEST(ObserverOfResolvedContacts, AWeakTouchStaysNoneHoweverItGoesOn) {
+  std::vector<Shown> frames = resolved_collision();
+  frames.push_back({0.1, 0, 1e-5, -1e-5});
+  frames.push_back({0.1 + 1e-5, -1e-9, 0.05, -0.05, true});
+  frames.push_back({0.1 + 3e-5, 0, -0.05, 0.05, true});
+  frames.push_back({0.2, 0.01, -0.05, 0.05});
+  const Observables seen = seen_in(frames);
+  EXPECT_NEAR(seen.pairs[0].restitution, 0.8, 1e-14);
+  EXPECT_NEAR(seen.pairs[0].contact_time, 2.5e-5, 1e-17);
+}
+
+TEST(ObserverOfResolvedContacts, RestitutionIsOfTheLineOfCentresOfItsInstant) {
+  // The line turns by δ in the contact while the bodies slip past each other: along the present
+  // line the surfaces part with 0.9 of the approach, across it the slip has turned round to −½.
+  const HardScene scene = test::head_on(0.2, -0.2, 0.9);
+  const double delta = 0.01, g_n = 0.3, g_t = 0.1;
+  const auto frame_at = [&](double angle, double along, double across, bool touch) {
+    const Vector3 n(-std::cos(angle), std::sin(angle), 0), t(n.y(), -n.x(), 0);
+    Frame frame;
+    frame.bodies = {test::rolling_at(0, 0, 0, 0), test::rolling_at(0, 0, 0, 0)};
+    frame.bodies[0].position += kR * n;
+    frame.bodies[1].position -= kR * n;
+    frame.bodies[0].velocity = along * n + across * t;
+    frame.bodies[0].angular_velocity.setZero();
+    frame.touches = {{0, kSubstrate, 1}, {1, kSubstrate, 1}};
+    if (touch) frame.touches.push_back({0, 1, 1e-300});
+    return frame;
+  };
+  Observer observer(scene, 0, 0.3, true);
+  observer.take(0, frame_at(0, -g_n, g_t, false));
+  observer.take(1e-5, frame_at(delta / 2, 0, 0, true));
+  observer.take(2e-5, frame_at(delta, 0.9 * g_n, -0.5 * g_t, true));
+  const Observables seen = observer.finish(2e-5);
+  EXPECT_NEAR(seen.pairs[0].restitution, 0.9, 1e-14);
+  EXPECT_NEAR(seen.pairs[0].tangential_restitution, -0.5, 1e-13);
+}
+
+TEST(ObserverOfResolvedContacts, FlightCountsFromTheEndOfTheSupportInsideTheCollision) {
+  // The first body's support ends 5 µs after the touch, at its height on the plane; the contact
+  // ends after 25 µs with v_z = 0.03 m/s; it lands 6 ms after its support ended.
+  std::vector<Shown> frames = resolved_collision();
+  frames.resize(2);
+  frames.push_back({kBegin + 5e-6, -1e-6, 0.1, -0.1, true, 0, 0, false, 0, 0});
+  frames.push_back({kBegin + 1.5e-5, -3e-6, 0, 0, true, 0, 0, false, 1e-7, 0.02});
+  frames.push_back({kBegin + 2.5e-5, 0, -0.16, 0.16, true, 0, 0, false, 3e-7, 0.03});
+  // Ballistic between these two: the apex lies v²/2g above the first.
+  frames.push_back({kBegin + 5e-6 + 6e-3, 1e-3, -0.16, 0.16, false, 0, 0, false, 0,
+                    0.03 - 9.81 * (6e-3 - 2e-5)});
+  frames.push_back({kBegin + 5e-6 + 6e-3, 1e-3, -0.16, 0.16});
+  const BodyObservables body = seen_in(frames).bodies[0];
+  EXPECT_NEAR(body.lift_off_speed, 0.03, 1e-15);
+  EXPECT_NEAR(body.flight_time, 6e-3, 1e-15);
+  EXPECT_NEAR(body.jump_height, 3e-7 + 0.03 * 0.03 / (2 * 9.81), 1e-15);
+}
+
+TEST(ObserverOfResolvedContacts, FlightCountsFromTheEndOfTheSupportWithoutACollisionToo) {
+  // Lifted so slowly that the first frames show no vertical speed to speak of.
+  std::vector<Shown> frames = {{0, 1, 0.2, 0.2}, {0.01, 1, 0.2, 0.2}};
+  frames.push_back({0.01, 1, 0.2, 0.2, false, 0, 0, false, 0, 1e-14});
+  frames.push_back({0.02, 1, 0.2, 0.2, false, 0, 0, false, 1e-4, 0.02});
+  frames.push_back({0.05, 1, 0.2, 0.2, false, 0, 0, false, 0, -0.02});
+  frames.push_back({0.05, 1, 0.2, 0.2});
+  EXPECT_NEAR(seen_in(frames).bodies[0].flight_time, 0.04, 1e-16);
+}
+
+TEST(ObserverOfResolvedContacts, ABodyThatFlewBeforeTheCollisionCountsFromIt) {
+  std::vector<Shown> frames = {{0, 0.008, 0.2, -0.2, false, 0, 0, false, 1e-3, 0}};
+  frames.push_back({kBegin, 0, 0.2, -0.2, false, 0, 0, false, 2e-4, -0.1});
+  frames.push_back({kBegin + 1e-5, -3e-6, 0, 0, true, 0, 0, false, 2e-4, 0.01});
+  frames.push_back({kBegin + 2e-5, 0, -0.16, 0.16, true, 0, 0, false, 2e-4, 0.02});
+  frames.push_back({kBegin + 9e-3, 1e-3, -0.16, 0.16, false, 0, 0, false, 0, -0.05});
+  frames.push_back({kBegin + 9e-3, 1e-3, -0.16, 0.16});
+  const BodyObservables body = seen_in(frames).bodies[0];
+  EXPECT_NEAR(body.lift_off_speed, 0.02, 1e-15);
+  EXPECT_NEAR(body.flight_time, 9e-3, 1e-15);
+}
+
+TEST(ObserverOfAnEngine, ContactTimeIsThatOfTheStepsThatTouch) {
+  const double h = 1e-3;
+  std::vector<Shown> frames = {{0, 3e-4, 0.2, -0.2},
+                               {h, -1e-4, 0.1, -0.1, true},
+                               {2 * h, -2e-4, -0.1, 0.1, true, -0.3, 0.3},
+                               {3 * h, 0, -0.16, 0.16, true, -0.3, 0.3},
+                               {4 * h, 3e-4, -0.16, 0.16}};
+  const HardScene scene = test::head_on(0.2, -0.2, 0.9);
+  Observer observer(scene, h, 0.2, true);
+  for (const Shown& shown : frames) {
+    Frame frame = frame_of(shown);
+    // An impulse that tells: the bodies' change of momentum.
+    for (Touch& touch : frame.touches) touch.normal_impulse = 0.1 * scene.bodies[0].mass;
+    observer.take(shown.time, frame);
+  }
+  const PairObservables pair = observer.finish(4 * h).pairs[0];
+  EXPECT_NEAR(pair.contact_time, 3 * h, 1e-17);
+  EXPECT_NEAR(pair.max_overlap, 2e-4, 1e-17);
+  // Found to a step: it began in the second.
+  EXPECT_NEAR(pair.sliding_onset, h, 1e-17);
+  EXPECT_NEAR(pair.restitution, 0.8, 1e-14);
+}
+
+}  // namespace
+}  // namespace slipcheck
