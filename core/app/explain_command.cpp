@@ -2,22 +2,38 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 
 #include "app/commands.h"
 #include "app/explain_contacts.h"
+#include "app/explain_pair.h"
+#include "app/explain_rows.h"
 #include "app/load_files.h"
 #include "engine/engine_registry.h"
 #include "engine/remote_engine.h"
 #include "harness/closed_form_values.h"
 #include "harness/reference_run.h"
 #include "harness/scene_features.h"
-#include "reference/event_solver.h"
+#include "physics/closed_forms.h"
+#include "reference/reference_solver.h"
+#include "scenario/observable_names.h"
 
 namespace slipcheck {
 namespace {
 
-void print_features(const HardScene& scene) {
+void print_solver(const ContactScene& scene, const ReferenceSolver& solver) {
+  const std::string text =
+      solver.is_resolved()
+          ? (scene.is_hard() ? "asked for by compare.reference; collisions are instants"
+                             : "contacts last; all forces are integrated in time")
+      : !scene.is_hard()  ? "asked for by compare.reference; soft contacts become hard ones"
+      : solver.is_exact() ? "every contact is hard; exact phases between collisions"
+                          : "every contact is hard; integrated between collisions";
+  fmt::print("  solver: {} ({})\n", solver.name(), text);
+}
+
+void print_features(const ContactScene& scene) {
   const std::vector<Feature> features = scene_features(scene);
   for (const bool needed : {true, false}) {
     fmt::print("\n  {}\n", needed ? "Needs" : "Left out");
@@ -27,34 +43,98 @@ void print_features(const HardScene& scene) {
 }
 
 void print_bodies(const Scenario& scenario, const HardScene& scene) {
-  fmt::print("\n  Bodies\n");
   constexpr std::size_t most = 20;
+  const auto row = [](const std::string& name, const std::string& radius, const std::string& mass,
+                      const std::string& inertia, const std::string& A, const std::string& speed,
+                      const std::string& slip) {
+    fmt::print("    {}{}{}{}{}{}{}\n", padded(shortened(name, 12), 12), padded(radius, 11, true),
+               padded(mass, 12, true), padded(inertia, 20, true), padded(A, 12, true),
+               padded(speed, 13, true), padded(slip, 13, true));
+  };
+  fmt::print("\n  Bodies\n");
+  row("", "R", "m", "I", "A = mR²/I", "speed", "slip");
   for (std::size_t i = 0; i < std::min(most, scene.bodies.size()); ++i) {
     const Sphere& s = scene.bodies[i];
-    fmt::print(
-        "    {:<12} R = {:.6g} m, m = {:.6g} kg, I = {:.6g} kg m2, A = mR2/I = {:.6g}, "
-        "slip {:.4g} m/s\n",
-        scenario.bodies[i].name, s.radius, s.mass, s.moment_of_inertia(), s.inverse_shape_factor(),
-        slip_velocity(scene.initial[i], s.radius).norm());
+    const BodyState& state = scene.initial[i];
+    row(scenario.bodies[i].name, quantity(s.radius, kLength), quantity(s.mass, kMass),
+        in_unit(s.moment_of_inertia(), "kg m²"), fmt::format("{:.4g}", s.inverse_shape_factor()),
+        quantity(state.velocity.norm(), kVelocity),
+        quantity((slip_velocity(state, s.radius) - scene.motion.velocity(0)).norm(), kVelocity));
   }
   if (scene.bodies.size() > most) fmt::print("    and {} more\n", scene.bodies.size() - most);
 }
 
-void print_expectations(const Scenario& scenario, const HardScene& scene) {
-  const double contact = EventSolver(scene, scene.initial).first_contact(run_end(scenario).limit);
+/// What tilt and motion do to a body that rolls, K (17), (22)-(25).
+void print_substrate(const Scenario& scenario, const HardScene& scene) {
+  const Vector3 downhill(scene.downhill.x(), scene.downhill.y(), 0);
+  const double shaking = scene.motion.largest_acceleration();
+  if (downhill.norm() == 0 && shaking == 0) return;
+  fmt::print("\n  Substrate, under {}\n", scenario.bodies[0].name);
+  const double A = scene.bodies[0].inverse_shape_factor();
+  const auto rolled = [&](const Vector3& a_G, double a_S) {
+    return in_unit(rolling_acceleration(A, a_G, a_S * Vector3::UnitX()).norm(), "m/s²");
+  };
+  if (downhill.norm() > 0)
+    print_row("a_roll", rolled(downhill, 0),
+              fmt::format("down the slope while it rolls, of {:.5g} m/s²", downhill.norm()));
+  if (shaking > 0) {
+    print_row("a_S", in_unit(shaking, "m/s²"), "largest acceleration of the substrate");
+    print_row("a_roll", rolled(Vector3::Zero(), shaking), "of a body that rolls on it then");
+  }
+  print_row("|a_S − a_G|",
+            in_unit(rolling_limit(A, scene.on_substrate(0).static_friction, scene.gravity), "m/s²"),
+            "up to here it rolls, beyond it slides");
+}
+
+/// SI unit of "i.sliding_time" or "i-j.restitution".
+std::string unit_of(const std::string& value_name) {
+  const std::string name = value_name.substr(value_name.find('.') + 1);
+  for (const ObservableName& observable : observable_names())
+    if (observable.name == name) return observable.dimension.si;
+  return {};
+}
+
+void print_expectations(const Scenario& scenario, const ContactScene& scene,
+                        const ReferenceSolver& solver) {
+  const double contact = solver.first_contact(run_end(scenario).limit);
   fmt::print("\n  Expected\n");
   if (std::isfinite(contact))
-    fmt::print(
-        "    first contact after {:.6g} s: engines run as ensembles over its phase in a step\n",
-        contact);
+    fmt::print("    first contact after {}: engines run as ensembles over its phase in a step\n",
+               quantity(contact, kTime));
   else
     fmt::print("    no contact but with the substrate: engines run once\n");
-  const auto values = closed_form_values(scene, body_names(scenario));
+
+  HardScene hard = scene.hard;
+  const bool rubs =
+      std::ranges::any_of(hard.pairs, [](const auto& pair) { return pair.friction > 0; });
+  if (!scene.is_hard())
+    for (PairContact& pair : hard.pairs) pair.friction = 0;
+  const auto values = has_exact_phases(hard) ? closed_form_values(hard, body_names(scenario))
+                                             : std::map<std::string, double>{};
+  if (values.empty()) {
+    fmt::print("    no closed form applies\n");
+    return;
+  }
+  fmt::print("    closed forms{}\n", scene.is_hard() ? ""
+                                     : rubs ? ", with hard contacts of the same restitution and "
+                                              "without rubbing"
+                                            : ", with hard contacts of the same restitution");
+  for (const auto& [name, value] : values)
+    if (name.ends_with("effective_restitution") && value < 0)
+      fmt::print("    {} is below 0: they meet again, and these hold until then\n", name);
   for (const auto& [name, value] : values) {
     const bool is_component = name[name.size() - 2] == '.';
-    if (!is_component) fmt::print("    {:<40} {:.10g}  (closed form, SI)\n", name, value);
+    if (!is_component) {
+      const std::string unit = unit_of(name);
+      fmt::print("    {:<40} {:.10g}{}{}\n", name, value, unit.empty() ? "" : " ", unit);
+    }
   }
-  if (values.empty()) fmt::print("    no closed form applies\n");
+}
+
+void print_warnings(const ContactScene& scene) {
+  if (scene.warnings.empty()) return;
+  fmt::print("\n  Warnings\n");
+  for (const std::string& warning : scene.warnings) fmt::print("    {}\n", warning);
 }
 
 std::string text_of(const Setting& setting) {
@@ -90,37 +170,28 @@ void print_engines(const Scenario& scenario, const HardScene& scene) {
   }
 }
 
-/// What closed forms say of a scene with soft contacts.
-void explain_without_solver(const Scenario& scenario) {
-  explain_contacts(scenario);
-  const std::optional<Scenario> equivalent = hard_equivalent(scenario);
-  if (!equivalent) return;
-  try {
-    const HardScene scene = make_hard_scene(*equivalent);
-    print_bodies(scenario, scene);
-    fmt::print("\n  With hard contacts of the same restitution, without rubbing");
-    print_expectations(scenario, scene);
-  } catch (const Unsupported&) {
-    // Something else has no solver either; it is named above.
-  }
-}
-
 void explain(const Scenario& scenario) {
   fmt::print("{}  {}\n", scenario.name, scenario.title);
   if (!scenario.source.empty()) fmt::print("  source: {}\n", scenario.source);
-  HardScene scene;
+  ContactScene scene;
   try {
-    scene = make_hard_scene(scenario);
+    scene = make_contact_scene(scenario);
   } catch (const Unsupported& unsupported) {
-    fmt::print("\n  No solver for this scene yet:\n{}\n", unsupported.what());
-    explain_without_solver(scenario);
+    fmt::print("\n  No solver for this scene:\n{}\n", unsupported.what());
     return;
   }
-  fmt::print("  solver: event (every contact is hard; exact phases between collisions)\n");
+  const ReferenceSolver solver(scene, scenario.compare.reference);
+  const RunEnd end = run_end(scenario);
+  const auto meeting = first_meeting(scene, end.until == Run::Until::time ? end.time : end.limit);
+  print_solver(scene, solver);
   print_features(scene);
-  print_bodies(scenario, scene);
-  print_expectations(scenario, scene);
-  print_engines(scenario, scene);
+  print_bodies(scenario, scene.hard);
+  print_substrate(scenario, scene.hard);
+  explain_contacts(scenario, scene, meeting);
+  if (meeting) explain_meeting(scenario, scene, *meeting);
+  print_expectations(scenario, scene, solver);
+  print_warnings(scene);
+  print_engines(scenario, scene.hard);
 }
 
 }  // namespace

@@ -2,106 +2,177 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
-#include "physics/linear_contact.h"
+#include "app/explain_rows.h"
+#include "physics/elastic_pair.h"
+#include "physics/quasistatic.h"
+#include "physics/step_limits.h"
+#include "reference/impact.h"
 
 namespace slipcheck {
 namespace {
 
-/// The first two bodies that can have this contact.
+/// Two bodies that have a contact, and how fast they meet.
 struct Partners {
-  const Body* first = nullptr;
-  const Body* second = nullptr;
+  std::size_t first = 0, second = 0;
+  double speed = 1;  ///< [m/s]
 };
 
-Partners partners(const Scenario& scenario, const BodyContact& contact) {
-  Partners found;
-  for (const Body& body : scenario.bodies) {
-    if (!found.first && body.material == contact.first)
-      found.first = &body;
-    else if (!found.second && body.material == contact.second)
-      found.second = &body;
-  }
-  return found;
+/// Those that meet first, if it is their contact; else the first two that can have it.
+std::optional<Partners> partners(const Scenario& scenario, const BodyContact& contact,
+                                 const std::optional<Meeting>& meeting) {
+  const auto have_it = [&](std::size_t i, std::size_t j) {
+    const std::string &a = scenario.bodies[i].material, &b = scenario.bodies[j].material;
+    return (a == contact.first && b == contact.second) ||
+           (a == contact.second && b == contact.first);
+  };
+  const double speed = meeting ? meeting->closing_speed() : 1;
+  if (meeting && have_it(meeting->first, meeting->second))
+    return Partners{meeting->first, meeting->second, speed};
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i)
+    for (std::size_t j = i + 1; j < scenario.bodies.size(); ++j)
+      if (have_it(i, j)) return Partners{i, j, speed};
+  return std::nullopt;
 }
 
-/// As the file gives it. Throws std::domain_error where no such contact exists.
-LinearContact linear_contact(const LinearNormal& model, const Partners& bodies) {
-  const double mi = bodies.first->sphere.mass, mj = bodies.second->sphere.mass;
-  const double m = mi * mj / (mi + mj);
-  const auto end = model.ends_at == EndsAt::zero_overlap ? LinearContact::End::zero_overlap
-                                                         : LinearContact::End::zero_force;
-  if (model.restitution && model.collision_time)
-    return LinearContact::with_collision_time(m, *model.restitution, *model.collision_time, end);
-  if (model.restitution)
-    return LinearContact::with_stiffness(m, *model.restitution, *model.stiffness, end);
-  if (model.stiffness) {
-    if (*model.damping_rate >= 2 * std::sqrt(*model.stiffness / m))
-      throw std::domain_error("damping_rate must be below 2 ω0, the critical one");
-    return {m, *model.stiffness, *model.damping_rate, end};
-  }
-  // t_col and γ_N: ω0² = (π/t_col)² + γ_N²/4 under zero_overlap.
-  if (end == LinearContact::End::zero_force)
-    throw std::domain_error("collision_time with damping_rate needs ends_at: zero_overlap");
-  const double w = M_PI / *model.collision_time, half = 0.5 * *model.damping_rate;
-  return {m, m * (w * w + half * half), *model.damping_rate, end};
+void print_restitution_and_time(double e, double duration, double overlap, double speed) {
+  const std::string at = "at " + quantity(speed, kVelocity);
+  print_row("e_n", pure(e), "restitution " + at);
+  print_row("t_col", quantity(duration, kTime),
+            std::isinf(duration) ? "the spheres never part" : "duration of a collision " + at);
+  print_row("x_max", quantity(overlap, kLength), "largest overlap " + at);
 }
 
-void print_rubbing(const ViscousTangential& model, const LinearContact& contact, double A) {
-  const double rate =
-      model.damping_rate ? *model.damping_rate : *model.damping_ratio * contact.damping_rate();
-  const double c = rubbing_constant(A, rate, contact.contact_frequency());
-  fmt::print(
-      "      γ_S = {:.6g} 1/s, C = {:.4g} (first order), {:.4g} (exponential); friction {:g} "
-      "caps it\n",
-      rate, c, rubbed_share(c), model.friction);
+/// Laws of which no closed form is known: one collision is integrated.
+void print_integrated(const SoftContact& soft, double mass, double speed) {
+  const Impact found = impact(soft.normal, mass, speed, soft.end);
+  print_restitution_and_time(found.restitution, found.duration, found.largest_overlap, speed);
+}
+
+void print_normal(const LinearForce& law, const SoftContact& soft, double mass, double speed) {
+  const LinearContact c(mass, law.stiffness, law.damping / mass, soft.end);
+  const double omega0 = c.contact_frequency(), gamma = c.damping_rate();
+  print_restitution_and_time(c.restitution(), c.collision_time(), c.largest_overlap(speed), speed);
+  print_row("k", in_unit(c.stiffness(), "N/m"), "stiffness");
+  print_row("γ_N", in_unit(gamma, "1/s"), "normal damping");
+  print_row("ω0", in_unit(omega0, "1/s"), "contact frequency √(k/m̄)");
+  print_row("ε", pure(c.damping_ratio()), "damping ratio γ_N/ω0; the critical one is 2");
+  print_row("Δt", quantity(symplectic_euler_limit(omega0, gamma), kTime),
+            "largest stable step of symplectic Euler");
+  print_row("", quantity(velocity_verlet_limit(omega0), kTime), "of velocity Verlet, undamped");
+  print_row("", quantity(runge_kutta_limit(omega0), kTime), "of Runge-Kutta 4, undamped");
+  print_row("", quantity(explicit_euler_limit(omega0, gamma), kTime), "of explicit Euler");
+}
+
+void print_normal(const HertzForce& law, const SoftContact& soft, double mass, double speed) {
+  print_integrated(soft, mass, speed);
+  print_row("ρ", in_unit(law.modulus, "N/m^1.5"), "F = ρ ξ^(3/2)");
+}
+
+void print_normal(const PowerForce& law, const SoftContact& soft, double mass, double speed) {
+  print_integrated(soft, mass, speed);
+  print_row("E", in_unit(law.modulus, fmt::format("N/m^{:g}", law.alpha)),
+            fmt::format("F = E ξ^{:g} + η ξ^{:g} ξ̇", law.alpha, law.gamma));
+  print_row("η", in_unit(law.viscosity, fmt::format("N s/m^{:g}", 1 + law.gamma)), "viscosity");
+}
+
+void print_viscoelastic(double modulus, double dissipation_time, const char* form,
+                        const SoftContact& soft, double mass, double speed) {
+  print_integrated(soft, mass, speed);
+  print_row("ρ", in_unit(modulus, "N/m^1.5"), form);
+  print_row("A", quantity(dissipation_time, kTime), "dissipation time");
+  const double t_c = hertz_duration(mass, modulus, speed);
+  print_row("A/t_c", pure(dissipation_time / t_c), "far below 1 where the law holds, B (12)");
+}
+void print_normal(const ViscoelasticForce& law, const SoftContact& soft, double mass,
+                  double speed) {
+  print_viscoelastic(law.modulus, law.dissipation_time, "F = ρ (ξ^(3/2) + (3/2) A √ξ ξ̇)", soft,
+                     mass, speed);
+}
+void print_normal(const CompactViscoelasticForce& law, const SoftContact& soft, double mass,
+                  double speed) {
+  print_viscoelastic(law.modulus, law.dissipation_time, "F = ρ (ξ + A ξ̇)^(3/2)", soft, mass, speed);
+}
+
+void print_tangential(const NoTangentialForce&, double) {}
+void print_tangential(const ViscousForce& law, double mass) {
+  print_row("γ_S", in_unit(law.damping / mass, "1/s"), "tangential damping");
+  print_row("ν_s", pure(law.friction), "Coulomb's cap on it");
+}
+void print_tangential(const AsperityForce& law, double) {
+  print_row("μ", pure(law.friction), "friction at which asperities break");
+  print_row("ζ0", quantity(law.size, kLength), "size of asperities");
+}
+
+/// B (11), for laws made from the materials.
+void print_sound(const Scenario& scenario, const BodyContact& contact, double speed) {
+  double slowest = HUGE_VAL;
+  for (const std::string& name : {contact.first, contact.second}) {
+    const auto found = scenario.materials.find(name);
+    if (found == scenario.materials.end()) continue;
+    const Material& material = found->second;
+    if (material.young_modulus && material.density)
+      slowest = std::min(slowest, sound_speed(*material.young_modulus, *material.density));
+  }
+  if (std::isfinite(slowest))
+    print_row("g/c", pure(speed / slowest),
+              fmt::format("impact speed over that of sound, {}; far below 1, B (11)",
+                          quantity(slowest, kVelocity)));
+}
+
+void print_hard(const PairContact& contact, double speed) {
+  print_row("e_n", pure(restitution_at(contact.restitution, speed)),
+            "restitution at " + quantity(speed, kVelocity));
+  if (contact.friction == 0) return;
+  print_row("μ", pure(contact.friction), "friction between the bodies");
+  print_row("β0", pure(contact.tangential_restitution), "tangential restitution where it sticks");
+}
+
+const char* end_name(ContactEnd end) {
+  return end == ContactEnd::zero_overlap ? "ends at zero overlap" : "ends at zero force";
 }
 
 }  // namespace
 
-void explain_contacts(const Scenario& scenario) {
-  fmt::print("\n  Contacts\n");
-  for (const BodyContact& contact : scenario.contacts) {
-    const auto* linear = std::get_if<LinearNormal>(&contact.normal);
-    const Partners bodies = partners(scenario, contact);
-    if (!linear || !bodies.first || !bodies.second) continue;
-    fmt::print("    {} on {} ({} and {}), linear\n", contact.first, contact.second,
-               bodies.first->name, bodies.second->name);
-    try {
-      const LinearContact c = linear_contact(*linear, bodies);
-      fmt::print(
-          "      t_col = {:.6g} s, e_n = {:.10g}, k = {:.6g} N/m, γ_N = {:.6g} 1/s\n"
-          "      ω0 = {:.6g} 1/s, ε = γ_N/ω0 = {:.4g}, x_max = {:.4g} m at 1 m/s\n",
-          c.collision_time(), c.restitution(), c.stiffness(), c.damping_rate(),
-          c.contact_frequency(), c.damping_ratio(), c.largest_overlap(1));
-      if (const auto* viscous = std::get_if<ViscousTangential>(&contact.tangential))
-        print_rubbing(*viscous, c, bodies.first->sphere.inverse_shape_factor());
-    } catch (const std::domain_error& error) {
-      fmt::print("      {}\n", error.what());
-    }
-  }
+std::optional<LinearContact> linear_contact_between(const ContactScene& scene, std::size_t i,
+                                                    std::size_t j) {
+  const auto& soft = scene.between(i, j);
+  if (!soft) return std::nullopt;
+  const auto* linear = std::get_if<LinearForce>(&soft->normal);
+  if (!linear) return std::nullopt;
+  const double mass = effective_mass(scene.hard.bodies[i], scene.hard.bodies[j]);
+  return LinearContact(mass, linear->stiffness, linear->damping / mass, soft->end);
 }
 
-std::optional<Scenario> hard_equivalent(const Scenario& scenario) {
-  Scenario hard = scenario;
-  hard.compare.reference = Compare::Reference::automatic;
-  for (BodyContact& contact : hard.contacts) {
-    if (const auto* linear = std::get_if<LinearNormal>(&contact.normal)) {
-      const Partners bodies = partners(scenario, contact);
-      if (!bodies.first || !bodies.second) continue;
-      try {
-        contact.normal = HardNormal{linear_contact(*linear, bodies).restitution()};
-      } catch (const std::domain_error&) {
-        return std::nullopt;  // explain_contacts() has said why
-      }
-      contact.tangential = NoTangential{};
-    } else if (!std::holds_alternative<HardNormal>(contact.normal)) {
-      return std::nullopt;
+void explain_contacts(const Scenario& scenario, const ContactScene& scene,
+                      const std::optional<Meeting>& meeting) {
+  constexpr const char* kNormal[] = {"linear", "hertz", "power", "viscoelastic, expanded",
+                                     "viscoelastic, compact"};
+  constexpr const char* kTangential[] = {"no rubbing", "viscous rubbing", "asperities"};
+  for (const BodyContact& contact : scenario.contacts) {
+    const auto found = partners(scenario, contact, meeting);
+    if (!found) continue;
+    const std::size_t i = found->first, j = found->second;
+    const double speed = found->speed;
+    fmt::print("\n  Contact {} on {} ({} and {}): ", contact.first, contact.second,
+               scenario.bodies[i].name, scenario.bodies[j].name);
+    const auto& soft = scene.between(i, j);
+    if (!soft) {
+      fmt::print("hard\n");
+      print_hard(scene.hard.between(i, j), speed);
+      continue;
     }
+    fmt::print("{}, {}, {}\n", kNormal[soft->normal.index()], end_name(soft->end),
+               kTangential[soft->tangential.index()]);
+    const double mass = effective_mass(scene.hard.bodies[i], scene.hard.bodies[j]);
+    std::visit([&](const auto& law) { print_normal(law, *soft, mass, speed); }, soft->normal);
+    std::visit([&](const auto& law) { print_tangential(law, mass); }, soft->tangential);
+    if (!std::holds_alternative<LinearForce>(soft->normal) &&
+        !std::holds_alternative<PowerForce>(soft->normal))
+      print_sound(scenario, contact, speed);
   }
-  return hard;
 }
 
 }  // namespace slipcheck

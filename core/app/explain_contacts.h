@@ -2,16 +2,21 @@
 
 #include <optional>
 
+#include "app/first_meeting.h"
+#include "physics/linear_contact.h"
+#include "reference/contact_scene.h"
 #include "scenario/scenario.h"
 
 namespace slipcheck {
 
-/// Prints what follows from each linear contact's parameters for the first bodies that have it:
-/// t_col, e_n, γ_N, ω0, ε, k, C.
-void explain_contacts(const Scenario& scenario);
+/// Prints what follows from the parameters of each contact between bodies, for the two that meet
+/// first or else the first two that can have it: duration, restitution, stiffness, damping, step
+/// limits. What depends on the speed is told at that of the first meeting.
+void explain_contacts(const Scenario& scenario, const ContactScene& scene,
+                      const std::optional<Meeting>& meeting);
 
-/// The scene with every linear contact replaced by a hard one of its restitution, without rubbing;
-/// nothing if another model is in the way. Closed forms hold for it whatever the contact's law.
-std::optional<Scenario> hard_equivalent(const Scenario& scenario);
+/// The contact of two bodies as K (2), if it is linear.
+std::optional<LinearContact> linear_contact_between(const ContactScene& scene, std::size_t i,
+                                                    std::size_t j);
 
 }  // namespace slipcheck

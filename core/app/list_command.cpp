@@ -91,12 +91,12 @@ Json list_observables() {
   return list;
 }
 
-/// What make_hard_scene() takes.
-bool event_solves(const std::string& key, const std::string& model) {
-  static const std::set<std::pair<std::string, std::string>> solved = {
-      {"normal", "hard"},   {"tangential", "none"},    {"tangential", "hard"},
-      {"drilling", "none"}, {"drilling", "uncoupled"}, {"motion", "still"}};
-  return solved.count({key, model}) > 0;
+/// The solvers that take a model. Between bodies, `event` takes hard contacts and `contact` soft
+/// ones; what the substrate does, both take.
+Json solvers_of(const std::string& key, const std::string& model) {
+  if (key == "normal") return {model == "hard" ? "event" : "contact"};
+  if (key == "tangential" && model != "none") return {model == "hard" ? "event" : "contact"};
+  return {"event", "contact"};
 }
 
 /// The alternatives of every key of the format that names a model, from the format's own schema.
@@ -116,7 +116,7 @@ void collect_models(const nlohmann::json& node, const std::string& key, Json& li
           if (name != selector) parameters.push_back(name);
         list.push_back(Json{{"key", key},
                             {"model", model},
-                            {"solver", event_solves(key, model) ? Json("event") : Json()},
+                            {"solvers", solvers_of(key, model)},
                             {"parameters", std::move(parameters)}});
       }
   for (const auto& [name, child] : node.items()) {

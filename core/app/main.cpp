@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   int exit_code = kWithinTolerance;
   add_run_command(app, exit_code);
   add_explain_command(app, exit_code);
+  add_figures_command(app, exit_code);
   add_list_command(app, exit_code);
   add_schema_command(app, exit_code);
   try {

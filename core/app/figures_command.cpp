@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/progress_bar.h"
+#include "figures/paper_figures.h"
+#include "report/csv.h"
+#include "report/figure.h"
+#include "report/figure_page.h"
+#include "report/files.h"
+
+namespace slipcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FiguresArguments {
+  std::string directory;
+  std::vector<std::string> only;
+  bool quiet = false;
+};
+
+std::vector<std::string> known_names() {
+  std::vector<std::string> names;
+  for (const PaperFigureMaker& maker : paper_figures()) names.emplace_back(maker.name);
+  return names;
+}
+
+/// Those asked for in the papers' order. Throws BadOption for names that no figure has.
+std::vector<PaperFigureMaker> chosen(const std::vector<std::string>& only) {
+  const std::vector<std::string> known = known_names();
+  for (const std::string& name : only)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw BadOption(fmt::format("--only: must be of {}, got {}", fmt::join(known, ", "), name));
+  std::vector<PaperFigureMaker> makers;
+  for (const PaperFigureMaker& maker : paper_figures())
+    if (only.empty() || std::find(only.begin(), only.end(), maker.name) != only.end())
+      makers.push_back(maker);
+  return makers;
+}
+
+int draw(const FiguresArguments& arguments) {
+  const std::vector<PaperFigureMaker> makers = chosen(arguments.only);
+  const fs::path directory = arguments.directory;
+  std::error_code ignored;
+  if (fs::exists(directory, ignored) && !fs::is_directory(directory, ignored))
+    throw BadOption(fmt::format("DIR: must be a directory, got {}", directory.string()));
+  fs::create_directories(directory);
+
+  watch_for_interrupts();
+  std::vector<FigureOnPage> page;
+  {
+    ProgressBar bar("drawing", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
+    for (const PaperFigureMaker& maker : makers) {
+      if (interrupted()) break;
+      bar.set(page.size(), makers.size());
+      const PaperFigure figure = maker.make();
+      std::string svg = figure_svg(figure.drawing, figure.name, figure.title, figure.caption);
+      write_file_atomically(directory / (figure.name + ".svg"), svg);
+      write_file_atomically(directory / (figure.name + ".csv"), csv_text(figure.table));
+      page.push_back({figure.name, figure.title, figure.caption, std::move(svg)});
+    }
+  }
+  if (interrupted()) {
+    if (!arguments.quiet) fmt::print(stderr, "interrupted: what had finished is kept\n");
+    return kInterrupted;
+  }
+  // The page shows all figures; a few of them do not replace it.
+  if (!arguments.only.empty()) return kWithinTolerance;
+  const fs::path index = directory / "index.html";
+  write_file_atomically(index, figure_page(page, kPaperFiguresIntroduction,
+                                           "slipcheck figures " + arguments.directory));
+  if (!arguments.quiet) fmt::print("{}\n", index.string());
+  return kWithinTolerance;
+}
+
+}  // namespace
+
+void add_figures_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "figures", "Compute the papers' figures anew, as SVG and CSV with the closed forms beside");
+  auto arguments = std::make_shared<FiguresArguments>();
+  command->add_option("DIR", arguments->directory, "Where the files go; made if need be")
+      ->required();
+  command
+      ->add_option("--only", arguments->only,
+                   fmt::format("Only these, of {}; index.html is then left alone",
+                               fmt::join(known_names(), ", ")))
+      ->delimiter(',');
+  command->add_flag("-q,--quiet", arguments->quiet, "No progress; the exit code tells");
+  command->footer(
+      "Examples:\n"
+      "  slipcheck figures results/figures\n"
+      "  slipcheck figures /tmp/figures --only K5,B1");
+  command->callback([arguments, &exit_code] { exit_code = draw(*arguments); });
+}
+
+}  // namespace slipcheck
