@@ -15,7 +15,6 @@ Vector3 vector_at(const double* y) { return {y[0], y[1], y[2]}; }
 Vector3 velocity_of(const double* y, std::size_t i) {
   return vector_at(y + i * ContactDynamics::kBody + 3);
 }
-Vector3 horizontal(const Vector3& v) { return {v.x(), v.y(), 0}; }
 /// k̂×v.
 Vector3 turned(const Vector3& v) { return {-v.y(), v.x(), 0}; }
 

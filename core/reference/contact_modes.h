@@ -18,6 +18,13 @@ inline Vector3 continued_direction(const Vector3& w, const Vector3& reference) {
   return w.dot(reference) < 0 ? Vector3(-w / size) : Vector3(w / size);
 }
 
+/// w/|w|, or any direction where there is none.
+inline Vector3 direction_of(const Vector3& w) {
+  return w.isZero(0) ? Vector3(Vector3::UnitX()) : Vector3(w.normalized());
+}
+
+inline Vector3 horizontal(const Vector3& v) { return {v.x(), v.y(), 0}; }
+
 /// A body over or on the substrate.
 struct BodyMode {
   enum class Kind {
@@ -33,7 +40,7 @@ struct BodyMode {
   /// rate).
   bool roll_held = false;
   Vector3 roll_direction = Vector3::UnitX();  ///< of v − v_S while rolling, of k̂×… see rolling_rate
-  bool roll_begins = false;  ///< it has just begun to roll, or to turn
+  bool roll_begins = false;                   ///< it has just begun to roll, or to turn
   bool spin_held = false;                     ///< drilling friction holds Ω_z at 0
   double spin_sign = 1;                       ///< of Ω_z, while it is not held
   double normal_sign = 1;                     ///< of the substrate's normal force, where confined

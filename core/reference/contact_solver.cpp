@@ -5,10 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "reference/contact_state.h"
-#include "reference/contact_touch.h"
-#include "reference/contact_watch.h"
-#include "reference/ode.h"
+#include "reference/contact_integrator.h"
 
 namespace slipcheck {
 namespace {
@@ -30,67 +27,6 @@ ContactScales scales_of(const ContactScene& scene, std::span<const BodyState> in
   return scales;
 }
 
-/// Which method suits the stretch between two events: Adams, until it crawls and BDF does not. A
-/// slip that begins slowly while its direction turns is stiff; a contact that swings is not.
-class MethodChoice {
- public:
-  Ode::Method method() const { return method_; }
-  void begin(Ode::Method method) {
-    method_ = method;
-    trial_ = method == Ode::Method::adams ? Trial::adams : Trial::over;
-    steps_ = 0;
-  }
-  /// After a step to the time `now`; whether the method changed.
-  bool step(double now) {
-    if (trial_ == Trial::over || ++steps_ < kSteps) {
-      if (steps_ == kSteps / 2) middle_ = now;
-      return false;
-    }
-    const double pace = now - middle_;
-    steps_ = 0;
-    if (trial_ == Trial::adams) {
-      adams_pace_ = pace;
-      trial_ = Trial::bdf;
-      method_ = Ode::Method::bdf;
-      return true;
-    }
-    trial_ = Trial::over;
-    if (pace > 3 * adams_pace_) return false;
-    method_ = Ode::Method::adams;
-    return true;
-  }
-
- private:
-  enum class Trial { adams, bdf, over };
-  static constexpr int kSteps = 400;
-  Ode::Method method_ = Ode::Method::adams;
-  Trial trial_ = Trial::adams;
-  int steps_ = 0;
-  double middle_ = 0, adams_pace_ = 0;
-};
-
-/// Where sliding and spin share the friction, a small slip dies out at the rate (1+A) μ_k N/(m |w|)
-/// with w = (u, a_c Ω_z): the faster, the less of both is left. A contact of bodies is fast too.
-bool is_stiff(const ContactState& state) {
-  const ContactDynamics& dynamics = state.dynamics();
-  const HardScene& scene = state.scene().hard;
-  double slow_enough = 0;
-  for (const ContactMode& contact : dynamics.contacts)
-    slow_enough = std::max(slow_enough, 10 / contact.time_scale);
-  for (std::size_t i = 0; i < dynamics.modes.size(); ++i) {
-    const double spin = state.y[i * ContactDynamics::kBody + 8];
-    const BodyMode& mode = dynamics.modes[i];
-    if (!dynamics.is_coupled(i) || mode.kind != BodyMode::Kind::sliding || mode.spin_held) continue;
-    const SubstrateContact& contact = scene.on_substrate(i);
-    const double left = std::hypot(dynamics.slip(i, state.y.data()).norm(),
-                                   contact.coupled_radius * spin, dynamics.creep_speed);
-    const double push = contact.kinetic_friction * std::abs(state.evaluation().bodies[i].normal);
-    const Sphere& sphere = scene.bodies[i];
-    if ((1 + sphere.inverse_shape_factor()) * push > slow_enough * sphere.mass * left) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 class ContactSolver::Impl {
@@ -99,10 +35,9 @@ class ContactSolver::Impl {
        const ContactSettings& settings)
       : scene_(&scene),
         settings_(settings),
-        state_(scene, initial, settings.start, scales_of(scene, initial, settings)) {
-    make_integrator(Ode::Method::adams);
+        state_(scene, initial, settings.start, scales_of(scene, initial, settings)),
+        integrator_(state_, settings.tolerance) {
     initial_energy_ = energy();
-    largest_energy_ = state_.dynamics().kinetic_energy(state_.time, state_.y.data());
   }
 
   ContactRun run(const RunEnd& end, FrameSink* sink);
@@ -113,17 +48,8 @@ class ContactSolver::Impl {
   EnergyBalance balance() const;
 
  private:
-  /// What stopped the integration.
-  struct Happening {
-    std::optional<NextTouch> touch;
-    std::vector<std::pair<ContactWatch::Item, int>> roots;
-    bool kink = false;
-  };
+  using Happening = ContactIntegrator::Happening;
 
-  void make_integrator(Ode::Method method);
-  void restart();
-  void predict_landings();
-  Happening advance(double limit);
   void handle(const Happening& happening, FrameSink* sink, ContactRun& run);
   void handle_touch(const NextTouch& touch, FrameSink* sink, ContactRun& run);
   void handle_root(const ContactWatch::Item& item, int direction);
@@ -136,135 +62,12 @@ class ContactSolver::Impl {
   const ContactScene* scene_;
   ContactSettings settings_;
   ContactState state_;
-  std::optional<Ode> ode_;
-  Ode::Method method_ = Ode::Method::adams;  ///< of ode_
-  MethodChoice choice_;
-  bool new_stretch_ = true;  ///< the modes have changed since the last restart
-  std::optional<ContactWatch> watch_;
-  ContactDynamics::Evaluation scratch_;
-  std::vector<double> floor_;
-  std::size_t steps_before_ = 0;  ///< of integrators that were replaced
-  bool must_restart_ = true;
-  std::vector<double> landing_;  ///< when each body comes down from a free flight, or infinity
-  double initial_energy_ = 0, largest_energy_ = 0;
+  ContactIntegrator integrator_;
+  double initial_energy_ = 0;
   double next_look_ = -1;
   std::vector<bool> seen_sliding_;  ///< a frame has shown this body's present slide
   Frame frame_;
 };
-
-// --- integration ---------------------------------------------------------------------------------
-
-void ContactSolver::Impl::make_integrator(Ode::Method method) {
-  if (ode_) steps_before_ += ode_->steps();
-  method_ = method;
-  ode_.emplace(state_.y.size(), method, [this](double t, const double* y, double* rate) {
-    state_.dynamics().right_side(t, y, rate);
-  });
-  floor_.resize(state_.y.size());
-  scratch_ = {};
-}
-
-void ContactSolver::Impl::restart() {
-  if (new_stretch_) choice_.begin(is_stiff(state_) ? Ode::Method::bdf : Ode::Method::adams);
-  new_stretch_ = false;
-  const Ode::Method method = choice_.method();
-  if (ode_->y().size() != state_.y.size() || method != method_) make_integrator(method);
-  state_.follow_directions();
-  watch_.emplace(state_);
-  ode_->watch(
-      watch_->items().size(),
-      [this](double t, const double* y, double* value) {
-        watch_->values(state_, t, y, scratch_, value);
-      },
-      watch_->directions());
-
-  const HardScene& scene = scene_->hard;
-  const double tolerance = settings_.tolerance, speed = state_.scales().speed;
-  double mass = 0;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const double radius = scene.bodies[i].radius;
-    double* floor = floor_.data() + i * ContactDynamics::kBody;
-    std::fill_n(floor, 3, tolerance * radius);
-    std::fill_n(floor + 3, 3, tolerance * speed);
-    std::fill_n(floor + 6, 2, tolerance * speed);
-    floor[8] = tolerance * speed / radius;
-    mass = std::max(mass, scene.bodies[i].mass);
-  }
-  const auto& dynamics = state_.dynamics();
-  std::fill(floor_.begin() + static_cast<std::ptrdiff_t>(dynamics.slot_at(0)), floor_.end(), 1e30);
-  for (const ContactMode& contact : dynamics.contacts) {
-    double* floor = floor_.data() + dynamics.slot_at(contact.slot);
-    floor[0] = tolerance * contact.overlap_scale;
-    double bend = contact.overlap_scale;
-    if (const auto* asperity = std::get_if<AsperityForce>(&contact.law->tangential)) {
-      bend = asperity->size;
-      if (asperity->form == AsperityForce::Form::passive && contact.growing)
-        bend *= std::visit([&](const auto& law) { return law.elastic(contact.overlap_scale); },
-                           contact.law->normal);
-    }
-    std::fill_n(floor + 1, 3, tolerance * bend);
-  }
-  floor_[dynamics.dissipated_at()] = floor_[dynamics.work_at()] =
-      tolerance * std::max(mass * speed * speed, 1e-3 * largest_energy_);
-  ode_->start(state_.time, state_.y, tolerance, floor_);
-  predict_landings();
-  must_restart_ = false;
-}
-
-/// A free flight is a parabola: it ends where its closed form says, however short it is.
-void ContactSolver::Impl::predict_landings() {
-  const HardScene& scene = scene_->hard;
-  landing_.assign(scene.bodies.size(), kNever);
-  for (std::size_t i = 0; i < landing_.size(); ++i) {
-    if (state_.dynamics().modes[i].on_plane() || state_.in_contact(i)) continue;
-    const double* body = state_.y.data() + i * ContactDynamics::kBody;
-    const double h = std::max(0.0, body[2]), v = body[5], g = scene.gravity;
-    const double root = std::sqrt(v * v + 2 * g * h);
-    if (v > 0 ? g > 0 : root > v)
-      landing_[i] = state_.time + (v > 0 ? (v + root) / g : 2 * h / (root - v));
-  }
-}
-
-ContactSolver::Impl::Happening ContactSolver::Impl::advance(double limit) {
-  if (must_restart_) restart();
-  if (state_.dynamics().modes.size() > 1) state_.evaluate();
-  const double kink = state_.dynamics().next_kink;
-  const double landing = *std::min_element(landing_.begin(), landing_.end());
-  const double last = std::min({limit, kink, landing});
-  Happening happening;
-  // What is due within rounding of now needs no step.
-  if (last <= state_.time + 4e-16 * std::abs(state_.time)) {
-    state_.time = std::max(state_.time, last);
-    happening.kink = last == kink;
-    for (std::size_t i = 0; i < landing_.size(); ++i)
-      if (landing_[i] <= last) happening.roots.push_back({{What::landing, i}, -1});
-    return happening;
-  }
-  const Ode::Stop stop = ode_->step(last);
-  happening.touch = first_touch(state_, *ode_);
-  if (happening.touch) {
-    if (happening.touch->time > state_.time) {
-      ode_->dense(happening.touch->time, state_.y);
-      state_.time = happening.touch->time;
-    }
-  } else {
-    std::copy(ode_->y().begin(), ode_->y().end(), state_.y.begin());
-    state_.time = ode_->time();
-    if (stop == Ode::Stop::root)
-      for (std::size_t k = 0; k < watch_->items().size(); ++k)
-        if (ode_->roots_found()[k] != 0)
-          happening.roots.emplace_back(watch_->items()[k], ode_->roots_found()[k]);
-    happening.kink = stop == Ode::Stop::limit && last == kink;
-    if (stop == Ode::Stop::limit)
-      for (std::size_t i = 0; i < landing_.size(); ++i)
-        if (landing_[i] <= last) happening.roots.push_back({{What::landing, i}, -1});
-  }
-  state_.follow_directions();
-  if (choice_.step(state_.time)) must_restart_ = true;
-  largest_energy_ =
-      std::max(largest_energy_, state_.dynamics().kinetic_energy(state_.time, state_.y.data()));
-  return happening;
-}
 
 // --- events --------------------------------------------------------------------------------------
 
@@ -353,7 +156,7 @@ void ContactSolver::Impl::handle(const Happening& happening, FrameSink* sink, Co
   if (happening.touch) {
     ++run.events;
     handle_touch(*happening.touch, sink, run);
-    must_restart_ = new_stretch_ = true;
+    integrator_.begin_stretch();
     return;
   }
   if (happening.roots.empty() && !happening.kink) return;
@@ -374,7 +177,7 @@ void ContactSolver::Impl::handle(const Happening& happening, FrameSink* sink, Co
     landed |= item.what == What::landing;
   }
   state_.settle();
-  must_restart_ = new_stretch_ = true;
+  integrator_.begin_stretch();
   if (landed) {
     // A body that bounces shows its touch in the frame after the landing.
     for (const auto& [item, direction] : happening.roots)
@@ -440,8 +243,8 @@ EnergyBalance ContactSolver::Impl::balance() const {
   balance.initial = initial_energy_;
   balance.dissipated = state_.y[state_.dynamics().dissipated_at()];
   balance.substrate_work = state_.y[state_.dynamics().work_at()];
-  balance.scale =
-      std::max({largest_energy_, std::abs(balance.dissipated), std::abs(balance.substrate_work)});
+  balance.scale = std::max({integrator_.largest_kinetic_energy(), std::abs(balance.dissipated),
+                            std::abs(balance.substrate_work)});
   return balance;
 }
 
@@ -494,13 +297,13 @@ ContactRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
       run.reason = "more than " + std::to_string(settings_.max_events) + " events";
       break;
     }
-    if (steps_before_ + ode_->steps() >= settings_.max_steps) {
+    if (integrator_.steps() >= settings_.max_steps) {
       run.reason = "more than " + std::to_string(settings_.max_steps) + " steps";
       break;
     }
     const std::size_t before = run.events;
     try {
-      handle(advance(last), sink, run);
+      handle(integrator_.advance(last), sink, run);
     } catch (const IntegrationFailure& failure) {
       run.failed = true;
       run.reason = failure.what();
@@ -510,7 +313,7 @@ ContactRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
     if (sink && !event) reveal_slides(sink);
   }
   run.end_time = state_.time;
-  run.steps = steps_before_ + ode_->steps();
+  run.steps = integrator_.steps();
   run.balance = balance();
   return run;
 }
@@ -518,7 +321,7 @@ ContactRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
 double ContactSolver::Impl::first_contact(double limit) {
   ContactRun run;
   while (state_.time < limit && run.events < settings_.max_events) {
-    const Happening happening = advance(limit);
+    const Happening happening = integrator_.advance(limit);
     if (happening.touch) return state_.time;
     for (const auto& [item, direction] : happening.roots)
       if (item.what == What::landing) return state_.time;
@@ -530,7 +333,7 @@ double ContactSolver::Impl::first_contact(double limit) {
 double ContactSolver::Impl::next_collision(double limit, double slowest) {
   ContactRun run;
   while (state_.time < limit && run.events < settings_.max_events) {
-    const Happening happening = advance(limit);
+    const Happening happening = integrator_.advance(limit);
     if (happening.touch) {
       const BodyState a = state_.body(happening.touch->first);
       const BodyState b = state_.body(happening.touch->second);

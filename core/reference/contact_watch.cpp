@@ -8,7 +8,6 @@ namespace {
 
 using Kind = BodyMode::Kind;
 constexpr std::size_t kBody = ContactDynamics::kBody;
-Vector3 horizontal(const Vector3& v) { return {v.x(), v.y(), 0}; }
 
 /// Falls through zero where dry friction ends a velocity w. A straight one passes through zero
 /// along its direction; one that turns comes as close as its integration allows. What has just

@@ -38,10 +38,6 @@ class Unsupported : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws Unsupported for what is not a hard contact on an unbounded substrate, and for a
-/// restitution `viscoelastic`, which takes an integrator (make_contact_scene).
-HardScene make_hard_scene(const Scenario& scenario);
-
 /// The pair contact of a normal model `hard`; a restitution `viscoelastic` is left at 1.
 PairContact hard_pair(const BodyContact& contact);
 

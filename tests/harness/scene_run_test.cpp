@@ -140,7 +140,7 @@ TEST(SceneRun, AnUnknownEngineIsRefusedAtItsPlace) {
 TEST(SceneRun, AModelWithoutASolverIsRefusedByName) {
   std::string text = pair_scene("");
   const std::string substrate = "substrate: {}";
-  text.replace(text.find(substrate), substrate.size(), "substrate: {periodic: [1, 1]}");
+  text.replace(text.find(substrate), substrate.size(), "substrate: {periodic: [9, 9]}");
   try {
     run(text);
     FAIL() << "accepted";
