@@ -54,8 +54,7 @@ void ContactState::set_rolling(std::size_t i) {
   y[i * kBody + 4] -= change.y();
   mode.kind = Kind::rolling;
   const Vector3 relative = dynamics_.relative_velocity(i, time, y.data());
-  mode.roll_held =
-      !scene.on_substrate(i).rolling.is_zero() && relative.norm() <= scales_.slip_floor;
+  mode.roll_held = scene.on_substrate(i).rolling(0) > 0 && relative.norm() <= scales_.slip_floor;
   mode.roll_direction = direction_of(relative);
   project(i);
 }
@@ -88,6 +87,8 @@ void ContactState::begin_slip(std::size_t i) {
   mode.kind = Kind::sliding;
   mode.slip_direction = direction_of(-friction);
   mode.slip_begins = true;
+  // What is touched may be spun as well.
+  if (dynamics_.is_coupled(i) && in_contact(i)) mode.spin_held = false;
   const Vector3 spin = horizontal(body(i).angular_velocity);
   mode.roll_held = scene_->hard.on_substrate(i).rolling_while_sliding && spin.isZero(0);
   mode.roll_direction = direction_of(spin);
@@ -107,10 +108,10 @@ void ContactState::end_roll(std::size_t i) {
   if (!sliding) state.velocity = dynamics_.substrate_velocity(time) + state.velocity.z() * kUp;
   state.angular_velocity.head<2>().setZero();
   set_body(i, state);
-  mode.roll_held = true;
+  mode.roll_held = scene_->hard.on_substrate(i).rolling(0) > 0;
   evaluate();
   const auto& f = evaluation_.bodies[i];
-  if (f.roll_load.norm() > f.roll_limit) begin_roll(i);
+  if (mode.roll_held && f.roll_load.norm() > f.roll_limit) begin_roll(i);
 }
 
 void ContactState::begin_roll(std::size_t i) {
@@ -253,10 +254,22 @@ bool ContactState::slides(std::size_t i) const {
 
 bool ContactState::rests(std::size_t i) const {
   const BodyMode& mode = dynamics_.modes[i];
-  if (mode.kind != Kind::rolling || in_contact(i)) return false;
-  const auto& f = evaluation_.bodies[i];
-  return dynamics_.relative_velocity(i, time, y.data()).isZero(0) &&
-         body(i).angular_velocity.z() == 0 && (mode.roll_held || f.acceleration.isZero(0));
+  if (mode.kind != Kind::rolling) return false;
+  const Vector3 relative = dynamics_.relative_velocity(i, time, y.data());
+  const double spin = body(i).angular_velocity.z();
+  // Bodies that lean on each other come to rest little by little.
+  if (in_contact(i)) return relative.norm() <= leaning_speed() && spin == 0;
+  return relative.isZero(0) && spin == 0 &&
+         (mode.roll_held || evaluation_.bodies[i].acceleration.isZero(0));
+}
+
+bool ContactState::only_leans() const {
+  for (std::size_t c = 0; c < dynamics_.contacts.size(); ++c) {
+    const auto& forces = evaluation_.contacts[c];
+    const double change = forces.closing_rate * dynamics_.contacts[c].time_scale;
+    if (std::max(std::abs(forces.closing), std::abs(change)) > leaning_speed()) return false;
+  }
+  return true;
 }
 
 }  // namespace slipcheck

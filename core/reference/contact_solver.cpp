@@ -143,9 +143,8 @@ void ContactSolver::Impl::handle_root(const ContactWatch::Item& item, int direct
     case What::growth:
       state_.switch_growth(i, direction > 0);
       break;
-    case What::roll_kink:
-      break;
     case What::contact_end:  // handled last, by handle()
+    case What::roll_kink:
     case What::slip_dies_out:
     case What::greatest_overlap:
       break;
@@ -262,7 +261,7 @@ bool ContactSolver::Impl::will_collide(double limit) {
 }
 
 bool ContactSolver::Impl::has_ended(const RunEnd& end) {
-  if (end.until == Run::Until::time || !state_.dynamics().contacts.empty()) return false;
+  if (end.until == Run::Until::time || !state_.only_leans()) return false;
   const std::size_t count = state_.dynamics().modes.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (!state_.dynamics().modes[i].on_plane()) return false;
@@ -278,8 +277,9 @@ ContactRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
   show(sink, state_.time);
   bool event = true;
   while (true) {
-    // Only an event changes what a run ends with.
-    if (event && has_ended(end)) {
+    // Only an event changes what a run ends with, but where bodies lean on each other.
+    const bool leans = !state_.dynamics().contacts.empty() && state_.only_leans();
+    if ((event || leans) && has_ended(end)) {
       run.reached = true;
       break;
     }

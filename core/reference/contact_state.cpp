@@ -108,6 +108,9 @@ void ContactState::begin_contact(std::size_t i, std::size_t j) {
   contact.overlap_scale = std::visit(ImpactScale{contact.reduced_mass, approach}, law->normal);
   contact.time_scale = contact.overlap_scale / approach;
   dynamics_.contacts.push_back(contact);
+  for (std::size_t k : {i, j})
+    if (dynamics_.is_coupled(k) && dynamics_.modes[k].kind == Kind::sliding)
+      dynamics_.modes[k].spin_held = false;  // the other may spin it
   evaluate();
   ContactMode& made = dynamics_.contacts.back();
   const auto& forces = evaluation_.contacts.back();

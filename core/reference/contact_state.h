@@ -70,8 +70,11 @@ class ContactState {
   /// Slides with a slip that counts; sliding coupled to a spin dies out and never ends by itself.
   bool slides(std::size_t i) const;
   bool rests(std::size_t i) const;
+  /// No two bodies in contact still press into each other or part; as of the last evaluate().
+  bool only_leans() const;
 
  private:
+  double leaning_speed() const { return 1e-9 * scales_.speed; }
   void place(std::size_t i);
   void set_body(std::size_t i, const BodyState& state);
   void set_rolling(std::size_t i);

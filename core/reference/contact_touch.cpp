@@ -9,6 +9,7 @@ namespace slipcheck {
 namespace {
 
 constexpr std::size_t kBody = ContactDynamics::kBody;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 Vector3 vector_at(const double* y) { return {y[0], y[1], y[2]}; }
@@ -40,7 +41,6 @@ Approach approach(const ContactDynamics& dynamics, const double* y, std::size_t 
 /// acceleration, steps to the root of that bound never pass a contact.
 double touch_time(const ContactState& state, const Ode& ode, std::size_t i, std::size_t j,
                   std::vector<double>& y) {
-  constexpr double never = std::numeric_limits<double>::infinity();
   const HardScene& scene = state.scene().hard;
   const double contact = scene.bodies[i].radius + scene.bodies[j].radius;
   const double touching = 8 * kEpsilon * contact;
@@ -57,19 +57,21 @@ double touch_time(const ContactState& state, const Ode& ode, std::size_t i, std:
         const auto& bodies = state.evaluation().bodies;
         const Vector3 n = state.dynamics().between_centres(i, j, now).normalized();
         const double pushed = -n.dot(bodies[i].acceleration - bodies[j].acceleration);
-        return t == begin && pushed > 1e-12 * bound ? t : never;
+        const bool begins = t == begin && pushed > 1e-12 * bound;
+        return begins ? t : kNever;
       }
     }
     const double open = std::max(gap, touching);
     const double root = std::sqrt(closing * closing + 2 * bound * open);
-    double step = std::numeric_limits<double>::infinity();
+    double step = kNever;
     if (closing > 0)
       step = 2 * open / (closing + root);
     else if (bound > 0)
       step = (root - closing) / bound;
     const double next = t + step;
-    if (!(next < end)) return never;  // a contact at the end itself begins the next step
-    if (next == t) return closing > 0 ? t : never;
+    if (!(next < end)) return kNever;  // a contact at the end itself begins the next step
+    if (next == t && closing > 0) return t;
+    if (next == t) return kNever;
     t = next;
     ode.dense(t, y);
     now = y.data();

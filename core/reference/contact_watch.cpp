@@ -58,11 +58,10 @@ void ContactWatch::watch_body(const ContactState& state, std::size_t i) {
       for (const RollingFriction::Point& point : contact.rolling.points())
         if (point.speed > 0) add(What::roll_kink, i, kEither, point.speed);
   }
-  if (coupled || contact.drilling_length == 0) return;
-  if (!mode.spin_held)
-    add(What::spin_end, i, kFalls);
-  else if (touched)
+  if (contact.drilling_length == 0) return;
+  if (mode.spin_held && touched && (!coupled || mode.kind == Kind::rolling))
     add(What::spin_begin, i, kFalls);
+  if (!mode.spin_held && !coupled) add(What::spin_end, i, kFalls);
 }
 
 void ContactWatch::watch_contact(const ContactState& state, std::size_t index) {

@@ -69,12 +69,14 @@ struct Ode::Memory {
   }
 
   static int call_right_side(realtype t, N_Vector state, N_Vector rate, void* self) {
-    static_cast<Memory*>(self)->right_side(t, N_VGetArrayPointer(state), N_VGetArrayPointer(rate));
+    Memory& m = *static_cast<Memory*>(self);
+    m.right_side(m.origin + t, N_VGetArrayPointer(state), N_VGetArrayPointer(rate));
     return 0;
   }
 
   static int call_roots(realtype t, N_Vector state, realtype* value, void* self) {
-    static_cast<Memory*>(self)->functions(t, N_VGetArrayPointer(state), value);
+    Memory& m = *static_cast<Memory*>(self);
+    m.functions(m.origin + t, N_VGetArrayPointer(state), value);
     return 0;
   }
 
@@ -87,7 +89,10 @@ struct Ode::Memory {
   SUNMatrix jacobian = nullptr;
   SUNLinearSolver linear = nullptr;
   std::string message;
-  double now = 0, before = 0;
+  // CVODE counts time from the last start: it finds roots to some units in the last place of that.
+  double origin = 0, now = 0, before = 0;
+  bool at_limit = false;  // then the time is that very number, without rounding
+  double limit = 0;
   std::vector<int> direction, found;
   std::size_t steps_before = 0;
 };
@@ -114,28 +119,35 @@ void Ode::start(double t, std::span<const double> y, double tolerance,
   m.steps_before = steps();
   std::copy(y.begin(), y.end(), N_VGetArrayPointer(m.y));
   std::copy(floor.begin(), floor.end(), N_VGetArrayPointer(m.floor));
-  m.check(CVodeReInit(m.cvode, t, m.y), "CVodeReInit");
+  m.check(CVodeReInit(m.cvode, 0, m.y), "CVodeReInit");
   m.check(CVodeSVtolerances(m.cvode, tolerance, m.floor), "CVodeSVtolerances");
-  m.now = m.before = t;
+  m.origin = t;
+  m.now = m.before = 0;
 }
 
 Ode::Stop Ode::step(double limit) {
   Memory& m = *memory_;
   m.message.clear();
   m.before = m.now;
+  m.at_limit = false;
   std::fill(m.found.begin(), m.found.end(), 0);
-  m.check(CVodeSetStopTime(m.cvode, limit), "CVodeSetStopTime");
-  const int flag = CVode(m.cvode, limit, m.y, &m.now, CV_ONE_STEP);
+  const double stop = limit - m.origin;
+  m.check(CVodeSetStopTime(m.cvode, stop), "CVodeSetStopTime");
+  const int flag = CVode(m.cvode, stop, m.y, &m.now, CV_ONE_STEP);
   m.check(flag, "CVode");
   if (flag == CV_ROOT_RETURN) {
     CVodeGetRootInfo(m.cvode, m.found.data());
     return Stop::root;
   }
-  return flag == CV_TSTOP_RETURN ? Stop::limit : Stop::step;
+  m.at_limit = flag == CV_TSTOP_RETURN;
+  m.limit = limit;
+  return m.at_limit ? Stop::limit : Stop::step;
 }
 
-double Ode::time() const { return memory_->now; }
-double Ode::step_start() const { return memory_->before; }
+double Ode::time() const {
+  return memory_->at_limit ? memory_->limit : memory_->origin + memory_->now;
+}
+double Ode::step_start() const { return memory_->origin + memory_->before; }
 
 std::span<const double> Ode::y() const {
   return {N_VGetArrayPointer(memory_->y),
@@ -145,7 +157,8 @@ std::span<const double> Ode::y() const {
 void Ode::dense(double t, std::span<double> y) const {
   Memory& m = *memory_;
   N_VSetArrayPointer(y.data(), m.scratch);
-  m.check(CVodeGetDky(m.cvode, t, 0, m.scratch), "CVodeGetDky");
+  m.check(CVodeGetDky(m.cvode, std::clamp(t - m.origin, m.before, m.now), 0, m.scratch),
+          "CVodeGetDky");
 }
 
 std::span<const int> Ode::roots_found() const { return memory_->found; }

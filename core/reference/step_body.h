@@ -126,7 +126,9 @@ inline void rub(StepBody& b, const StepSurroundings& s, FullSubstrate, double lo
   const Vector2 sticking = -b.share * u;
   const Vector2 held = v.head<2>() + sticking - s.velocity;
   const Vector2 rolling = rolling_change(b, held, load);
-  b.sticks = (sticking + rolling).norm() <= held_by * per_slip;
+  // Rolling friction that ends where the body slips cannot break it loose.
+  const Vector2 load_on_stick = c.rolling_while_sliding ? Vector2(sticking + rolling) : sticking;
+  b.sticks = load_on_stick.norm() <= held_by * per_slip;
   if (b.sticks) {
     const Vector2 relative = held + rolling;
     v.head<2>() = s.velocity + relative;

@@ -222,6 +222,23 @@ TEST(ContactSolver, SpinAboutTheVerticalShearsAnObliqueHit) {
   EXPECT_NEAR(states[1].angular_velocity.z(), turned, 1e-2 * std::abs(turned));
 }
 
+TEST(ContactSolver, BallsThatComeToRestAgainstEachOtherEndTheRun) {
+  // The struck ball brakes harder than the striker, which leans on it until both rest.
+  HardScene hard = test::head_on(0.05, 0, 0.05);
+  hard.substrate.push_back(hard.substrate[0]);
+  hard.substrate[0].rolling = RollingFriction(0.002);
+  hard.substrate[1].rolling = RollingFriction(0.3);
+  hard.material = {0, 1};
+  hard.pairs.assign(4, hard.pairs[0]);
+  ContactScene scene = test::soft(hard);
+  scene.soft.assign(4, scene.soft[0]);
+  ContactSolver solver(scene, scene.hard.initial);
+  const ContactRun run = solver.run({Run::Until::rest, 0, 20}, nullptr);
+  EXPECT_TRUE(run.reached) << run.reason;
+  for (const BodyState& state : solver.states()) EXPECT_LT(state.velocity.norm(), 1e-9);
+  EXPECT_LT(std::abs(run.balance.error()), 1e-10);
+}
+
 TEST(ContactSolver, TurnedSceneTurnsItsResult) {
   HardScene hard = test::head_on(0.2, -0.1, 0.9);
   hard.initial[1].position.y() = 0.0011;
