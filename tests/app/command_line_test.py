@@ -220,7 +220,7 @@ class CommandLine(unittest.TestCase):
         self.assertNotIn("\x1b", plain.stdout + plain.stderr)
 
     def test_every_command_has_help_with_an_example(self):
-        for command in ("run", "explain", "list", "schema"):
+        for command in ("run", "explain", "figures", "list", "schema"):
             result = run(command, "--help")
             self.assertEqual(result.returncode, 0)
             self.assertRegex(result.stdout, r"Example")
@@ -343,6 +343,30 @@ class CommandLine(unittest.TestCase):
                     self.assertIn("the substrate moves", engine["reason"], name)
                 else:
                     self.assertEqual(engine["status"], "ok", name)
+
+    def test_figures_that_are_asked_for_and_no_others(self):
+        texts = []
+        for name in ("one", "two"):
+            folder = self.path / name / "figures"
+            result = run("figures", folder, "--only", "K7,K6")
+            self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+            self.assertEqual(sorted(file.name for file in folder.iterdir()),
+                             ["K6.csv", "K6.svg", "K7.csv", "K7.svg"])
+            texts.append([file.read_bytes() for file in sorted(folder.iterdir())])
+        self.assertEqual(texts[0], texts[1])
+
+    def test_figures_refuses_names_that_no_figure_has(self):
+        folder = self.path / "figures"
+        result = run("figures", folder, "--only", "K7,K4")
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(result.stderr, "slipcheck: --only: must be of K5, K6, K7, K8, K9, K10, K11, "
+                         "B1, B2, got K4\n")
+        self.assertFalse(folder.exists())
+        folder.write_text("a file")
+        result = run("figures", folder, "--only", "K7")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("must be a directory", result.stderr)
+        self.assertEqual(folder.read_text(), "a file")
 
     def test_schema_is_the_committed_one(self):
         self.assertEqual(run("schema").stdout, (SCENES / "schema.json").read_text())
