@@ -113,6 +113,10 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
     if (!std::isnan(closed[k])) result.closed_form.emplace(value_name[k], closed[k]);
     result.observables.emplace(std::move(value_name[k]), UncertainValue{value, uncertainty});
   }
+  if (solver.hardens())
+    result.warnings.push_back(
+        "event takes soft contacts as hard ones of their restitution and friction; pairs that rub "
+        "or press each other onto the substrate part differently, however stiff they are");
   for (const std::string& warning : solver.scene().warnings) result.warnings.push_back(warning);
   if (!result.run.reached) result.warnings.push_back("the run did not end: " + result.run.reason);
   if (result.run.collapses > 0)

@@ -41,6 +41,8 @@ class ReferenceSolver {
   const char* name() const { return resolved_ ? "contact" : "event"; }
   bool is_exact() const { return exact_; }        ///< no integrator is needed
   bool is_resolved() const { return resolved_; }  ///< contacts of bodies last
+  /// Contacts that last are taken as instants: `event` was asked for.
+  bool hardens() const { return hardened_.has_value(); }
   const ContactScene& scene() const { return hardened_ ? *hardened_ : *scene_; }
 
   SolvedRun run(const RunEnd& end, FrameSink* sink, const SolverAccuracy& accuracy = {}) const;

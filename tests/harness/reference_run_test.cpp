@@ -3,7 +3,7 @@
 #include <cfenv>
 #include <cmath>
 
-#include "../scenes.h"
+#include "../reference/soft_scenes.h"
 #include "hard_run.h"
 
 namespace slipcheck {
@@ -38,6 +38,34 @@ TEST(ReferenceRun, AChaoticSceneSaysHowLittleItKnows) {
     if (name.find("rolling_velocity") != std::string::npos)
       worst = std::max(worst, value.uncertainty);
   EXPECT_GT(worst, 1e-3);
+}
+
+TEST(ReferenceRun, SoftContactsHaveTheUncertaintyOfTheIntegration) {
+  const ContactScene scene = test::soft(test::head_on(0.15, -0.15, 0.9));
+  const RunEnd end{Run::Until::rolling, 0, 10};
+  const ReferenceResult result =
+      run_reference(ReferenceSolver(scene, Compare::Reference::automatic), end, {"i", "j"});
+  EXPECT_EQ(result.solver, "contact");
+  EXPECT_TRUE(result.warnings.empty());
+  ASSERT_TRUE(result.run.balance);
+  EXPECT_LT(std::abs(result.run.balance->error()), 1e-10);
+  const UncertainValue time = result.observables.at("i-j.contact_time");
+  EXPECT_GT(time.uncertainty, 0);
+  EXPECT_LT(time.uncertainty, 1e-10 * time.value);
+  // 4 μ_k g/(π v_rel ω0) of itself longer than the law's own (K App. D).
+  EXPECT_NEAR(time.value / 2.55e-5 - 1, 3.4e-5, 0.4e-5);
+}
+
+TEST(ReferenceRun, SaysWhenEventTakesSoftContactsAsHard) {
+  const ContactScene scene = test::soft(test::head_on(0.15, -0.15, 0.9));
+  const RunEnd end{Run::Until::rolling, 0, 10};
+  const ReferenceResult result =
+      run_reference(ReferenceSolver(scene, Compare::Reference::event), end, {"i", "j"});
+  EXPECT_EQ(result.solver, "event");
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings[0].find("soft contacts as hard"), std::string::npos);
+  EXPECT_NEAR(result.observables.at("i-j.effective_restitution").value, (2.5 * 0.9 - 1) / 3.5,
+              1e-12);
 }
 
 TEST(ReferenceRun, WarnsOfCollapseAndOfRunsThatDoNotEnd) {
