@@ -34,7 +34,10 @@ struct IceOnWall {
   }
 };
 
-double measured(double speed) { return restitution_at(PowerLawRestitution{}, speed); }
+double measured(double speed) {
+  static const RestitutionLaw law = PowerLawRestitution{};
+  return restitution_at(law, speed);
+}
 
 /// Where a function with one minimum between them is smallest, to 1e-7 of the place.
 double golden_section(const std::function<double(double)>& f, double low, double high) {

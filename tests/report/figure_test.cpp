@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <regex>
+#include <string>
 
 #include "report/csv.h"
 #include "report/plot_text.h"
@@ -11,10 +11,18 @@
 namespace slipcheck {
 namespace {
 
-std::size_t count(const std::string& text, const std::string& pattern) {
-  const std::regex regex(pattern);
-  return static_cast<std::size_t>(
-      std::distance(std::sregex_iterator(text.begin(), text.end(), regex), std::sregex_iterator()));
+std::size_t count(const std::string& text, const std::string& piece) {
+  std::size_t found = 0;
+  for (auto at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) ++found;
+  return found;
+}
+
+/// What stands between two pieces of a text.
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+  const auto begin = text.find(before);
+  if (begin == std::string::npos) return "not found";
+  const auto first = begin + before.size();
+  return text.substr(first, text.find(after, first) - first);
 }
 
 LineChart one_curve(std::vector<double> x, std::vector<double> y, Look look = {}) {
@@ -29,10 +37,7 @@ LineChart one_curve(std::vector<double> x, std::vector<double> y, Look look = {}
 /// What the curve in the frame 0 … 100 by 0 … 100 px is drawn with.
 std::string path_of(const LineChart& chart) {
   const std::string svg = line_chart_svg(chart, {0, 0, 100, 100}, "clip");
-  std::smatch match;
-  EXPECT_TRUE(
-      std::regex_search(svg, match, std::regex("<g clip-path[^>]*>\n<path d=\"([^\"]*)\"")));
-  return match[1];
+  return between(svg, "stroke-linejoin=\"round\">\n<path d=\"", "\"");
 }
 
 TEST(PlotText, RaisesAndLowersAndComesBackToTheLine) {
@@ -42,11 +47,11 @@ TEST(PlotText, RaisesAndLowersAndComesBackToTheLine) {
   for (const char* text : {"u_i^f [cm/s]", "t^s", "10^{−3}", "e_{eff} = 1", "ζ_0^"}) {
     // The shifts, in units of the text's own size, add up to where the last piece stands.
     const std::string svg = plot_text(text);
-    const std::regex shift("dy=\"([-0-9.]*)em\"( font-size=\"72%\")?");
     double height = 0;
-    for (auto k = std::sregex_iterator(svg.begin(), svg.end(), shift); k != std::sregex_iterator();
-         ++k)
-      height += std::stod((*k)[1]) * ((*k)[2].matched ? 0.72 : 1);
+    for (auto at = svg.find("dy=\""); at != std::string::npos; at = svg.find("dy=\"", at + 1)) {
+      const bool is_small = between(svg.substr(at), "em\"", ">") == " font-size=\"72%\"";
+      height += std::stod(svg.substr(at + 4)) * (is_small ? 0.72 : 1);
+    }
     const bool ends_raised = std::string(text) == "t^s" || std::string(text) == "10^{−3}";
     EXPECT_NEAR(height, ends_raised ? -0.38 : 0, 0.002) << text;  // three digits a shift
   }
@@ -74,7 +79,7 @@ TEST(LineChart, MarkersAreThoseAskedForInsideTheFrame) {
   Look look{Ink::blue, Line::none, Marker::circle};
   LineChart chart = one_curve({0, 1, 2, 3, 4, 5}, {1, 2, 3, 40, 5, 6}, look);
   const auto markers = [&] {
-    return count(line_chart_svg(chart, {0, 0, 100, 100}, "clip"), "M[-0-9.]+ [-0-9.]+a2.7");
+    return count(line_chart_svg(chart, {0, 0, 100, 100}, "clip"), "a2.7 2.7 0 1 0 5.4");
   };
   EXPECT_EQ(markers(), 5u);
   chart.curves[0].marker_every = 2;
@@ -112,7 +117,7 @@ TEST(Figure, OneLegendForAllPanelsAndIdsOfItsOwn) {
   const std::string svg = figure_svg(drawing, "K5", "t^s & s", "what it shows");
   EXPECT_EQ(count(svg, ">curve</text>"), 1u);
   EXPECT_EQ(count(svg, "id=\"K5-plot-1\""), 1u);
-  EXPECT_EQ(count(svg, "url\\(#K5-plot-2\\)"), 1u);
+  EXPECT_EQ(count(svg, "url(#K5-plot-2)"), 1u);
   EXPECT_NE(svg.find("<title id=\"K5-title\">t^s &amp; s</title>"), std::string::npos);
   EXPECT_NE(svg.find("<desc>what it shows</desc>"), std::string::npos);
 }
