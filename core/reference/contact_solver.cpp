@@ -279,8 +279,14 @@ ContactRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
   while (true) {
     // Only an event changes what a run ends with, but where bodies lean on each other.
     const bool leans = !state_.dynamics().contacts.empty() && state_.only_leans();
-    if ((event || leans) && has_ended(end)) {
-      run.reached = true;
+    try {
+      if ((event || leans) && has_ended(end)) {
+        run.reached = true;
+        break;
+      }
+    } catch (const IntegrationFailure& failure) {
+      run.failed = true;
+      run.reason = failure.what();
       break;
     }
     if (state_.time >= last) {

@@ -44,10 +44,12 @@ SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
           run.collisions, run.collapses, run.steps,  run.balance};
 }
 
-double ReferenceSolver::first_contact(double limit) const {
+double ReferenceSolver::first_contact(double limit, double tolerance) const {
   if (has_exact_phases(scene().hard))
     return EventSolver(scene().hard, scene().hard.initial).first_contact(limit);
-  return ContactSolver(scene(), scene().hard.initial).first_contact(limit);
+  ContactSettings settings;
+  settings.tolerance = tolerance;
+  return ContactSolver(scene(), scene().hard.initial, settings).first_contact(limit);
 }
 
 std::vector<BodyState> ReferenceSolver::states_at(double time) const {

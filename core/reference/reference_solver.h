@@ -48,7 +48,7 @@ class ReferenceSolver {
   SolvedRun run(const RunEnd& end, FrameSink* sink, const SolverAccuracy& accuracy = {}) const;
   /// The time [s] of the first contact of two bodies or landing, or infinity where none comes
   /// before `limit` [s].
-  double first_contact(double limit) const;
+  double first_contact(double limit, double tolerance = SolverAccuracy{}.tolerance) const;
   /// All bodies at a time before the first contact [s].
   std::vector<BodyState> states_at(double time) const;
   /// When two bodies next meet at `slowest` [m/s] or faster, if they are in `states` at `start`
