@@ -19,6 +19,11 @@ struct SoftContact {
   TangentialForce tangential;
 };
 
+/// What a box's surfaces do to bodies where those contacts last; by material.
+struct SoftBox {
+  std::vector<std::optional<SoftContact>> on_floor, on_wall, on_lid;
+};
+
 /// A scene in numbers alone with each pair's forces, as the contact solver needs it.
 struct ContactScene {
   /// The bodies and the substrate; for a soft pair also the hard contact that comes closest to it,
@@ -26,6 +31,7 @@ struct ContactScene {
   HardScene hard;
   /// By material × material of `hard`, symmetric; none: that pair's contact is hard.
   std::vector<std::optional<SoftContact>> soft;
+  SoftBox soft_box;                   ///< sized by material where `hard` has a box, else empty
   std::vector<std::string> warnings;  ///< where a law leaves the range in which it holds
 
   const std::optional<SoftContact>& between(std::size_t i, std::size_t j) const {
