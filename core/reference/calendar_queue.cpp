@@ -9,132 +9,104 @@ namespace slipcheck {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Events in a stretch: few enough for a flat heap, enough not to advance all the time.
-constexpr double kGoal = 3;
+/// Entries that are placed while time is in one stretch: few enough for a flat heap, and enough that
+/// the ends of all lists together stay in a cache.
+constexpr double kGoal = 48;
+
+constexpr auto kLater = [](const QueuedEvent& a, const QueuedEvent& b) { return b < a; };
 
 }  // namespace
 
 CalendarQueue::CalendarQueue(std::size_t n)
-    : nodes_(n, Node{kNever, 0, kNone, kNone}),
-      head_(std::bit_ceil(std::max<std::size_t>(n, 16)) + 1, kNone),
-      heap_(n) {
-  for (std::uint32_t i = 0; i < n; ++i) place(i);
-}
+    : time_(n, kNever), wheel_(std::bit_ceil(std::max<std::size_t>(n / 8, 16))) {}
 
-void CalendarQueue::place(std::uint32_t body) {
-  Node& node = nodes_[body];
-  const double stretch = stretch_of(node.time);
-  const auto wheel = static_cast<std::int64_t>(beyond());
+void CalendarQueue::place(const QueuedEvent& entry) {
+  const double stretch = stretch_of(entry.time);
+  const auto lists = static_cast<std::int64_t>(wheel_.size());
   if (stretch < static_cast<double>(current_ + 1)) {
-    node.list = kNone;
-    heap_.insert(body, node.time);
-    return;
-  }
-  if (stretch < static_cast<double>(current_ + wheel)) {
-    node.list = static_cast<std::uint32_t>(static_cast<std::int64_t>(stretch) & (wheel - 1));
+    heap_.push_back(entry);
+    std::push_heap(heap_.begin(), heap_.end(), kLater);
+  } else if (stretch < static_cast<double>(current_ + lists)) {
+    wheel_[static_cast<std::size_t>(static_cast<std::int64_t>(stretch) & (lists - 1))].push_back(
+        entry);
     ++in_wheel_;
-  } else {
-    node.list = beyond();
+  } else if (entry.time < kNever) {
+    beyond_.push_back(entry);
   }
-  std::uint32_t& head = head_[node.list];
-  node.before = kNone;
-  node.after = head;
-  if (head != kNone) nodes_[head].before = body;
-  head = body;
-}
-
-void CalendarQueue::take_out(std::uint32_t body) {
-  const Node& node = nodes_[body];
-  if (node.list == kNone) {
-    heap_.erase(body);
-    return;
-  }
-  if (node.list != beyond()) --in_wheel_;
-  (node.before == kNone ? head_[node.list] : nodes_[node.before].after) = node.after;
-  if (node.after != kNone) nodes_[node.after].before = node.before;
 }
 
 void CalendarQueue::set(std::uint32_t body, double time) {
-  Node& node = nodes_[body];
-  const bool stays = node.list == kNone && stretch_of(time) < static_cast<double>(current_ + 1);
-  if (stays) {
-    node.time = time;
-    heap_.change(body, time);
-    return;
-  }
-  take_out(body);
-  node.time = time;
-  place(body);
+  if (time_[body] == time) return;
+  time_[body] = time;
+  ++placed_;
+  place({time, body});
 }
 
-IndexedHeap::Entry CalendarQueue::first() {
-  while (heap_.is_empty()) {
-    if (in_wheel_ == 0) {
-      // Time jumps to the earliest of what lies beyond.
-      IndexedHeap::Entry earliest{kNever, head_.back()};
-      for (std::uint32_t i = head_.back(); i != kNone; i = nodes_[i].after)
-        earliest = std::min(earliest, {nodes_[i].time, i});
-      if (earliest.time == kNever) return earliest;
-      rebuild(earliest.time, 1 / per_width_);
-    } else {
-      advance();
+QueuedEvent CalendarQueue::first() {
+  // A new width costs as much as some events of every body: not too often.
+  if (placed_ > 32 * std::max<std::size_t>(time_.size(), 64) && !heap_.empty())
+    adapt(heap_.front().time);
+  while (true) {
+    while (!heap_.empty() && !holds(heap_.front())) {
+      std::pop_heap(heap_.begin(), heap_.end(), kLater);
+      heap_.pop_back();
     }
+    if (!heap_.empty()) return heap_.front();
+    if (in_wheel_ > 0)
+      advance();
+    else if (!beyond_.empty())
+      jump();
+    else
+      return {kNever, 0};
   }
-  const IndexedHeap::Entry next = heap_.top();
-  // Looked at once in a while only: a new width costs as much as some events for every body.
-  if (++served_ >= 8 * std::max<std::size_t>(nodes_.size(), 64)) {
-    adapt(next.time);
-    return heap_.is_empty() ? first() : heap_.top();
-  }
-  return next;
 }
 
 void CalendarQueue::advance() {
   ++current_;
   ++advances_;
-  const auto wheel = static_cast<std::int64_t>(beyond());
-  if ((current_ & (wheel - 1)) == 0) place_what_lies_beyond();
-  std::uint32_t& head = head_[static_cast<std::size_t>(current_ & (wheel - 1))];
-  for (std::uint32_t i = head; i != kNone; i = nodes_[i].after) {
-    nodes_[i].list = kNone;
-    heap_.insert(i, nodes_[i].time);
-    --in_wheel_;
+  const auto lists = static_cast<std::int64_t>(wheel_.size());
+  if ((current_ & (lists - 1)) == 0) {
+    moved_.swap(beyond_);
+    for (const QueuedEvent& entry : moved_)
+      if (holds(entry)) place(entry);
+    moved_.clear();
   }
-  head = kNone;
+  std::vector<QueuedEvent>& list = wheel_[static_cast<std::size_t>(current_ & (lists - 1))];
+  in_wheel_ -= list.size();
+  for (const QueuedEvent& entry : list)
+    if (holds(entry)) heap_.push_back(entry);
+  list.clear();
+  std::make_heap(heap_.begin(), heap_.end(), kLater);
 }
 
-void CalendarQueue::place_what_lies_beyond() {
-  std::uint32_t i = head_.back();
-  head_.back() = kNone;
-  while (i != kNone) {
-    const std::uint32_t after = nodes_[i].after;
-    place(i);
-    i = after;
-  }
+/// Time goes on to the earliest of what lies beyond.
+void CalendarQueue::jump() {
+  std::erase_if(beyond_, [&](const QueuedEvent& entry) { return !holds(entry); });
+  if (!beyond_.empty()) rebuild(std::min_element(beyond_.begin(), beyond_.end())->time, 1 / per_width_);
 }
 
 void CalendarQueue::rebuild(double base, double width) {
-  std::fill(head_.begin(), head_.end(), kNone);
-  heap_ = IndexedHeap(nodes_.size());
+  for (std::vector<QueuedEvent>& list : wheel_) list.clear();
+  heap_.clear();
+  beyond_.clear();
   in_wheel_ = 0;
   base_ = base;
   per_width_ = 1 / width;
   current_ = 0;
-  for (std::uint32_t i = 0; i < nodes_.size(); ++i) place(i);
+  for (std::uint32_t i = 0; i < time_.size(); ++i) place({time_[i], i});
 }
 
 void CalendarQueue::adapt(double now) {
-  const auto served = static_cast<double>(served_);
-  const double per_stretch = served / static_cast<double>(std::max<std::size_t>(advances_, 1));
-  const double elapsed = now - served_since_;
-  const bool is_off = per_stretch > 3 * kGoal || per_stretch < kGoal / 3;
-  if (is_off && elapsed > 0) {
-    // No finer than what times can tell apart.
-    const double finest = 1e3 * std::numeric_limits<double>::epsilon() * std::abs(now);
-    rebuild(now, std::max(kGoal * elapsed / served, finest));
-  }
-  served_ = advances_ = 0;
-  served_since_ = now;
+  const auto placed = static_cast<double>(placed_);
+  const double per_stretch = placed / static_cast<double>(std::max<std::size_t>(advances_, 1));
+  const double elapsed = now - looked_at_;
+  placed_ = advances_ = 0;
+  looked_at_ = now;
+  if (per_stretch > kGoal / 3 && per_stretch < 3 * kGoal) return;
+  // No finer than what times can tell apart.
+  const double finest = 1e3 * std::numeric_limits<double>::epsilon() * std::abs(now);
+  const double width = std::max(kGoal * elapsed / placed, finest);
+  if (width > 0) rebuild(now, width);
 }
 
 }  // namespace slipcheck

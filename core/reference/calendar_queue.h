@@ -4,52 +4,54 @@
 #include <cstdint>
 #include <vector>
 
-#include "reference/indexed_heap.h"
-
 namespace slipcheck {
 
-/// Event queue whose cost for an event does not grow with the number of bodies (Paul 2007, after
-/// Brown's calendar): a wheel of unsorted lists, each for a short stretch of time, one heap for the
-/// stretch that time is in, and one list for what lies beyond the wheel. The stretch is chosen, and
-/// chosen again when the rate of events has changed, so that a few events fall into it.
+/// A body and the time of its next event [s].
+struct QueuedEvent {
+  double time;
+  std::uint32_t body;
+  /// Equal times go by number.
+  bool operator<(const QueuedEvent& other) const {
+    return time < other.time || (time == other.time && body < other.body);
+  }
+};
+
+/// Event queue whose cost for an event does not grow with the number of bodies, after the calendar
+/// of Brown (1988) and Paul (2007): a wheel of unsorted lists, each for a short stretch of time,
+/// one heap for the stretch that time is in, and one list for what lies beyond the wheel. How long
+/// a stretch is follows the rate of events.
 ///
-/// Every body has one time, maybe infinite. Order and ties are as in HeapQueue.
+/// Every body has one time, maybe infinite. An entry that a later set() has replaced stays where it
+/// is and is dropped when time comes to it: nothing is ever looked for in a list.
 class CalendarQueue {
  public:
+  /// For bodies 0 to n − 1, all at infinity.
   explicit CalendarQueue(std::size_t n);
 
   void set(std::uint32_t body, double time);
-  /// The body with the earliest time; there is one body at least.
-  IndexedHeap::Entry first();
+  /// The body with the earliest time. Where that is infinite, any.
+  QueuedEvent first();
 
  private:
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
-  struct Node {
-    double time;
-    std::uint32_t list;  ///< kNone: in the heap
-    std::uint32_t before, after;
-  };
-
-  std::uint32_t beyond() const { return static_cast<std::uint32_t>(head_.size() - 1); }
-  /// Of a time in the number of stretches since `base_`, as a double: maybe huge.
+  bool holds(const QueuedEvent& entry) const { return time_[entry.body] == entry.time; }
+  /// Of a time in stretches since `base_`; as a double, for it may be huge.
   double stretch_of(double time) const { return (time - base_) * per_width_; }
-  void place(std::uint32_t body);
-  void take_out(std::uint32_t body);
+  void place(const QueuedEvent& entry);
   void advance();
-  void place_what_lies_beyond();
+  void jump();
   void rebuild(double base, double width);
   void adapt(double now);
 
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> head_;  ///< of each list; the last one lies beyond the wheel
-  IndexedHeap heap_;
+  std::vector<double> time_;
+  std::vector<QueuedEvent> heap_;
+  std::vector<std::vector<QueuedEvent>> wheel_;
+  std::vector<QueuedEvent> beyond_, moved_;
   std::size_t in_wheel_ = 0;
   double base_ = 0, per_width_ = 1;
-  std::int64_t current_ = 0;  ///< stretch that the heap holds; all earlier ones too
+  std::int64_t current_ = 0;  ///< the stretch that the heap holds, with all earlier ones
   // Since the width was last looked at:
-  std::size_t served_ = 0, advances_ = 0;
-  double served_since_ = 0;
+  std::size_t placed_ = 0, advances_ = 0;
+  double looked_at_ = 0;
 };
 
 }  // namespace slipcheck

@@ -65,6 +65,16 @@ ClassPair class_pair(const Scenario& scenario, const BodyClass& first, const Bod
           scenario.materials.at(second.material)};
 }
 
+ClassPair surface_pair(const Scenario& scenario, const BodyClass& body) {
+  // Beyond round-off, so that the effective mass and radius are the body's own to the last bit.
+  constexpr double kBeyondRoundOff = 1e30;
+  Sphere flat = body.sphere;
+  flat.mass *= kBeyondRoundOff;
+  flat.radius *= kBeyondRoundOff;
+  const Material& material = scenario.materials.at(body.material);
+  return {body.sphere, flat, material, material};
+}
+
 bool ContactMaker::is_viscoelastic_restitution() const {
   const auto* hard = std::get_if<HardNormal>(&contact_.normal);
   return hard && std::holds_alternative<ViscoelasticRestitution>(hard->restitution);

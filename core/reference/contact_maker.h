@@ -11,10 +11,9 @@
 
 namespace slipcheck {
 
-/// Two classes of bodies that can meet.
+/// Two classes of bodies that can meet, or one and a surface of the box.
 struct ClassPair {
-  const Sphere& first;
-  const Sphere& second;
+  Sphere first, second;
   const Material& first_material;
   const Material& second_material;
 
@@ -27,6 +26,11 @@ struct ClassPair {
 };
 
 ClassPair class_pair(const Scenario& scenario, const BodyClass& first, const BodyClass& second);
+
+/// A class and a flat floor, wall or lid that does not give way, as the limit of a second sphere
+/// without bounds in mass and radius: m_eff = m, R_eff = R, 1/κ = 1 + 1/q. It is as elastic and
+/// viscous as the body's own material.
+ClassPair surface_pair(const Scenario& scenario, const BodyClass& body);
 
 /// Gives one contact of a scenario to each pair of classes that has it. What is the same for all of
 /// them, a root or a curve, is found once.

@@ -6,24 +6,41 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "physics/quasistatic.h"
 #include "reference/asperity_passivity.h"
 #include "scenario/contact_models.h"
+#include "scenario/obstacles.h"
 
 namespace slipcheck {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The velocities at which bodies of one class start, as a box.
+/// The velocities at which bodies of one class start, or those of a surface, as a box.
 struct Velocities {
   Vector3 least = Vector3::Constant(kInfinity);
   Vector3 most = Vector3::Constant(-kInfinity);
 };
 
-/// At most how fast bodies of two classes move against each other at the start [m/s]; exact for two
-/// bodies.
+std::vector<Velocities> velocities_of(const SceneOutline& outline) {
+  std::vector<Velocities> velocities(outline.classes.size());
+  for (std::size_t i = 0; i < outline.scene.bodies.size(); ++i) {
+    Velocities& each = velocities[outline.scene.material[i]];
+    each.least = each.least.cwiseMin(outline.scene.initial[i].velocity);
+    each.most = each.most.cwiseMax(outline.scene.initial[i].velocity);
+  }
+  return velocities;
+}
+
+Velocities velocities_of(const Box& box, std::string_view surface) {
+  const bool moves = surface == "floor" || box.moving_walls;
+  const Vector3 most(0, 0, moves ? box.floor.largest_speed() : 0);
+  return {-most, most};
+}
+
+/// At most how fast two of them move against each other at the start [m/s]; exact for two bodies.
 double relative_speed(const Velocities& a, const Velocities& b) {
   return (a.most - b.least).cwiseMax(b.most - a.least).norm();
 }
@@ -88,31 +105,32 @@ void look_at_asperities(const ClassPair& pair, const SoftContact& soft, std::opt
 std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneOutline& outline,
                                           ContactMaker& maker) {
   const BodyContact& contact = maker.contact();
-  std::vector<Velocities> velocities(outline.classes.size());
-  for (std::size_t i = 0; i < outline.scene.bodies.size(); ++i) {
-    Velocities& each = velocities[outline.scene.material[i]];
-    each.least = each.least.cwiseMin(outline.scene.initial[i].velocity);
-    each.most = each.most.cwiseMax(outline.scene.initial[i].velocity);
-  }
-
+  const std::vector<Velocities> velocities = velocities_of(outline);
   Worst worst;
   std::optional<double> bend;
+  const auto look = [&](const ClassPair& pair, double speed) {
+    if (maker.is_viscoelastic_restitution()) {
+      look_at_quasistatic(pair, ContactMaker::hard_viscoelastic(pair).dissipation_time, speed,
+                          worst);
+    } else if (maker.is_soft()) {
+      const SoftContact soft = maker.soft(pair);
+      if (const auto A = dissipation_time_of(soft.normal))
+        look_at_quasistatic(pair, *A, speed, worst);
+      look_at_asperities(pair, soft, bend, worst);
+    }
+  };
   for (std::size_t a = 0; a < outline.classes.size(); ++a) {
+    const BodyClass& first = outline.classes[a];
     for (std::size_t b = a; b < outline.classes.size(); ++b) {
-      if (find_contact(scenario, outline.classes[a].material, outline.classes[b].material) !=
-          &contact)
-        continue;
-      const ClassPair pair = class_pair(scenario, outline.classes[a], outline.classes[b]);
-      const double speed = relative_speed(velocities[a], velocities[b]);
-      if (maker.is_viscoelastic_restitution()) {
-        look_at_quasistatic(pair, ContactMaker::hard_viscoelastic(pair).dissipation_time, speed,
-                            worst);
-      } else if (maker.is_soft()) {
-        const SoftContact soft = maker.soft(pair);
-        if (const auto A = dissipation_time_of(soft.normal))
-          look_at_quasistatic(pair, *A, speed, worst);
-        look_at_asperities(pair, soft, bend, worst);
-      }
+      const BodyClass& second = outline.classes[b];
+      if (find_contact(scenario, first.material, second.material) == &contact)
+        look(class_pair(scenario, first, second), relative_speed(velocities[a], velocities[b]));
+    }
+    if (!outline.scene.box) continue;
+    for (const char* surface : {"floor", "wall", "lid"}) {
+      if (find_contact(scenario, first.material, surface) != &contact) continue;
+      look(surface_pair(scenario, first),
+           relative_speed(velocities[a], velocities_of(*outline.scene.box, surface)));
     }
   }
 

@@ -43,6 +43,11 @@ class EventScheduler {
     for (std::uint32_t i = 0; i < plans_.size(); ++i) plan_collision(i);
   }
 
+  /// The same plans for a copy of the world.
+  EventScheduler(const EventScheduler& other, World& world) : EventScheduler(other) {
+    world_ = &world;
+  }
+
   double now() const { return now_; }  ///< of the last event [s]
   double next_time() { return queue_.first().time; }
 
@@ -93,14 +98,10 @@ class EventScheduler {
   };
 
   void queue(std::uint32_t i) { queue_.set(i, std::min(plans_[i].own, plans_[i].collision)); }
-  void plan_own_event(std::uint32_t i) {
-    plans_[i].own = world_->own_event_time(i, now_);
-    queue(i);
-  }
+  void plan_own_event(std::uint32_t i) { plans_[i].own = world_->own_event_time(i, now_); }
   void forget_collision(std::uint32_t i) {
     plans_[i].collision = kNever;
     plans_[i].partner = kNobody;
-    queue(i);
   }
   void do_own_event(std::uint32_t i) {
     const Change change = world_->do_own_event(i, now_);
@@ -110,6 +111,8 @@ class EventScheduler {
       plan_collision(i);
     else if (change == Change::cell)
       plan_collision_with(i, [&](auto look) { world_->for_each_newly_near(i, look); });
+    else
+      queue(i);
   }
   void plan_collision(std::uint32_t i) {
     plan_collision_with(i, [&](auto look) { world_->for_each_near(i, look); });
@@ -126,12 +129,13 @@ class EventScheduler {
         partner = j;
       }
     });
-    if (partner == kNobody) return;
-    plans_[i].collision = plans_[partner].collision = earliest;
-    plans_[i].partner = partner;
-    plans_[partner].partner = i;
+    if (partner != kNobody) {
+      plans_[i].collision = plans_[partner].collision = earliest;
+      plans_[i].partner = partner;
+      plans_[partner].partner = i;
+      queue(partner);
+    }
     queue(i);
-    queue(partner);
   }
 
   World* world_;

@@ -6,27 +6,20 @@
 #include <utility>
 #include <vector>
 
+#include "reference/calendar_queue.h"
+
 namespace slipcheck {
 
 /// Binary heap of bodies by the time of their next event, the earliest on top, equal times by
 /// number. Knows where each body is, so that one can be taken out: O(log n).
 class IndexedHeap {
  public:
-  struct Entry {
-    double time;
-    std::uint32_t body;
-    bool operator<(const Entry& other) const {
-      return time < other.time || (time == other.time && body < other.body);
-    }
-  };
-
   /// For bodies 0 to n − 1; empty.
   explicit IndexedHeap(std::size_t n) : place_(n, kAbsent) {}
 
   bool is_empty() const { return heap_.empty(); }
   bool holds(std::uint32_t body) const { return place_[body] != kAbsent; }
-  const Entry& top() const { return heap_.front(); }
-  const std::vector<Entry>& entries() const { return heap_; }
+  const QueuedEvent& top() const { return heap_.front(); }
 
   void insert(std::uint32_t body, double time) {
     heap_.push_back({time, body});
@@ -36,7 +29,7 @@ class IndexedHeap {
   void erase(std::uint32_t body) {
     const std::size_t hole = place_[body];
     place_[body] = kAbsent;
-    const Entry last = heap_.back();
+    const QueuedEvent last = heap_.back();
     heap_.pop_back();
     if (hole == heap_.size()) return;
     put(hole, last);
@@ -52,7 +45,7 @@ class IndexedHeap {
  private:
   static constexpr std::uint32_t kAbsent = std::numeric_limits<std::uint32_t>::max();
 
-  void put(std::size_t at, const Entry& entry) {
+  void put(std::size_t at, const QueuedEvent& entry) {
     heap_[at] = entry;
     place_[entry.body] = static_cast<std::uint32_t>(at);
   }
@@ -63,7 +56,7 @@ class IndexedHeap {
       sink(at);
   }
   void rise(std::size_t at) {
-    const Entry entry = heap_[at];
+    const QueuedEvent entry = heap_[at];
     while (at > 0 && entry < heap_[(at - 1) / 2]) {
       put(at, heap_[(at - 1) / 2]);
       at = (at - 1) / 2;
@@ -71,7 +64,7 @@ class IndexedHeap {
     put(at, entry);
   }
   void sink(std::size_t at) {
-    const Entry entry = heap_[at];
+    const QueuedEvent entry = heap_[at];
     while (true) {
       std::size_t child = 2 * at + 1;
       if (child >= heap_.size()) break;
@@ -83,7 +76,7 @@ class IndexedHeap {
     put(at, entry);
   }
 
-  std::vector<Entry> heap_;
+  std::vector<QueuedEvent> heap_;
   std::vector<std::uint32_t> place_;
 };
 
@@ -95,7 +88,7 @@ class HeapQueue {
   }
   void set(std::uint32_t body, double time) { heap_.change(body, time); }
   /// The body with the earliest time; there is one body at least.
-  IndexedHeap::Entry first() { return heap_.top(); }
+  QueuedEvent first() { return heap_.top(); }
 
  private:
   IndexedHeap heap_;

@@ -279,6 +279,10 @@ Change PlanarWorld::do_own_event(std::uint32_t i, double now) {
   return Change::path;
 }
 
+bool PlanarWorld::has_elastic_rule() const {
+  return scene_->collapse.model == CollapseRule::Model::contact_time;
+}
+
 bool PlanarWorld::is_in_quick_succession(std::uint32_t i, double now) const {
   return now - matter_[i].last_collision < scene_->collapse.contact_time;
 }
@@ -290,9 +294,9 @@ void PlanarWorld::meet(std::uint32_t i, const Surface& surface, double now) {
   const double u_n = body.vx * surface.n_x + vy * surface.n_y;
   if (u_n >= 0) return;  // rounding
   const double u_t = -body.vx * surface.n_y + vy * surface.n_x - body.radius * body.spin;
-  const bool collapses = is_in_quick_succession(i, now);
+  const bool collapses = has_elastic_rule() && is_in_quick_succession(i, now);
   const PairContact& contact = collapses ? kElastic : (*surface.contacts)[matter.material];
-  const bool is_slow = scene_->collapse.contact_time == 0 && -u_n < slowest_landing_;
+  const bool is_slow = !has_elastic_rule() && -u_n < slowest_landing_;
   const double kappa = matter.shape_factor / (1 + matter.shape_factor);
   const PlanarImpulse impulse =
       planar_impulse(contact, matter.mass, kappa, u_n, u_t, is_slow ? slowest_landing_ : 0);
@@ -330,7 +334,7 @@ double PlanarWorld::exchange_impulse(std::uint32_t i, std::uint32_t j, const Pai
   const double u_t = dvy * n_x - dvx * n_y - a.radius * a.spin - b.radius * b.spin;
   const Sphere first{a.radius, of_a.mass, of_a.shape_factor};
   const Sphere second{b.radius, of_b.mass, of_b.shape_factor};
-  const bool is_slow = scene_->collapse.contact_time == 0 && -u_n < slowest_rebound_;
+  const bool is_slow = !has_elastic_rule() && -u_n < slowest_rebound_;
   const PlanarImpulse impulse =
       planar_impulse(contact, effective_mass(first, second), tangential_mass_ratio(first, second),
                      u_n, u_t, is_slow ? slowest_rebound_ : 0);
@@ -356,20 +360,17 @@ std::span<const std::uint32_t> PlanarWorld::collide(std::uint32_t i, std::uint32
   moved_to(i, now);
   moved_to(j, now);
   changed_.assign({i, j});
-  const bool collapses = is_in_quick_succession(i, now) || is_in_quick_succession(j, now);
-  if (collapses) ++collapses_;
-  if (collapses && scene_->collapse.model == CollapseRule::Model::largest_velocity)
-    resolve_cluster(now);
-  else
-    exchange_impulse(i, j, collapses ? kElastic : between(i, j));
+  const bool is_quick = is_in_quick_succession(i, now) || is_in_quick_succession(j, now);
+  if (is_quick) ++collapses_;
+  exchange_impulse(i, j, is_quick && has_elastic_rule() ? kElastic : between(i, j));
+  if (is_quick && !has_elastic_rule()) resolve_cluster(now);
   for (std::uint32_t k : changed_) matter_[k].last_collision = now;
   return changed_;
 }
 
 /// Bodies that would touch each other within the contact time collide at once, always the pair that
-/// approaches fastest, until none approaches by more than a small part of the first approach.
+/// approaches fastest, until none approaches faster than a pair is made to part.
 void PlanarWorld::resolve_cluster(double now) {
-  constexpr double kAtRest = 1e-6;
   const double soon = now + scene_->collapse.contact_time;
   std::vector<std::array<std::uint32_t, 2>> pairs;
   for (std::size_t k = 0; k < changed_.size(); ++k) {
@@ -389,14 +390,12 @@ void PlanarWorld::resolve_cluster(double now) {
     const double dx = a.x - b.x - shift.x, dy = a.y - b.y - shift.y;
     return -(dx * (a.vx - b.vx) + dy * (a.vy - b.vy)) / std::hypot(dx, dy);
   };
-  double first = 0;
-  // Each collision takes energy from the cluster, and with e = 1 it comes apart.
+  // Each turn takes energy from the cluster, or parts a pair where e = 1.
   for (std::size_t turn = 0; turn < 1000 * pairs.size(); ++turn) {
     const auto fastest = std::ranges::max_element(pairs, {}, approach);
-    const double speed = approach(*fastest);
-    first = std::max(first, speed);
-    if (speed <= kAtRest * first) return;
-    exchange_impulse((*fastest)[0], (*fastest)[1], between((*fastest)[0], (*fastest)[1]));
+    const auto [a, b] = *fastest;
+    if (approach(*fastest) <= slowest_rebound_ || exchange_impulse(a, b, between(a, b)) == 0)
+      return;
   }
 }
 

@@ -122,6 +122,7 @@ class PlanarWorld {
     return scene_->pairs[matter_[i].material * kinds + matter_[j].material];
   }
   CellGrid::Shift nearest_image(const Body& a, const Body& b) const;
+  bool has_elastic_rule() const;  ///< that of the TC model
   bool is_in_quick_succession(std::uint32_t i, double now) const;
   /// Of two bodies that touch, or nearly; how fast they approached [m/s].
   double exchange_impulse(std::uint32_t i, std::uint32_t j, const PairContact& contact);

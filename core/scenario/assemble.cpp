@@ -175,7 +175,10 @@ Run resolve_run(const WrittenScene& written) {
   run.time = from.time;
   run.periods = from.periods;
   run.discard = from.discard.value_or(0);
+  run.discard_until_steady = from.discard_until_steady;
   run.sample_phase_zero = from.sample_phase_zero.value_or(false);
+  run.collapse = from.collapse;
+  run.most_events = from.most_events;
   if (from.periods && written.container && written.container->floor_frequency > 0) {
     run.time = static_cast<double>(*from.periods) / written.container->floor_frequency;
   }

@@ -99,6 +99,10 @@ Rule<Fill> one_fill_rule() {
            "solid, shell, disk, ring or the factor q in I = q m R²")
       .key("area", &Fill::area, numbers(kLength, kAnyNumber, {4}), required,
            "[x0, y0, x1, y1] of the centres; z in place of y in a container")
+      .key("arrange", &Fill::arrange,
+           choice<Fill::Arrange>(
+               {{"random", Fill::Arrange::random}, {"lattice", Fill::Arrange::lattice}}),
+           optional, "random places, or a triangular lattice for dense packings")
       .key("speed", &Fill::speed, number(kVelocity, kNotNegative), optional,
            "of each, in a random direction")
       .key("spin", &Fill::spin,
@@ -113,7 +117,7 @@ Rule<Fill> one_fill_rule() {
 Rule<std::vector<std::variant<WrittenBody, Fill>>> bodies_rule() {
   using Entry = std::variant<WrittenBody, Fill>;
   Record<Fill> fill;
-  fill.whole("fill", one_fill_rule(), required, "many bodies at random places");
+  fill.whole("fill", one_fill_rule(), required, "many bodies in an area");
   return list(one_form_of<Entry>(
                   "must be a mapping",
                   {{[](const YamlNode& node) { return is_mapping(node) && node.find("fill"); },

@@ -112,14 +112,22 @@ void check_surroundings(const WrittenScene& written, Reading& reading) {
     check_rising(motion->table, "substrate.motion.table", reading);
   }
   if (!substrate.periodic) return;
+  // Solvers look at the nearest image of a body, in the cells of their grid around the other's own:
+  // these must not meet around the periodic cell.
+  constexpr double kLeastDiameters = 4;
   double largest = 0;
   for (const auto& entry : written.bodies) {
     const auto* body = std::get_if<WrittenBody>(&entry);
     largest = std::max(largest, body ? body->sphere.radius : std::get<Fill>(entry).most_radius);
   }
   for (const Fill& fill : written.fill) largest = std::max(largest, fill.most_radius);
-  if (substrate.periodic->minCoeff() > 0 && substrate.periodic->minCoeff() < 2 * largest) {
-    reading.fault_at("substrate.periodic", "must be at least the largest diameter");
+  const double least = kLeastDiameters * 2 * largest;
+  for (int axis = 0; axis < 2; ++axis) {
+    if ((*substrate.periodic)[axis] >= least * (1 - 1e-12)) continue;  // round-off of the units
+    reading.fault_at(fmt::format("substrate.periodic[{}]", axis),
+                     fmt::format("must be at least {} times the largest diameter, {:.6g} {}",
+                                 kLeastDiameters, least / to_si(1, kLength, reading.units()),
+                                 unit_name(kLength, reading.units())));
   }
 }
 
@@ -140,6 +148,10 @@ void check_run(const WrittenScene& written, Reading& reading) {
     }
     if (run.periods && run.discard && *run.discard >= *run.periods) {
       reading.fault_at("run.discard", "must be less than periods");
+    }
+    if (run.until == Run::Until::time && run.discard && frequency > 0 &&
+        static_cast<double>(*run.discard) / frequency >= run.time) {
+      reading.fault_at("run.discard", "must be fewer periods than fit into until");
     }
   } else if (written.substrate) {
     for (const char* key : {"run.periods", "run.discard", "run.sample"}) {

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <random>
-#include <unordered_map>
 
-#include "scenario/overlap.h"
+#include "scenario/fill_lattice.h"
+#include "scenario/fill_plane.h"
 
 namespace slipcheck {
 namespace {
 
-constexpr int kMostAttempts = 10'000;              // for one body
-constexpr std::int64_t kAllAttempts = 40'000'000;  // for all; some seconds
-constexpr double kMostCells = 1e9;                 // along one axis
+constexpr int kMostAttempts = 100'000;             // for one body
+constexpr std::int64_t kAllAttempts = 40'000'000;  // for all; about a minute
 
 /// Evenly distributed numbers. The standard's distributions differ between libraries; the engine
 /// does not.
@@ -40,97 +40,6 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// The plane that bodies are spread over, (x, y) or a container's (x, z), with what stands there.
-class Plane {
- public:
-  Plane(const Fill& fill, const WrittenScene& scene)
-      : up_(scene.container ? 2 : 1),
-        origin_(fill.area[0], fill.area[1]),
-        size_(fill.area[2] - fill.area[0], fill.area[3] - fill.area[1]),
-        cell_(2 * fill.most_radius) {
-    if (scene.substrate) periodic_ = scene.substrate->periodic;
-  }
-
-  bool has_few_cells() const { return size_.maxCoeff() / cell_ < kMostCells; }
-
-  void insert(const Body& body) {
-    Vector3 position = body.initial.position;
-    if (periodic_) {
-      for (int axis = 0; axis < 2; ++axis) {
-        const double length = (*periodic_)[axis];
-        const double middle = origin_[axis] + size_[axis] / 2;
-        position[axis] -= length * std::round((position[axis] - middle) / length);
-      }
-    }
-    const Ball ball{position, body.sphere.radius};
-    if (ball.radius > cell_ / 2) neighbours_ = 3;
-    if (ball.radius > 2 * cell_) {
-      large_.push_back(ball);
-      return;
-    }
-    // Beyond this nothing of the area can be met, whichever image is looked at.
-    const double reach = ball.radius + cell_;
-    for (int axis = 0; axis < 2; ++axis) {
-      const double at = position[axis == 0 ? 0 : up_] - origin_[axis];
-      const double margin = periodic_ ? reach + (*periodic_)[axis] : reach;
-      if (at < -margin || at > size_[axis] + margin) return;
-    }
-    cells_[key(cell_of(position, 0), cell_of(position, 1))].push_back(ball);
-  }
-
-  bool is_free(const Vector3& position, double radius) const {
-    const int images = periodic_ ? 1 : 0;
-    for (int i = -images; i <= images; ++i) {
-      for (int j = -images; j <= images; ++j) {
-        Vector3 image = position;
-        if (periodic_) image += Vector3(i * periodic_->x(), j * periodic_->y(), 0);
-        if (!is_image_free(image, radius)) return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  struct Ball {
-    Vector3 position;
-    double radius;
-  };
-
-  std::int64_t cell_of(const Vector3& position, int axis) const {
-    return static_cast<std::int64_t>(
-        std::floor((position[axis == 0 ? 0 : up_] - origin_[axis]) / cell_));
-  }
-  static std::uint64_t key(std::int64_t i, std::int64_t j) {
-    return static_cast<std::uint64_t>(i) * 0x100000000u ^
-           (static_cast<std::uint64_t>(j) & 0xFFFFFFFFu);
-  }
-
-  bool is_image_free(const Vector3& position, double radius) const {
-    const auto meets = [&](const Ball& ball) {
-      return overlap_of(position, radius, ball.position, ball.radius) > 0;
-    };
-    if (std::ranges::any_of(large_, meets)) return false;
-    const std::int64_t i0 = cell_of(position, 0), j0 = cell_of(position, 1);
-    for (std::int64_t i = i0 - neighbours_; i <= i0 + neighbours_; ++i) {
-      for (std::int64_t j = j0 - neighbours_; j <= j0 + neighbours_; ++j) {
-        const auto found = cells_.find(key(i, j));
-        if (found != cells_.end() && std::ranges::any_of(found->second, meets)) return false;
-      }
-    }
-    return true;
-  }
-
-  int up_;
-  Vector2 origin_, size_;
-  double cell_;
-  std::optional<Vector2> periodic_;
-  std::vector<Ball> large_;
-  /// Cells to look at on each side: one for balls like those of the fill, two and a half for the
-  /// largest in the grid.
-  std::int64_t neighbours_ = 1;
-  std::unordered_map<std::uint64_t, std::vector<Ball>> cells_;
-};
-
 /// Where the centre of a body of this radius may be: [x0, y0, x1, y1].
 std::vector<double> free_area(const Fill& fill, const WrittenScene& scene, double radius) {
   std::vector<double> area = fill.area;
@@ -141,6 +50,75 @@ std::vector<double> free_area(const Fill& fill, const WrittenScene& scene, doubl
     if (scene.container->height) area[3] = std::min(area[3], *scene.container->height - radius);
   }
   return area;
+}
+
+Vector3 place(const WrittenScene& scene, double x, double y, double radius) {
+  return scene.container ? Vector3(x, 0, y) : Vector3(x, y, radius);
+}
+
+/// Random places, each free of what the plane holds at the time.
+class RandomPlaces {
+ public:
+  RandomPlaces(const Fill& fill, const WrittenScene& scene, const FillPlane& plane)
+      : fill_(fill), scene_(scene), plane_(plane) {}
+
+  std::optional<Vector3> next(double radius, Random& random) {
+    const std::vector<double> area = free_area(fill_, scene_, radius);
+    if (area[0] > area[2] || area[1] > area[3]) return std::nullopt;
+    for (int i = 0; i < kMostAttempts && attempts_ < kAllAttempts; ++i, ++attempts_) {
+      const double x = random.between(area[0], area[2]);
+      const double y = random.between(area[1], area[3]);
+      const Vector3 position = place(scene_, x, y, radius);
+      if (plane_.is_free(position, radius)) return position;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  const Fill& fill_;
+  const WrittenScene& scene_;
+  const FillPlane& plane_;
+  std::int64_t attempts_ = 0;
+};
+
+/// The first `count` sites of a lattice that are free; fewer where it has not as many.
+std::vector<Vector3> free_sites(const Fill& fill, const WrittenScene& scene, const FillPlane& plane,
+                                const FillLattice& lattice, std::int64_t& attempts) {
+  const std::vector<double> area = free_area(fill, scene, fill.most_radius);
+  std::vector<Vector3> sites;
+  for (double row = 0; row < lattice.rows(); ++row) {
+    for (double column = 0; column < lattice.columns(row); ++column) {
+      if (static_cast<std::int64_t>(sites.size()) == fill.count || ++attempts > kAllAttempts)
+        return sites;
+      const Vector2 site = Vector2(area[0], area[1]) + lattice.site(row, column);
+      const Vector3 position = place(scene, site.x(), site.y(), fill.most_radius);
+      if (plane.is_free(position, fill.most_radius)) sites.push_back(position);
+    }
+  }
+  return sites;
+}
+
+/// As many sites as there are bodies, as far apart as may be among `others`; fewer where not even
+/// spheres that touch fit.
+std::vector<Vector3> lattice_sites(const Fill& fill, const WrittenScene& scene,
+                                   const FillPlane& plane) {
+  constexpr double kCloser = 0.98;  // where other bodies stand on sites
+  const std::vector<double> area = free_area(fill, scene, fill.most_radius);
+  const Vector2 size(area[2] - area[0], area[3] - area[1]);
+  if (size.minCoeff() < 0) return {};
+  std::optional<Vector2> periodic;
+  if (scene.substrate) periodic = scene.substrate->periodic;
+  const double least = 2 * fill.most_radius;
+  const auto widest = FillLattice::widest(size, periodic, least, fill.count);
+  std::int64_t attempts = 0;
+  double spacing = widest ? widest->spacing() : least;
+  while (true) {
+    std::vector<Vector3> sites =
+        free_sites(fill, scene, plane, FillLattice(size, periodic, spacing), attempts);
+    const bool all = static_cast<std::int64_t>(sites.size()) == fill.count;
+    if (all || spacing <= least || attempts > kAllAttempts) return sites;
+    spacing = std::max(least, kCloser * spacing);
+  }
 }
 
 }  // namespace
@@ -159,36 +137,39 @@ std::vector<Body> expand(const Fill& fill, const WrittenScene& scene,
       return {};
     }
   }
-  Plane plane(fill, scene);
+  FillPlane plane(fill, scene);
   if (!plane.has_few_cells()) {
     reading.fault_at(area_path, "must be at most 1e9 diameters across");
     return {};
   }
   for (const Body& body : others) plane.insert(body);
 
+  const bool on_lattice = fill.arrange == Fill::Arrange::lattice;
+  const std::vector<Vector3> sites =
+      on_lattice ? lattice_sites(fill, scene, plane) : std::vector<Vector3>{};
   Random random(fill.seed);
+  RandomPlaces places(fill, scene, plane);
+  const auto next_place = [&](std::size_t n, double radius) -> std::optional<Vector3> {
+    if (!on_lattice) return places.next(radius, random);
+    if (n >= sites.size()) return std::nullopt;
+    const Vector3& site = sites[n];
+    return place(scene, site.x(), scene.container ? site.z() : site.y(), radius);
+  };
   std::vector<Body> bodies;
-  std::int64_t attempts = 0;
   for (std::int64_t n = 1; n <= fill.count; ++n) {
     Body body{fill.prefix + std::to_string(n), fill.material, {}, {}};
     const double radius = random.between(fill.least_radius, fill.most_radius);
     body.sphere.radius = radius;
     body.sphere.shape_factor = fill.shape_factor;
-    const std::vector<double> area = free_area(fill, scene, radius);
-    bool placed = false;
-    for (int i = 0; i < kMostAttempts && !placed && attempts < kAllAttempts; ++i, ++attempts) {
-      if (area[0] > area[2] || area[1] > area[3]) break;
-      const double x = random.between(area[0], area[2]);
-      const double y = random.between(area[1], area[3]);
-      body.initial.position = scene.container ? Vector3(x, 0, y) : Vector3(x, y, radius);
-      placed = plane.is_free(body.initial.position, radius);
-    }
-    if (!placed) {
-      reading.fault_at(area_path, fmt::format("must have room for {} bodies, but only {} found a "
-                                              "place",
-                                              fill.count, n - 1));
+    const auto position = next_place(bodies.size(), radius);
+    if (!position) {
+      reading.fault_at(area_path,
+                       fmt::format("must have room for {} bodies, but only {} found a "
+                                   "place",
+                                   fill.count, on_lattice ? sites.size() : bodies.size()));
       return {};
     }
+    body.initial.position = *position;
     if (fill.speed > 0) {
       const Vector2 v = fill.speed * random.direction();
       body.initial.velocity = scene.container ? Vector3(v.x(), 0, v.y()) : Vector3(v.x(), v.y(), 0);

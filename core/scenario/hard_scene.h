@@ -14,8 +14,8 @@
 namespace slipcheck {
 
 /// L's vertical two-dimensional box around spheres in the plane y = 0: side walls x = 0 and
-/// x = width, a vibrating floor z = z_f(t), and a lid where it has one. The contacts are by material
-/// (HardScene::material).
+/// x = width, a vibrating floor z = z_f(t), and a lid where it has one. The contacts are by
+/// material (HardScene::material).
 struct Box {
   double width = 0;  ///< [m], > 0
   ShakenFloor floor;
@@ -34,7 +34,8 @@ struct CollapseRule {
     /// last one less than `contact_time` ago.
     contact_time,
     /// Bodies that collide again within `contact_time` form a cluster, in which the pair that
-    /// approaches fastest goes first until none approaches (largest relative velocity).
+    /// approaches fastest goes first until none approaches (largest relative velocity); below
+    /// that, and against walls, as slowest_rebound.
     largest_velocity,
   };
   Model model = Model::slowest_rebound;

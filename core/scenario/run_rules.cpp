@@ -78,6 +78,44 @@ Rule<EngineRequest> engine_rule() {
   return engine.rule();
 }
 
+/// Periods to leave out, or until the state is steady.
+Rule<WrittenRun> discard_rule(const Rule<std::int64_t>& periods) {
+  const Rule<std::size_t> steady = word({"auto"});
+  const Rule<WrittenRun> until_steady = {
+      [steady](const YamlNode& node, Reading& reading, WrittenRun& run) {
+        std::size_t index = 0;
+        return run.discard_until_steady = steady.read(node, reading, index);
+      },
+      steady.schema};
+  const Rule<WrittenRun> number = {
+      [periods](const YamlNode& node, Reading& reading, WrittenRun& run) {
+        const bool good = periods.read(node, reading, run.discard.emplace());
+        if (!good) run.discard.reset();
+        return good;
+      },
+      periods.schema};
+  return one_form_of<WrittenRun>("must be a number of periods or auto",
+                                 {{is_word("auto"), until_steady}, {is_scalar, number}});
+}
+
+Rule<CollapseModel> collapse_rule() {
+  const Rule<double> time = number(kTime, kPositive);
+  Record<ContactTimeModel> contact_time;
+  contact_time.key("contact_time", &ContactTimeModel::contact_time, time, required,
+                   "collisions of a body less than this apart do not dissipate");
+  Record<LargestVelocityModel> largest_velocity;
+  largest_velocity.key("contact_time", &LargestVelocityModel::contact_time, time, required,
+                       "bodies that collide again within this form a cluster");
+  return one_of<CollapseModel>(
+      "model",
+      {alternative<CollapseModel>("slowest_rebound", "a least speed with which bodies part",
+                                  Record<SlowestRebound>()),
+       alternative<CollapseModel>("contact_time", "TC model of Luding and McNamara", contact_time),
+       alternative<CollapseModel>("largest_velocity",
+                                  "of a cluster the pair that approaches fastest goes first",
+                                  largest_velocity)});
+}
+
 }  // namespace
 
 Rule<WrittenRun> run_rule() {
@@ -114,10 +152,14 @@ Rule<WrittenRun> run_rule() {
       .key("limit", &WrittenRun::limit, time, optional, "simulated time after which until failed")
       .key("periods", &WrittenRun::periods, integer(1, kMostPeriods), optional,
            "of a container's floor, to run")
-      .key("discard", &WrittenRun::discard, integer(0, kMostPeriods), optional,
-           "periods before the first sample")
+      .whole("discard", discard_rule(integer(0, kMostPeriods)), optional,
+             "periods before the first sample; auto: until the state is steady")
       .key("sample", &WrittenRun::sample_phase_zero, choice<bool>({{"phase_zero", true}}), optional,
            "when samples are taken, otherwise at every step")
+      .key("collapse", &WrittenRun::collapse, collapse_rule(), optional,
+           "what keeps inelastic collapse finite")
+      .key("most_events", &WrittenRun::most_events, number(kRate, kPositive), optional,
+           "a second and body; more end the run")
       .exactly_one_of({"until", "periods"});
   return run.rule();
 }

@@ -187,6 +187,22 @@ struct Body {
   BodyState initial;
 };
 
+// --- inelastic collapse --------------------------------------------------------------------------
+
+/// A pair that meets too slowly for the scene parts with the least speed that counts.
+struct SlowestRebound {};
+/// TC model of Luding and McNamara: a collision does not dissipate if one of the two had its last
+/// one less than this ago.
+struct ContactTimeModel {
+  double contact_time = 0;  ///< t_c [s], > 0
+};
+/// Of bodies that collide again within this time the pair that approaches fastest goes first.
+struct LargestVelocityModel {
+  double contact_time = 0;  ///< [s], > 0
+};
+/// What keeps an endless cascade of ever weaker collisions finite; an extension.
+using CollapseModel = std::variant<SlowestRebound, ContactTimeModel, LargestVelocityModel>;
+
 // --- what is run and compared --------------------------------------------------------------------
 
 struct Run {
@@ -196,7 +212,12 @@ struct Run {
   double limit = 60;                    ///< simulated time after which `until` has failed [s], > 0
   std::optional<std::int64_t> periods;  ///< of the floor, for a container
   std::int64_t discard = 0;             ///< periods before the first sample
+  bool discard_until_steady = false;    ///< an extension: samples begin in the steady state
   bool sample_phase_zero = false;
+  CollapseModel collapse = SlowestRebound{};
+  /// An extension: more collisions, landings and ends of phases than this, each second and for each
+  /// body, end the run [1/s], > 0.
+  double most_events = 1e7;
 };
 
 struct Tolerance {

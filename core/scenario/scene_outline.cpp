@@ -66,6 +66,24 @@ SubstrateMotion substrate_motion(const Motion& motion) {
   return {};
 }
 
+Box box_of(const Container& container) {
+  Box box;
+  box.width = container.width;
+  box.floor = {container.floor_amplitude, container.floor_frequency};
+  box.moving_walls = container.walls == Container::Walls::moving;
+  box.lid = container.height;
+  return box;
+}
+
+CollapseRule collapse_rule(const CollapseModel& model) {
+  using Model = CollapseRule::Model;
+  if (const auto* tc = std::get_if<ContactTimeModel>(&model))
+    return {Model::contact_time, tc->contact_time};
+  if (const auto* largest = std::get_if<LargestVelocityModel>(&model))
+    return {Model::largest_velocity, largest->contact_time};
+  return {};
+}
+
 /// Materials of which each size, mass and shape is a class by itself.
 std::set<std::string> divided_materials(const Scenario& scenario) {
   std::set<std::string> divided;
@@ -94,24 +112,19 @@ const BodyContact* find_contact(const Scenario& scenario, const std::string& fir
   return found == scenario.contacts.end() ? nullptr : &*found;
 }
 
-void look_at_surroundings(const Scenario& scenario, Obstacles& obstacles) {
-  const auto* substrate = std::get_if<Substrate>(&scenario.surroundings);
-  if (!substrate) {
-    obstacles.add("container", "only an unbounded substrate can be solved", "a container");
-  } else if (substrate->periodic) {
-    obstacles.add("substrate.periodic", "only an unbounded substrate can be solved",
-                  "a periodic cell");
-  }
-}
-
 SceneOutline make_outline(const Scenario& scenario) {
-  const auto& substrate = std::get<Substrate>(scenario.surroundings);
   SceneOutline outline;
   HardScene& scene = outline.scene;
   scene.gravity = -scenario.gravity.z();
   scene.downhill = scenario.gravity.head<2>();
-  scene.motion = substrate_motion(substrate.motion);
-  scene.confined = substrate.confined;
+  scene.collapse = collapse_rule(scenario.run.collapse);
+  if (const auto* substrate = std::get_if<Substrate>(&scenario.surroundings)) {
+    scene.motion = substrate_motion(substrate->motion);
+    scene.confined = substrate->confined;
+    scene.periodic = substrate->periodic.value_or(Vector2::Zero());
+  } else {
+    scene.box = box_of(std::get<Container>(scenario.surroundings));
+  }
 
   std::map<std::string, const MaterialOnSubstrate*> on_substrate;
   for (const MaterialOnSubstrate& contact : scenario.substrate_contacts) {
@@ -140,6 +153,10 @@ SceneOutline make_outline(const Scenario& scenario) {
     scene.material.push_back(entry->second);
   }
   scene.pairs.resize(outline.classes.size() * outline.classes.size());
+  if (scene.box) {
+    for (auto* contacts : {&scene.box->on_floor, &scene.box->on_wall, &scene.box->on_lid})
+      contacts->resize(outline.classes.size());
+  }
   return outline;
 }
 

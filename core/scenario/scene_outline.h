@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "scenario/hard_scene.h"
-#include "scenario/obstacles.h"
 
 namespace slipcheck {
 
@@ -15,16 +14,14 @@ struct BodyClass {
   Sphere sphere;  ///< of its first body
 };
 
-/// A scene on a substrate with everything but what happens between bodies.
+/// A scene with everything but what happens between bodies and at the surfaces of a box.
 struct SceneOutline {
-  HardScene scene;                 ///< `material` holds classes; `pairs` are as by default
+  /// `material` holds classes; `pairs` and a box's contacts are as by default. In a box the
+  /// substrate's contacts are too, one for each class.
+  HardScene scene;
   std::vector<BodyClass> classes;  ///< by class
 };
 
-/// Notes what surroundings no solver knows: containers and periodic cells.
-void look_at_surroundings(const Scenario& scenario, Obstacles& obstacles);
-
-/// For a scenario without such obstacles.
 SceneOutline make_outline(const Scenario& scenario);
 
 /// The contact between two materials, in whichever order the file names them, or null.

@@ -92,7 +92,7 @@ Rule<Substrate> substrate_rule() {
   Record<Substrate> substrate;
   substrate
       .key("periodic", &Substrate::periodic, pair_of(kLength, kPositive), optional,
-           "[x, y] lengths of the periodic cell")
+           "[x, y] lengths of the periodic cell, at least 4 diameters each")
       .key("tilt", &Substrate::tilt, number(kAngle, {0, {}, {}, 90}), optional, "downhill along -y")
       .key("confined", &Substrate::confined, boolean(), optional,
            "true: bodies never leave the plane")
@@ -146,7 +146,7 @@ Rule<WrittenScene> scene_rule() {
       .key("container", &WrittenScene::container, container_rule(), optional,
            "a vertical two-dimensional box")
       .key("bodies", &WrittenScene::bodies, bodies_rule(), optional, "the spheres")
-      .key("fill", &WrittenScene::fill, fill_rule(), optional, "many spheres at random places")
+      .key("fill", &WrittenScene::fill, fill_rule(), optional, "many spheres in an area")
       .key("run", &WrittenScene::run, run_rule(), required, "how long")
       .key("compare", &WrittenScene::compare, compare_rule(), optional,
            "what is held against the reference")

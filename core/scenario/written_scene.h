@@ -41,8 +41,9 @@ struct WrittenBody {
   bool complete = false;  ///< read without a fault
 };
 
-/// Many bodies at random places.
+/// Many bodies in an area.
 struct Fill {
+  enum class Arrange { random, lattice };
   std::string prefix;      ///< of the names, followed by 1, 2, …
   std::int64_t count = 0;  ///< > 0
   std::string material;
@@ -52,6 +53,7 @@ struct Fill {
   std::vector<double>
       area;          ///< [x0, y0, x1, y1] of the centres [m]; z in place of y in a container
   double speed = 0;  ///< of each in a random direction [m/s], >= 0
+  Arrange arrange = Arrange::random;
   SpinKind spin = SpinKind::none;  ///< none or rolling
   std::int64_t seed = 1;           ///< >= 0
   std::string path;
@@ -63,7 +65,10 @@ struct WrittenRun {
   double time = 0;
   std::optional<double> limit;
   std::optional<std::int64_t> periods, discard;
+  bool discard_until_steady = false;
   std::optional<bool> sample_phase_zero;
+  CollapseModel collapse = Run{}.collapse;
+  double most_events = Run{}.most_events;
 };
 
 struct WrittenScene {

@@ -16,7 +16,6 @@
 namespace slipcheck {
 namespace {
 
-using testing::kContainer;
 using testing::kExample;
 using testing::kHard;
 using testing::with;
@@ -297,12 +296,15 @@ TEST(ContactScene, TakesTiltMotionCoupledDrillingAndRollingWhileSliding) {
   EXPECT_NEAR(scene.hard.motion.position(0.1).x(), -1e-3, 1e-17);
 }
 
-TEST(ContactScene, RefusesPeriodicSubstratesAndContainers) {
-  EXPECT_EQ(refusal(with(kHard, "substrate: {}", "substrate: {periodic: [9, 9]}")),
-            "s.yaml:12:13: substrate.periodic: only an unbounded substrate can be solved, got a "
-            "periodic cell");
-  EXPECT_EQ(refusal(kContainer),
-            "s.yaml:10:1: container: only an unbounded substrate can be solved, got a container");
+TEST(ContactScene, TakesPeriodicSubstrates) {
+  EXPECT_TRUE(scene_of(kHard).hard.periodic.isZero(0));
+  const HardScene scene =
+      scene_of(with(with(kHard, "substrate: {}", "substrate: {periodic: [3, 800 mm]}"),
+                    "position: [1, 0]", "position: [-100, 7.4]"))
+          .hard;
+  EXPECT_EQ(scene.periodic, Vector2(3, 0.8));
+  EXPECT_EQ(scene.initial[1].position, Vector3(-100, 7.4, 0.1));  // where the file has it
+  EXPECT_FALSE(scene.box);
 }
 
 TEST(ContactScene, MayBeAskedForByName) {

@@ -199,9 +199,10 @@ TEST(Check, Overlap) {
       messages(with(with(periodic, "[0, 0]", "[0.05, 1.95]"), "[1, 0]", "[1.95, 0.05]")).size(),
       1u);
   EXPECT_EQ(messages(with(periodic, "[1, 0]", "[1.8, 0]")), kNoFaults);
-  expect_fault(with(kHard, "substrate: {}", "substrate: {periodic: [2, 0.19]}"),
-               "s.yaml:12:23: substrate.periodic: must be at least the largest diameter, got [2, "
-               "0.19]");
+  expect_fault(
+      with(kHard, "substrate: {}", "substrate: {periodic: [2, 0.19]}"),
+      "s.yaml:12:27: substrate.periodic[1]: must be at least 4 times the largest diameter, "
+      "0.8 m, got 0.19");
 }
 
 TEST(Check, OverlapsOfManyBodies) {
