@@ -23,10 +23,11 @@ double mean_diameter(const HardScene& scene) {
   return sum / static_cast<double>(scene.bodies.size());
 }
 
-/// The floor's period, or what is asked for where it has none.
+/// A share of the floor's period, or what is asked for where it has none.
 double sampling_interval(const HardScene& scene, const BoxSampling& sampling) {
   const double frequency = scene.box->floor.frequency;
-  return frequency > 0 ? 1 / frequency : sampling.interval;
+  if (frequency == 0) return sampling.interval;
+  return 1 / (frequency * static_cast<double>(sampling.per_period));
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ BoxObserver::BoxObserver(const HardScene& scene, const BoxSampling& sampling,
       collisions_so_far_(std::move(collisions_so_far)),
       rest_(resting_height(scene)),
       mass_(0),
-      next_(sampling.discard) {
+      next_(sampling.discard * sampling.per_period) {
   sampling_.interval = sampling_interval(scene, sampling);
   if (!(sampling_.interval > 0) || !std::isfinite(sampling_.interval))
     throw std::invalid_argument(
@@ -154,7 +155,8 @@ BoxObservables BoxObserver::finish(double energy_drift, double momentum_drift) c
   result.momentum_drift = momentum_drift;
   result.samples = series_.time.size() - dropped;
   const std::size_t seen = next_ - series_.time.size();
-  result.discarded = std::max(seen, sampling_.discard + 1) - 1 + dropped;
+  const std::size_t first = std::max(seen, sampling_.discard * sampling_.per_period + 1) - 1;
+  result.discarded = (first + dropped) / sampling_.per_period;
   return result;
 }
 

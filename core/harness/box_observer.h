@@ -28,10 +28,11 @@ double resting_height(const HardScene& scene);
 
 /// When a box is looked at and which looks count.
 struct BoxSampling {
-  /// Time between samples [s], > 0, where the floor has no frequency; else it is 1/f.
+  /// Time between samples [s], > 0, where the floor has no frequency; else it is a share of 1/f.
   double interval = 0;
-  std::size_t discard = 0;    ///< periods before the first sample; samples are at n/f, n > discard
-  bool until_steady = false;  ///< and more, until H, K and R are steady (steady_state.h)
+  std::size_t per_period = 1;  ///< samples, > 0; 1: at phase zero alone
+  std::size_t discard = 0;     ///< periods before the first sample
+  bool until_steady = false;   ///< and more, until H, K and R are steady (steady_state.h)
 };
 
 /// What was seen at each sample after the `discard` periods; all of one length.

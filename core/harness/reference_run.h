@@ -1,9 +1,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "harness/box_observer.h"
 #include "reference/reference_solver.h"
 #include "scenario/hard_scene.h"
 #include "scenario/scenario.h"
@@ -15,6 +17,14 @@ struct UncertainValue {
   double uncertainty = 0;  ///< >= 0, in the value's unit
 };
 
+/// How the averages over a box came about.
+struct BoxReference {
+  std::size_t samples = 0;    ///< that they are taken over
+  std::size_t discarded = 0;  ///< periods before the first of them
+  bool steady = false;        ///< H, K and R show no trend over them
+  BoxSeries series;           ///< all samples after `run.discard`
+};
+
 /// What the reference says of a scene.
 struct ReferenceResult {
   std::string solver = "event";  ///< or "contact"
@@ -22,7 +32,8 @@ struct ReferenceResult {
   std::map<std::string, UncertainValue> observables;
   std::map<std::string, double> closed_form;  ///< where one applies
   SolvedRun run;
-  double first_contact = 0;  ///< time of the first collision or landing [s], maybe infinite
+  double first_contact = 0;         ///< time of the first collision or landing [s], maybe infinite
+  std::optional<BoxReference> box;  ///< of a scene in a box
   std::vector<std::string> warnings;
 };
 

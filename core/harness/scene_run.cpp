@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <set>
+#include <variant>
 
 #include "engine/engine_registry.h"
 #include "engine/worker_pool.h"
+#include "harness/box_run.h"
 #include "harness/engine_run.h"
 #include "scenario/fault.h"
 
@@ -69,6 +71,28 @@ EngineRecord::Status status_of(JobResult::Status status) {
   return EngineRecord::Status::crashed;
 }
 
+std::variant<ReferenceSolver, BoxSolver> solver_of(const Scenario& scenario,
+                                                   const ContactScene& scene) {
+  if (scene.hard.box) return BoxSolver(scene, scenario.compare.reference, scenario.run.most_events);
+  return ReferenceSolver(scene, scenario.compare.reference);
+}
+
+ReferenceResult reference_of(const ReferenceSolver& solver, const Scenario& scenario) {
+  return run_reference(solver, run_end(scenario), body_names(scenario));
+}
+ReferenceResult reference_of(const BoxSolver& solver, const Scenario& scenario) {
+  return run_box_reference(solver, scenario);
+}
+
+void run_ensemble_of(const ReferenceSolver& solver, RemoteEngine& engine, const SceneRecord& scene,
+                     const RunOptions& options, EngineRecord& record) {
+  run_ensemble(engine, {&solver, &scene.reference, &scene.scenario, options.phases}, record);
+}
+void run_ensemble_of(const BoxSolver& solver, RemoteEngine& engine, const SceneRecord& scene,
+                     const RunOptions& options, EngineRecord& record) {
+  run_box_ensemble(engine, {&solver, &scene.reference, &scene.scenario, options.phases}, record);
+}
+
 }  // namespace
 
 std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOptions& options) {
@@ -76,10 +100,10 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
   std::vector<ContactScene> contact_scenes;
   contact_scenes.reserve(scenarios.size());
   for (const Scenario& scenario : scenarios) contact_scenes.push_back(make_contact_scene(scenario));
-  std::vector<ReferenceSolver> solvers;
+  std::vector<std::variant<ReferenceSolver, BoxSolver>> solvers;
   solvers.reserve(scenarios.size());
   for (std::size_t s = 0; s < scenarios.size(); ++s)
-    solvers.emplace_back(contact_scenes[s], scenarios[s].compare.reference);
+    solvers.push_back(solver_of(scenarios[s], contact_scenes[s]));
 
   std::vector<SceneRecord> scenes(scenarios.size());
   std::vector<EngineJob> jobs;
@@ -87,8 +111,8 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     SceneRecord& scene = scenes[s];
     scene.scenario = std::move(scenarios[s]);
-    scene.reference =
-        run_reference(solvers[s], run_end(scene.scenario), body_names(scene.scenario));
+    scene.reference = std::visit(
+        [&](const auto& solver) { return reference_of(solver, scene.scenario); }, solvers[s]);
     scene.runs = requested_runs(scene.scenario);
     for (EngineRecord& record : scene.runs) {
       const auto executable = find_engine(record.engine, record.precision);
@@ -97,10 +121,14 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
             fmt::format("slipcheck-engine-{}-{} is not installed", record.engine, record.precision);
         continue;
       }
-      const EnsembleTask task{&solvers[s], &scene.reference, &scene.scenario, options.phases};
-      jobs.push_back({executable->path, [&record, task, &options](RemoteEngine& engine) {
+      jobs.push_back({executable->path,
+                      [&record, &scene, &options, &solver = solvers[s]](RemoteEngine& engine) {
                         engine.limit_run(options.time_limit);
-                        run_ensemble(engine, task, record);
+                        std::visit(
+                            [&](const auto& chosen) {
+                              run_ensemble_of(chosen, engine, scene, options, record);
+                            },
+                            solver);
                       }});
       records.push_back(&record);
     }

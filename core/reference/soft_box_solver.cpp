@@ -90,6 +90,7 @@ class SoftBoxSolver::Impl {
     return states;
   }
   double now() const { return now_; }
+  std::size_t collisions() const { return collisions_; }
   double energy() const { return dynamics_.energy(now_, motions(now_, state_)); }
 
  private:
@@ -374,6 +375,7 @@ SoftBoxRun SoftBoxSolver::run(const RunEnd& end, FrameSink* sink, double sample_
 }
 std::vector<BodyState> SoftBoxSolver::states() const { return impl_->states(); }
 double SoftBoxSolver::now() const { return impl_->now(); }
+std::size_t SoftBoxSolver::collisions() const { return impl_->collisions(); }
 double SoftBoxSolver::energy() const { return impl_->energy(); }
 
 }  // namespace slipcheck

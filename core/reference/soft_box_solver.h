@@ -60,7 +60,8 @@ class SoftBoxSolver {
 
   /// All bodies' states now.
   std::vector<BodyState> states() const;
-  double now() const;  ///< [s]
+  double now() const;              ///< [s]
+  std::size_t collisions() const;  ///< contacts of two bodies that have begun
   /// Kinetic energy and that of gravity and of the overlaps, now [J].
   double energy() const;
 
