@@ -19,6 +19,10 @@ class BulletEngine final : public Engine {
 
   Applied configure(const HardScene& scene, const std::string& profile, double time_step) override {
     const Profile parsed = parse_profile(profile);
+    if (scene.periodic != Vector2::Zero()) {
+      throw Refused(
+          "bullet: the substrate repeats itself, and a Bullet world has no periodic boundaries");
+    }
     if (!scene.motion.is_still()) {
       throw Refused(
           "bullet: the substrate moves, and a static plane has no velocity that friction could "
@@ -31,15 +35,16 @@ class BulletEngine final : public Engine {
     world_.reset();
     setup_.emplace(Setup{scene, parsed, time_step, PairCoefficients(scene, time_step)});
     start(scene.initial, 0);
-    return {world_->settings(time_step), not_represented(scene, parsed, time_step)};
+    return {world_->settings(), not_represented(scene, parsed, time_step)};
   }
 
-  void start(std::span<const BodyState> states, double) override {
+  void start(std::span<const BodyState> states, double time) override {
     world_.reset();  // not two at a time
-    world_.emplace(setup_->scene, setup_->profile, setup_->coefficients, states);
+    world_.emplace(setup_->scene, setup_->profile, setup_->coefficients, setup_->time_step, states,
+                   time);
   }
 
-  void step() override { world_->step(setup_->time_step); }
+  void step() override { world_->step(); }
 
   void read(Frame& frame) const override { world_->read(frame); }
 

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "bullet_backend/combine.h"
+#include "bullet_backend/margins.h"
 #include "bullet_backend/settings.h"
+#include "bullet_backend/surfaces.h"
 
 namespace slipcheck::bullet {
 namespace {
@@ -26,8 +28,30 @@ void set_fields(btRigidBody& body, const BodyFields& fields) {
   body.setSpinningFriction(btScalar(fields.spinning_friction));
 }
 
+/// With the margins of margins.h.
+class World final : public btDiscreteDynamicsWorld {
+ public:
+  World(double scale, btDispatcher* dispatcher, btBroadphaseInterface* broadphase,
+        btConstraintSolver* solver, btCollisionConfiguration* configuration)
+      : btDiscreteDynamicsWorld(dispatcher, broadphase, solver, configuration),
+        body_margin_(btScalar(kBodyMargin * scale)) {
+    gDbvtMargin = btScalar(kTreeMargin * scale);
+  }
+
+  void updateAabbs() override {
+    // The same number is elsewhere a factor on the size of a shape, and there it stays.
+    const btScalar as_a_factor = std::exchange(gContactBreakingThreshold, body_margin_);
+    btDiscreteDynamicsWorld::updateAabbs();
+    gContactBreakingThreshold = as_a_factor;
+  }
+
+ private:
+  btScalar body_margin_;  // [m]
+};
+
 /// Whether the solver saw the manifold in the last step. It does not where both bodies sleep (the
-/// plane always does), and the impulses found there are those of the last step before.
+/// plane always does where it is still), and the impulses found there are those of the last step
+/// before.
 bool was_solved(const btPersistentManifold& manifold) {
   return manifold.getBody0()->getActivationState() != ISLAND_SLEEPING ||
          manifold.getBody1()->getActivationState() != ISLAND_SLEEPING;
@@ -49,7 +73,7 @@ double normal_impulse(const btPersistentManifold& manifold) {
 
 /// In the order in which they need each other; the bodies leave before the world goes.
 struct BulletWorld::Parts {
-  Parts(const HardScene& scene, std::span<const BodyState> states);
+  Parts(const HardScene& scene, std::span<const BodyState> states, double time, double time_step);
   ~Parts();
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
@@ -58,24 +82,19 @@ struct BulletWorld::Parts {
   btCollisionDispatcher dispatcher;
   btDbvtBroadphase broadphase;
   btSequentialImpulseConstraintSolver solver;
-  btStaticPlaneShape plane_shape;
-  std::unique_ptr<btRigidBody> plane;
   std::vector<std::unique_ptr<btSphereShape>> shapes;
   std::vector<std::unique_ptr<btRigidBody>> balls;
-  btDiscreteDynamicsWorld world;
+  World world;
+  Surfaces surfaces;
 };
 
-BulletWorld::Parts::Parts(const HardScene& scene, std::span<const BodyState> states)
+BulletWorld::Parts::Parts(const HardScene& scene, std::span<const BodyState> states, double time,
+                          double time_step)
     : dispatcher(&configuration),
-      plane_shape(btVector3(0, 0, 1), 0),
-      world(&dispatcher, &broadphase, &solver, &configuration) {
+      world(margin_scale(scene), &dispatcher, &broadphase, &solver, &configuration),
+      surfaces(world, scene, time, time_step) {
   world.setGravity(btVector3(btScalar(scene.downhill.x()), btScalar(scene.downhill.y()),
                              btScalar(-scene.gravity)));
-  const btRigidBody::btRigidBodyConstructionInfo ground(0, nullptr, &plane_shape);
-  plane = std::make_unique<btRigidBody>(ground);
-  plane->setUserIndex(kSubstrate);
-  world.addRigidBody(plane.get());
-
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Sphere& sphere = scene.bodies[i];
     shapes.push_back(std::make_unique<btSphereShape>(btScalar(sphere.radius)));
@@ -87,18 +106,26 @@ BulletWorld::Parts::Parts(const HardScene& scene, std::span<const BodyState> sta
     balls.back()->setLinearVelocity(to_bullet(states[i].velocity));
     balls.back()->setAngularVelocity(to_bullet(states[i].angular_velocity));
     balls.back()->setUserIndex(static_cast<int>(i));
+    if (scene.box) {
+      balls.back()->setLinearFactor(btVector3(1, 0, 1));
+      balls.back()->setAngularFactor(btVector3(0, 1, 0));
+    }
     world.addRigidBody(balls.back().get());
   }
 }
 
 BulletWorld::Parts::~Parts() {
   for (const auto& ball : balls) world.removeRigidBody(ball.get());
-  world.removeRigidBody(plane.get());
 }
 
 BulletWorld::BulletWorld(const HardScene& scene, Profile profile,
-                         const PairCoefficients& coefficients, std::span<const BodyState> states)
-    : scene_(scene), profile_(profile), parts_(std::make_unique<Parts>(scene, states)) {
+                         const PairCoefficients& coefficients, double time_step,
+                         std::span<const BodyState> states, double time)
+    : scene_(scene),
+      profile_(profile),
+      time_step_(time_step),
+      start_time_(time),
+      parts_(std::make_unique<Parts>(scene, states, time, time_step)) {
   switch (profile) {
     case Profile::default_:
       // Only read through the pointer, which Bullet keeps without const.
@@ -111,7 +138,9 @@ BulletWorld::BulletWorld(const HardScene& scene, Profile profile,
       for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         set_fields(*parts_->balls[i], naive_ball(scene, i));
       }
-      set_fields(*parts_->plane, naive_plane(scene));
+      for (btRigidBody* surface : parts_->surfaces.bodies()) {
+        set_fields(*surface, naive_surface(scene, surface->getUserIndex()));
+      }
       combine_as_shipped();
       break;
   }
@@ -119,7 +148,10 @@ BulletWorld::BulletWorld(const HardScene& scene, Profile profile,
 
 BulletWorld::~BulletWorld() = default;
 
-void BulletWorld::step(double time_step) { parts_->world.stepSimulation(btScalar(time_step), 0); }
+void BulletWorld::step() {
+  parts_->surfaces.set_time(start_time_ + static_cast<double>(steps_++) * time_step_);
+  parts_->world.stepSimulation(btScalar(time_step_), 0);
+}
 
 void BulletWorld::read(Frame& frame) const {
   frame.bodies.clear();
@@ -137,7 +169,8 @@ void BulletWorld::read(Frame& frame) const {
     if (!(impulse > 0)) continue;
     int first = manifold.getBody0()->getUserIndex();
     int second = manifold.getBody1()->getUserIndex();
-    if (first == kSubstrate || (second != kSubstrate && second < first)) std::swap(first, second);
+    if (first < 0 || (second >= 0 && second < first)) std::swap(first, second);
+    if (second == kWall || second == kLid) continue;
     frame.touches.push_back({first, second, impulse});
   }
   std::sort(frame.touches.begin(), frame.touches.end(), [](const Touch& a, const Touch& b) {
@@ -145,8 +178,8 @@ void BulletWorld::read(Frame& frame) const {
   });
 }
 
-std::map<std::string, Setting> BulletWorld::settings(double time_step) const {
-  return read_settings(parts_->world, scene_, profile_, time_step);
+std::map<std::string, Setting> BulletWorld::settings() const {
+  return read_settings(parts_->world, scene_, profile_, time_step_);
 }
 
 std::string bullet_version() {

@@ -11,28 +11,33 @@
 
 namespace slipcheck::bullet {
 
-/// One Bullet world: the scene's spheres on a static plane z = 0, in SI.
+/// One Bullet world: the scene's spheres on a static plane z = 0, or in a box, where they are held
+/// in the plane y = 0 and spin about y alone; in SI.
 class BulletWorld {
  public:
   /// `scene` and `coefficients` must outlive the world; the latter serve the default profile. Sets
-  /// Bullet's combine callbacks as the profile needs them.
+  /// Bullet's combine callbacks as the profile needs them. The states are those at `time` [s], by
+  /// which a box is shaken; steps are of exactly `time_step` [s].
   BulletWorld(const HardScene& scene, Profile profile, const PairCoefficients& coefficients,
-              std::span<const BodyState> states);
+              double time_step, std::span<const BodyState> states, double time);
   ~BulletWorld();
 
-  /// One step of exactly `time_step` [s], without substeps.
-  void step(double time_step);
+  /// One step, without substeps.
+  void step();
 
-  /// The state after the last step.
+  /// The state after the last step. A box's floor counts as substrate; touches with its walls and
+  /// lid are left out.
   void read(Frame& frame) const;
 
   /// The settings in force, see settings.h.
-  std::map<std::string, Setting> settings(double time_step) const;
+  std::map<std::string, Setting> settings() const;
 
  private:
   struct Parts;
   const HardScene& scene_;
   Profile profile_;
+  double time_step_, start_time_;  // [s]
+  std::size_t steps_ = 0;
   std::unique_ptr<Parts> parts_;
 };
 

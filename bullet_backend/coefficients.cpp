@@ -5,6 +5,16 @@
 #include "engine/engine.h"
 
 namespace slipcheck::bullet {
+namespace {
+
+const PairContact& box_contact(const HardScene& scene, std::size_t body, int surface) {
+  const Box& box = *scene.box;
+  const auto& contacts =
+      surface == kFloor ? box.on_floor : (surface == kWall ? box.on_wall : box.on_lid);
+  return contacts[scene.material[body]];
+}
+
+}  // namespace
 
 PairCoefficients::PairCoefficients(const HardScene& scene, double time_step) : scene_(scene) {
   for (const Sphere& body : scene_.bodies) {
@@ -12,20 +22,25 @@ PairCoefficients::PairCoefficients(const HardScene& scene, double time_step) : s
   }
 }
 
+const PairContact& PairCoefficients::pair_contact(int body, int other) const {
+  return other < 0 ? box_contact(scene_, index(body), other)
+                   : scene_.between(index(body), index(other));
+}
+
 double PairCoefficients::friction(int body, int other) const {
-  if (other == kSubstrate) return scene_.on_substrate(index(body)).kinetic_friction;
-  const PairContact& pair = scene_.between(index(body), index(other));
+  if (is_substrate(other)) return scene_.on_substrate(index(body)).kinetic_friction;
+  const PairContact& pair = pair_contact(body, other);
   // β0 = −1, u_t' = u_t: no tangential impulse whatever μ is.
   return pair.tangential_restitution == -1 ? 0 : pair.friction;
 }
 
 double PairCoefficients::restitution(int body, int other, double approach_speed) const {
-  if (other == kSubstrate) return scene_.on_substrate(index(body)).restitution;
-  return restitution_at(scene_.between(index(body), index(other)).restitution, approach_speed);
+  if (is_substrate(other)) return scene_.on_substrate(index(body)).restitution;
+  return restitution_at(pair_contact(body, other).restitution, approach_speed);
 }
 
 double PairCoefficients::rolling_friction(int body, int other, double speed) const {
-  if (other != kSubstrate) return 0;
+  if (!is_substrate(other)) return 0;
   const Sphere& sphere = scene_.bodies[index(body)];
   const double mu_r = scene_.on_substrate(index(body)).rolling(speed);
   const double rho = (1 + sphere.shape_factor) * mu_r * sphere.radius * raise_[index(body)];
@@ -35,22 +50,29 @@ double PairCoefficients::rolling_friction(int body, int other, double speed) con
 }
 
 double PairCoefficients::spinning_friction(int body, int other) const {
-  if (other != kSubstrate) return 0;
+  if (!is_substrate(other)) return 0;
   return scene_.on_substrate(index(body)).drilling_length * raise_[index(body)];
 }
 
 namespace {
 
-/// The speed at which somebody who wants one number looks at the law between two bodies.
-double reference_speed(const HardScene& scene, std::size_t i, std::size_t j) {
-  const RestitutionLaw& law = scene.between(i, j).restitution;
-  if (const auto* power = std::get_if<PowerLawRestitution>(&law)) return power->speed;
-  return (scene.initial[i].velocity - scene.initial[j].velocity).norm();
+/// One number of a law, as somebody sees it who looks at two that start with the velocity `start`
+/// relative to each other.
+double one_restitution(const RestitutionLaw& law, const Vector3& start) {
+  if (const auto* power = std::get_if<PowerLawRestitution>(&law)) {
+    return restitution_at(law, power->speed);
+  }
+  return restitution_at(law, start.norm());
+}
+
+BodyFields pair_fields(const PairContact& contact, const Vector3& start) {
+  return {contact.friction, one_restitution(contact.restitution, start), 0, 0};
 }
 
 }  // namespace
 
 BodyFields naive_ball(const HardScene& scene, std::size_t body) {
+  if (scene.box && scene.bodies.size() == 1) return naive_surface(scene, kFloor);
   const SubstrateContact& ground = scene.on_substrate(body);
   BodyFields fields;
   fields.friction = ground.kinetic_friction;
@@ -59,15 +81,39 @@ BodyFields naive_ball(const HardScene& scene, std::size_t body) {
   fields.restitution = ground.restitution;
   if (scene.bodies.size() > 1) {
     const std::size_t other = body == 0 ? 1 : 0;
-    fields.restitution =
-        restitution_at(scene.between(body, other).restitution, reference_speed(scene, body, other));
+    const BodyFields with_other = pair_fields(
+        scene.between(body, other), scene.initial[body].velocity - scene.initial[other].velocity);
+    if (scene.box) return with_other;
+    fields.restitution = with_other.restitution;
   }
   return fields;
 }
 
-BodyFields naive_plane(const HardScene& scene) {
-  const SubstrateContact& ground = scene.on_substrate(0);
-  return {ground.kinetic_friction, ground.restitution, 0, 0};
+BodyFields naive_surface(const HardScene& scene, int surface) {
+  if (!scene.box) {
+    const SubstrateContact& ground = scene.on_substrate(0);
+    return {ground.kinetic_friction, ground.restitution, 0, 0};
+  }
+  const bool moves = surface == kFloor || scene.box->moving_walls;
+  const Vector3 velocity(0, 0, moves ? scene.box->floor.velocity(0) : 0);
+  return pair_fields(box_contact(scene, 0, surface), scene.initial[0].velocity - velocity);
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> material_pairs(const HardScene& scene) {
+  std::vector<std::vector<std::size_t>> first_two(scene.substrate.size());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    std::vector<std::size_t>& bodies = first_two[scene.material[i]];
+    if (bodies.size() < 2) bodies.push_back(i);
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t a = 0; a < first_two.size(); ++a) {
+    if (first_two[a].size() == 2) pairs.emplace_back(first_two[a][0], first_two[a][1]);
+    for (std::size_t b = a + 1; b < first_two.size(); ++b) {
+      if (first_two[a].empty() || first_two[b].empty()) continue;
+      pairs.push_back(std::minmax({first_two[a][0], first_two[b][0]}));
+    }
+  }
+  return pairs;
 }
 
 }  // namespace slipcheck::bullet

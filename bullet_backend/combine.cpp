@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "bullet_backend/coefficients.h"
-#include "engine/engine.h"
 
 namespace slipcheck::bullet {
 namespace {
@@ -22,7 +21,7 @@ struct Pair {
 };
 
 Pair identify(const btCollisionObject* first, const btCollisionObject* second) {
-  if (first->getUserIndex() == kSubstrate) std::swap(first, second);
+  if (first->getUserIndex() < 0) std::swap(first, second);
   return {btRigidBody::upcast(first), btRigidBody::upcast(second),
           *static_cast<const PairCoefficients*>(first->getUserPointer())};
 }
@@ -35,7 +34,9 @@ btScalar friction(const btCollisionObject* first, const btCollisionObject* secon
 btScalar restitution(const btCollisionObject* first, const btCollisionObject* second) {
   const Pair pair = identify(first, second);
   btVector3 normal(0, 0, 1);
-  if (pair.other_index() != kSubstrate) {
+  if (pair.other_index() == kWall) {
+    normal = btVector3(1, 0, 0);
+  } else if (pair.other_index() >= 0) {
     normal = pair.ball->getCenterOfMassPosition() - pair.other->getCenterOfMassPosition();
     normal.safeNormalize();
   }

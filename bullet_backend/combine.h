@@ -5,8 +5,9 @@
 namespace slipcheck::bullet {
 
 /// From now on the callbacks look the pair up: a body's user index is its index in the scene
-/// (kSubstrate for the plane) and its user pointer the PairCoefficients. Laws over the speed are
-/// taken at the bodies' present velocities, which are those before the step.
+/// (kFloor, kWall, kLid of coefficients.h for what is no ball) and its user pointer the
+/// PairCoefficients. Laws over the speed are taken at the bodies' present velocities, which are
+/// those before the step.
 void combine_by_pair();
 
 /// Back to Bullet's own rules: products for friction and restitution, r0 f1 + r1 f0 for rolling and

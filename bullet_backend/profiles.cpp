@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "bullet_backend/coefficients.h"
@@ -39,10 +40,41 @@ struct Needs {
   bool static_friction = false, drilling = false, coupled_drilling = false;
   bool rolling = false, rolling_table = false, rolling_only = false;
   bool bounce = false, bounce_law = false, reversed_slip = false, cut_torque = false;
+  bool moving_floor = false, far_in_a_step = false;
+
+  void add(const PairContact& pair) {
+    bounce |= bounces(pair);
+    bounce_law |= depends_on_speed(pair);
+    reversed_slip |= reverses_slip(pair);
+  }
 };
 
-Needs needs_of(const HardScene& scene, double time_step) {
-  Needs needs;
+/// Whether a body may go further than its radius in a step, so that it can be on the far side of
+/// another before Bullet looks again: by its speed at the start, after a fall to the floor, or on
+/// being hit by the floor.
+bool can_pass_in_a_step(const HardScene& scene, double time_step) {
+  const double floor_speed = scene.box->floor.largest_speed();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const BodyState& start = scene.initial[i];
+    const double fall = std::max(0.0, 2 * scene.gravity * start.position.z());
+    const double speed = std::max(floor_speed, std::sqrt(start.velocity.squaredNorm() + fall));
+    if (speed * time_step > scene.bodies[i].radius) return true;
+  }
+  return false;
+}
+
+void add_box(Needs& needs, const HardScene& scene, double time_step) {
+  const Box& box = *scene.box;
+  for (const std::size_t material : scene.material) {
+    needs.add(box.on_floor[material]);
+    needs.add(box.on_wall[material]);
+    if (box.lid) needs.add(box.on_lid[material]);
+  }
+  needs.moving_floor = !box.floor.is_still();
+  needs.far_in_a_step = can_pass_in_a_step(scene, time_step);
+}
+
+void add_substrate(Needs& needs, const HardScene& scene, double time_step) {
   const PairCoefficients coefficients(scene, time_step);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const SubstrateContact& ground = scene.on_substrate(i);
@@ -55,13 +87,17 @@ Needs needs_of(const HardScene& scene, double time_step) {
     needs.bounce |= ground.restitution > 0;
     needs.cut_torque |= coefficients.is_cut(static_cast<int>(i)) &&
                         (!ground.rolling.is_zero() || ground.drilling_length > 0);
-    for (std::size_t j = 0; j < i; ++j) {
-      const PairContact& pair = scene.between(i, j);
-      needs.bounce |= bounces(pair);
-      needs.bounce_law |= depends_on_speed(pair);
-      needs.reversed_slip |= reverses_slip(pair);
-    }
   }
+}
+
+Needs needs_of(const HardScene& scene, double time_step) {
+  Needs needs;
+  if (scene.box) {
+    add_box(needs, scene, time_step);
+  } else {
+    add_substrate(needs, scene, time_step);
+  }
+  for (const auto& [i, j] : material_pairs(scene)) needs.add(scene.between(i, j));
   return needs;
 }
 
@@ -98,6 +134,9 @@ std::vector<std::string> not_represented(const HardScene& scene, Profile profile
   note(needs.bounce, "restitution below 0.2 m/s of approach");
   note(needs.reversed_slip, "tangential restitution (friction only stops the slip)");
   note(scene.confined, "confinement to the plane");
+  note(needs.moving_floor,
+       "the floor's velocity at the contact (it is the mean over the step before)");
+  note(needs.far_in_a_step, "collisions of bodies that pass each other within a step");
   note(needs.rolling_table && naive, "rolling friction that depends on the speed");
   note(needs.bounce_law && naive, "restitution that depends on the impact speed");
   note(needs.cut_torque && naive, "rolling and drilling torque of normal impulses above 1 N s");

@@ -9,6 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_backend/coefficients.h"
+#include "bullet_backend/margins.h"
+
 namespace slipcheck::bullet {
 namespace {
 
@@ -41,32 +44,23 @@ class Gathered {
 
 double number(btScalar value) { return double(value); }
 
-/// The scene's bodies in the world, by index.
-std::vector<const btCollisionObject*> find_balls(const btDiscreteDynamicsWorld& world) {
-  std::vector<const btCollisionObject*> balls(
-      static_cast<std::size_t>(world.getNumCollisionObjects()) - 1);
+/// What is in the world by its user index: the scene's bodies from 0 on, and what they bounce off.
+using ByIndex = std::map<int, const btCollisionObject*>;
+
+ByIndex find_objects(const btDiscreteDynamicsWorld& world) {
+  ByIndex objects;
   for (int k = 0; k < world.getNumCollisionObjects(); ++k) {
     const btCollisionObject* object = world.getCollisionObjectArray()[k];
-    if (object->getUserIndex() == kSubstrate) continue;
-    balls[static_cast<std::size_t>(object->getUserIndex())] = object;
+    objects[object->getUserIndex()] = object;
   }
-  return balls;
+  return objects;
 }
 
-const btCollisionObject* find_plane(const btDiscreteDynamicsWorld& world) {
-  for (int k = 0; k < world.getNumCollisionObjects(); ++k) {
-    const btCollisionObject* object = world.getCollisionObjectArray()[k];
-    if (object->getUserIndex() == kSubstrate) return object;
-  }
-  return nullptr;
-}
-
-void gather_substrate(Gathered& out, const btDiscreteDynamicsWorld& world, const HardScene& scene,
+void gather_substrate(Gathered& out, const ByIndex& objects, const HardScene& scene,
                       Profile profile) {
-  const btCollisionObject* plane = find_plane(world);
-  const auto balls = find_balls(world);
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    const btCollisionObject* ball = balls[i];
+  const btCollisionObject* plane = objects.at(kFloor);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const btCollisionObject* ball = objects.at(static_cast<int>(i));
     const std::string whose = fmt::format("{}", i);
     const bool by_speed =
         profile == Profile::default_ && !scene.on_substrate(i).rolling.is_constant();
@@ -78,29 +72,66 @@ void gather_substrate(Gathered& out, const btDiscreteDynamicsWorld& world, const
                      : number(gCalculateCombinedRollingFrictionCallback(ball, plane)));
     out.add("spinning_friction", whose,
             number(gCalculateCombinedSpinningFrictionCallback(ball, plane)));
-    // Relative to the size of the smaller shape unless the dispatcher is told otherwise.
-    out.add(
-        "contact_breaking_threshold", whose,
-        number(ball->getCollisionShape()->getContactBreakingThreshold(gContactBreakingThreshold)));
   }
 }
 
-void gather_pairs(Gathered& out, const btDiscreteDynamicsWorld& world, const HardScene& scene,
-                  Profile profile) {
-  const auto balls = find_balls(world);
-  std::set<std::pair<std::size_t, std::size_t>> seen;  // materials
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    for (std::size_t j = i + 1; j < balls.size(); ++j) {
-      if (!seen.insert(std::minmax({scene.material[i], scene.material[j]})).second) continue;
-      const std::string whose = fmt::format("{}-{}", i, j);
-      const bool by_speed = profile == Profile::default_ &&
-                            !std::holds_alternative<double>(scene.between(i, j).restitution);
-      out.add("restitution", whose,
-              by_speed ? Setting(kBySpeed)
-                       : number(gCalculateCombinedRestitutionCallback(balls[i], balls[j])));
-      out.add("pair_friction", whose,
-              number(gCalculateCombinedFrictionCallback(balls[i], balls[j])));
-    }
+/// One body for each material.
+void gather_box(Gathered& out, const ByIndex& objects, const HardScene& scene, Profile profile) {
+  const Box& box = *scene.box;
+  std::set<std::size_t> seen;  // materials
+  const auto gather = [&](std::size_t body, int surface, const std::string& name,
+                          const PairContact& contact) {
+    const btCollisionObject* ball = objects.at(static_cast<int>(body));
+    const btCollisionObject* other = objects.at(surface);
+    const std::string whose = fmt::format("{}", body);
+    const bool by_speed =
+        profile == Profile::default_ && !std::holds_alternative<double>(contact.restitution);
+    out.add(
+        name + "_restitution", whose,
+        by_speed ? Setting(kBySpeed) : number(gCalculateCombinedRestitutionCallback(ball, other)));
+    out.add(name + "_friction", whose, number(gCalculateCombinedFrictionCallback(ball, other)));
+  };
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::size_t material = scene.material[i];
+    if (!seen.insert(material).second) continue;
+    gather(i, kFloor, "floor", box.on_floor[material]);
+    gather(i, kWall, "wall", box.on_wall[material]);
+    if (box.lid) gather(i, kLid, "lid", box.on_lid[material]);
+  }
+}
+
+void gather_pairs(Gathered& out, const ByIndex& objects, const HardScene& scene, Profile profile) {
+  for (const auto& [i, j] : material_pairs(scene)) {
+    const btCollisionObject* first = objects.at(static_cast<int>(i));
+    const btCollisionObject* second = objects.at(static_cast<int>(j));
+    const std::string whose = fmt::format("{}-{}", i, j);
+    const bool by_speed = profile == Profile::default_ &&
+                          !std::holds_alternative<double>(scene.between(i, j).restitution);
+    out.add("restitution", whose,
+            by_speed ? Setting(kBySpeed)
+                     : number(gCalculateCombinedRestitutionCallback(first, second)));
+    out.add("pair_friction", whose, number(gCalculateCombinedFrictionCallback(first, second)));
+  }
+}
+
+/// Relative to the size of the smaller shape unless the dispatcher is told otherwise.
+void gather_thresholds(Gathered& out, const ByIndex& objects, const HardScene& scene) {
+  const auto threshold = [&](std::size_t body) {
+    return number(objects.at(static_cast<int>(body))
+                      ->getCollisionShape()
+                      ->getContactBreakingThreshold(gContactBreakingThreshold));
+  };
+  const char* name = "contact_breaking_threshold";
+  if (!scene.box) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      out.add(name, fmt::format("{}", i), threshold(i));
+    return;
+  }
+  // The bodies may be hundreds of as many sizes.
+  const auto [small, large] = std::ranges::minmax_element(scene.bodies, {}, &Sphere::radius);
+  for (const auto& body : {small, large}) {
+    const auto i = static_cast<std::size_t>(body - scene.bodies.begin());
+    out.add(name, fmt::format("{}", i), threshold(i));
   }
 }
 
@@ -108,8 +139,9 @@ void gather_pairs(Gathered& out, const btDiscreteDynamicsWorld& world, const Har
 
 std::map<std::string, Setting> read_settings(btDiscreteDynamicsWorld& world, const HardScene& scene,
                                              Profile profile, double time_step) {
+  const ByIndex objects = find_objects(world);
   const btContactSolverInfo& info = world.getSolverInfo();
-  const btRigidBody& ball = *btRigidBody::upcast(find_balls(world).front());
+  const btRigidBody& ball = *btRigidBody::upcast(objects.at(0));
   std::map<std::string, Setting> settings = {
       {"time_step", number(btScalar(time_step))},
       {"gravity", number(-world.getGravity().z())},
@@ -137,8 +169,17 @@ std::map<std::string, Setting> read_settings(btDiscreteDynamicsWorld& world, con
     settings["downhill_y"] = number(gravity.y());
   }
   Gathered by_contact;
-  gather_substrate(by_contact, world, scene, profile);
-  gather_pairs(by_contact, world, scene, profile);
+  if (scene.box) {
+    settings["aabb_margin"] = kBodyMargin * margin_scale(scene);
+    settings["broadphase_tree_margin"] = number(gDbvtMargin);
+    if (!scene.box->floor.is_still()) settings["floor_velocity"] = "backward difference";
+    settings["walls_move"] = !scene.box->floor.is_still() && scene.box->moving_walls;
+    gather_box(by_contact, objects, scene, profile);
+  } else {
+    gather_substrate(by_contact, objects, scene, profile);
+  }
+  gather_thresholds(by_contact, objects, scene);
+  gather_pairs(by_contact, objects, scene, profile);
   by_contact.move_to(settings);
   return settings;
 }

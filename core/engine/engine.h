@@ -50,7 +50,7 @@ class Engine {
                             double time_step) = 0;
 
   /// A fresh world, nothing left of an earlier one, with the bodies in these states at `time` [s],
-  /// >= 0, of the scene's clock, by which the substrate moves.
+  /// >= 0, of the scene's clock, by which the substrate or the box moves.
   virtual void start(std::span<const BodyState> states, double time) = 0;
 
   /// One step of the configured length, and nothing else: its CPU time is measured.

@@ -68,6 +68,10 @@ std::vector<std::string> Fields::texts(const char* key) const {
   return texts;
 }
 
+std::vector<double> Fields::numbers(const char* key) const {
+  return finite_numbers(list(key), place_of(key));
+}
+
 const Bytes& Fields::bytes(const char* key) const {
   const json& value = member(key);
   if (!value.is_binary()) fail(key, "is not a byte string");
@@ -84,6 +88,19 @@ const json& Fields::object(const char* key) const {
   const json& value = member(key);
   if (!value.is_object()) fail(key, "is not a map");
   return value;
+}
+
+std::vector<double> finite_numbers(const json& list, const std::string& place) {
+  if (!list.is_array()) throw Rubbish(place + " is not a list");
+  std::vector<double> numbers;
+  numbers.reserve(list.size());
+  for (const json& value : list) {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) {
+      throw Rubbish(place + " holds something that is not a finite number");
+    }
+    numbers.push_back(value.get<double>());
+  }
+  return numbers;
 }
 
 void require_utf8(const std::string& text, const std::string& place) {

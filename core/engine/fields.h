@@ -34,9 +34,12 @@ class Fields {
   std::string text(const char* key) const;
   std::vector<std::string> texts(const char* key) const;
   const Bytes& bytes(const char* key) const;
+  /// Finite numbers.
+  std::vector<double> numbers(const char* key) const;
   const nlohmann::json& list(const char* key) const;
   const nlohmann::json& object(const char* key) const;
   const nlohmann::json& member(const char* key) const;
+  bool has(const char* key) const { return object_.contains(key); }
 
   /// The place of a member, for messages.
   std::string place_of(const char* key) const;
@@ -47,6 +50,9 @@ class Fields {
   const nlohmann::json& object_;
   std::string place_;
 };
+
+/// A list of finite numbers; throws Rubbish with `place` where it is none.
+std::vector<double> finite_numbers(const nlohmann::json& list, const std::string& place);
 
 /// Throws Rubbish unless `text` is valid UTF-8: what follows prints it and writes it to JSON.
 void require_utf8(const std::string& text, const std::string& place);

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
+
+#include "engine/contact_json.h"
 
 namespace slipcheck::protocol {
 
@@ -34,85 +35,12 @@ T copy(const std::uint8_t* at) {
 constexpr double kTiny = std::numeric_limits<double>::min();  // stands for "> 0"
 constexpr double kHuge = std::numeric_limits<double>::max();
 
-std::vector<double> numbers_from_json(const json& list, const std::string& place) {
-  if (!list.is_array()) throw Rubbish(place + " is not a list");
-  std::vector<double> numbers;
-  numbers.reserve(list.size());
-  for (const json& value : list) {
-    if (!value.is_number() || !std::isfinite(value.get<double>())) {
-      throw Rubbish(place + " holds something that is not a finite number");
-    }
-    numbers.push_back(value.get<double>());
-  }
-  return numbers;
-}
-
-std::vector<double> numbers_from_json(const Fields& fields, const char* key) {
-  return numbers_from_json(fields.list(key), fields.place_of(key));
-}
-
-json to_json(const RollingFriction& rolling) {
-  json table = json::array();
-  for (const RollingFriction::Point& point : rolling.points()) {
-    table.push_back({point.speed, point.coefficient});
-  }
-  return table;
-}
-
-RollingFriction rolling_from_json(const json& table, const std::string& place) {
-  std::vector<RollingFriction::Point> points;
-  for (const json& row : table) {
-    if (!row.is_array() || row.size() != 2 || !row[0].is_number() || !row[1].is_number()) {
-      throw Rubbish(fmt::format("{}: a point is not [speed, coefficient]", place));
-    }
-    const RollingFriction::Point point = {row[0].get<double>(), row[1].get<double>()};
-    const bool in_range = std::isfinite(point.speed) && point.speed >= 0 &&
-                          std::isfinite(point.coefficient) && point.coefficient >= 0;
-    if (!in_range) throw Rubbish(fmt::format("{}: a point is out of range", place));
-    if (!points.empty() && point.speed <= points.back().speed) {
-      throw Rubbish(fmt::format("{}: the speeds do not rise", place));
-    }
-    points.push_back(point);
-  }
-  if (points.empty()) throw Rubbish(fmt::format("{} has no point", place));
-  return RollingFriction(std::move(points));
-}
-
-json to_json(double restitution) { return restitution; }
-json to_json(const PowerLawRestitution& law) {
-  return {{"coefficient", law.coefficient}, {"exponent", law.exponent}, {"speed", law.speed}};
-}
-json to_json(const TabulatedRestitution& table) {
-  return {{"log_first", table.log_first},
-          {"log_step", table.log_step},
-          {"log_odds", table.log_odds},
-          {"slope", table.slope}};
-}
-
-RestitutionLaw restitution_from_json(const Fields& pair) {
-  if (!pair.member("restitution").is_object()) return pair.number("restitution", 0, 1);
-  const json& object = pair.object("restitution");
-  const Fields law(object, pair.place_of("restitution"));
-  if (!object.contains("log_odds")) {
-    return PowerLawRestitution{law.number("coefficient", kTiny), law.number("exponent", 0),
-                               law.number("speed", kTiny)};
-  }
-  TabulatedRestitution table{law.number("log_first"), law.number("log_step", kTiny),
-                             numbers_from_json(law, "log_odds"), numbers_from_json(law, "slope")};
-  if (table.log_odds.empty()) throw Rubbish(law.place_of("log_odds") + " is empty");
-  if (table.slope.size() != table.log_odds.size()) {
-    throw Rubbish(fmt::format("{} has {} entries for {} points", law.place_of("slope"),
-                              table.slope.size(), table.log_odds.size()));
-  }
-  return table;
-}
-
 // --- the substrate's motion ----------------------------------------------------------------------
 
 json to_json(const Vector2& v) { return {v.x(), v.y()}; }
 
 Vector2 vector2_from_json(const Fields& fields, const char* key) {
-  const std::vector<double> numbers = numbers_from_json(fields, key);
+  const std::vector<double> numbers = fields.numbers(key);
   if (numbers.size() != 2) throw Rubbish(fields.place_of(key) + " is not [x, y]");
   return {numbers[0], numbers[1]};
 }
@@ -143,7 +71,7 @@ std::vector<SubstrateMotion::Point> motion_points_from_json(const Fields& motion
   const std::string place = motion.place_of("points");
   std::vector<SubstrateMotion::Point> points;
   for (const json& row : motion.list("points")) {
-    const std::vector<double> point = numbers_from_json(row, place);
+    const std::vector<double> point = finite_numbers(row, place);
     if (point.size() != 3) throw Rubbish(place + ": a point is not [time, x, y]");
     if (!points.empty() && point[0] <= points.back().time) {
       throw Rubbish(place + ": the times do not rise");
@@ -164,6 +92,42 @@ SubstrateMotion motion_from_json(const Fields& motion) {
   }
   if (kind == "table") return SubstrateMotion::table(motion_points_from_json(motion));
   throw Rubbish(fmt::format("{} is '{}', no kind of motion", motion.place_of("kind"), kind));
+}
+
+// --- the box -------------------------------------------------------------------------------------
+
+json to_json(const Box& box) {
+  json out = {{"width", box.width},
+              {"floor", {{"amplitude", box.floor.amplitude}, {"frequency", box.floor.frequency}}},
+              {"moving_walls", box.moving_walls},
+              {"on_floor", pairs_to_json(box.on_floor)},
+              {"on_wall", pairs_to_json(box.on_wall)},
+              {"on_lid", pairs_to_json(box.on_lid)}};
+  if (box.lid) out["lid"] = *box.lid;
+  return out;
+}
+
+std::vector<PairContact> surface_from_json(const Fields& box, const char* key,
+                                           std::size_t materials) {
+  std::vector<PairContact> contacts = pairs_from_json(box, key);
+  if (contacts.size() != materials) {
+    throw Rubbish(fmt::format("{} has {} entries for {} materials", box.place_of(key),
+                              contacts.size(), materials));
+  }
+  return contacts;
+}
+
+Box box_from_json(const Fields& fields, std::size_t materials) {
+  Box box;
+  box.width = fields.number("width", kTiny);
+  const Fields floor(fields.object("floor"), fields.place_of("floor"));
+  box.floor = {floor.number("amplitude", 0), floor.number("frequency", 0)};
+  box.moving_walls = fields.flag("moving_walls");
+  if (fields.has("lid")) box.lid = fields.number("lid", kTiny);
+  box.on_floor = surface_from_json(fields, "on_floor", materials);
+  box.on_wall = surface_from_json(fields, "on_wall", materials);
+  box.on_lid = surface_from_json(fields, "on_lid", materials);
+  return box;
 }
 
 }  // namespace
@@ -211,27 +175,16 @@ json scene_to_json(const HardScene& scene) {
   }
   json substrate = json::array();
   for (const SubstrateContact& contact : scene.substrate) {
-    substrate.push_back({{"static_friction", contact.static_friction},
-                         {"kinetic_friction", contact.kinetic_friction},
-                         {"rolling", to_json(contact.rolling)},
-                         {"drilling_length", contact.drilling_length},
-                         {"coupled_radius", contact.coupled_radius},
-                         {"hertzian_pressure", contact.hertzian_pressure},
-                         {"rolling_while_sliding", contact.rolling_while_sliding},
-                         {"restitution", contact.restitution}});
+    substrate.push_back(contact_to_json(contact));
   }
-  json pairs = json::array();
-  for (const PairContact& pair : scene.pairs) {
-    pairs.push_back({{"restitution",
-                      std::visit([](const auto& law) { return to_json(law); }, pair.restitution)},
-                     {"friction", pair.friction},
-                     {"tangential_restitution", pair.tangential_restitution}});
-  }
-  return {
-      {"bodies", std::move(bodies)},       {"initial", json::binary(pack_states(scene.initial))},
-      {"substrate", std::move(substrate)}, {"pairs", std::move(pairs)},
-      {"gravity", scene.gravity},          {"downhill", to_json(scene.downhill)},
-      {"motion", to_json(scene.motion)},   {"confined", scene.confined}};
+  json out = {
+      {"bodies", std::move(bodies)},        {"initial", json::binary(pack_states(scene.initial))},
+      {"substrate", std::move(substrate)},  {"pairs", pairs_to_json(scene.pairs)},
+      {"gravity", scene.gravity},           {"downhill", to_json(scene.downhill)},
+      {"motion", to_json(scene.motion)},    {"confined", scene.confined},
+      {"periodic", to_json(scene.periodic)}};
+  if (scene.box) out["box"] = to_json(*scene.box);
+  return out;
 }
 
 HardScene scene_from_json(const json& object) {
@@ -239,16 +192,7 @@ HardScene scene_from_json(const json& object) {
   HardScene scene;
   for (const json& each : fields.list("substrate")) {
     const Fields contact(each, fmt::format("scene.substrate[{}]", scene.substrate.size()));
-    SubstrateContact out;
-    out.kinetic_friction = contact.number("kinetic_friction", 0);
-    out.static_friction = contact.number("static_friction", out.kinetic_friction);
-    out.rolling = rolling_from_json(contact.list("rolling"), contact.place_of("rolling"));
-    out.drilling_length = contact.number("drilling_length", 0);
-    out.coupled_radius = contact.number("coupled_radius", 0);
-    out.hertzian_pressure = contact.flag("hertzian_pressure");
-    out.rolling_while_sliding = contact.flag("rolling_while_sliding");
-    out.restitution = contact.number("restitution", 0, 1);
-    scene.substrate.push_back(std::move(out));
+    scene.substrate.push_back(substrate_contact_from_json(contact));
   }
   if (scene.substrate.empty()) throw Rubbish("scene.substrate is empty");
 
@@ -260,11 +204,7 @@ HardScene scene_from_json(const json& object) {
   }
   if (scene.bodies.empty()) throw Rubbish("scene.bodies is empty");
 
-  for (const json& each : fields.list("pairs")) {
-    const Fields pair(each, fmt::format("scene.pairs[{}]", scene.pairs.size()));
-    scene.pairs.push_back({restitution_from_json(pair), pair.number("friction", 0),
-                           pair.number("tangential_restitution", -1, 1)});
-  }
+  scene.pairs = pairs_from_json(fields, "pairs");
   if (scene.pairs.size() != scene.substrate.size() * scene.substrate.size()) {
     throw Rubbish(fmt::format("scene.pairs has {} entries for {} materials", scene.pairs.size(),
                               scene.substrate.size()));
@@ -278,6 +218,12 @@ HardScene scene_from_json(const json& object) {
   scene.downhill = vector2_from_json(fields, "downhill");
   scene.motion = motion_from_json(Fields(fields.object("motion"), fields.place_of("motion")));
   scene.confined = fields.flag("confined");
+  scene.periodic = vector2_from_json(fields, "periodic");
+  if (scene.periodic.minCoeff() < 0) throw Rubbish("scene.periodic holds a length below 0");
+  if (fields.has("box")) {
+    scene.box =
+        box_from_json(Fields(fields.object("box"), fields.place_of("box")), scene.substrate.size());
+  }
   return scene;
 }
 

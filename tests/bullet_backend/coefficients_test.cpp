@@ -91,8 +91,8 @@ TEST(BulletCoefficients, NaiveTakesTheNumbersStraight) {
   EXPECT_EQ(ball.restitution, 0.9);
   EXPECT_EQ(ball.rolling_friction, 0.001);
   EXPECT_EQ(ball.spinning_friction, 2e-5);
-  EXPECT_EQ(naive_plane(pair_scene).friction, 0.1);
-  EXPECT_EQ(naive_plane(pair_scene).restitution, 0.4);
+  EXPECT_EQ(naive_surface(pair_scene, kFloor).friction, 0.1);
+  EXPECT_EQ(naive_surface(pair_scene, kFloor).restitution, 0.4);
 
   const HardScene alone = scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 1)}, ground);
   EXPECT_EQ(naive_ball(alone, 0).restitution, 0.4);

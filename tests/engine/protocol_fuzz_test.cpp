@@ -31,11 +31,17 @@ std::vector<Bytes> good_messages() {
   HardScene on_table = some_scene(1), on_belt = some_scene(1);
   on_table.motion = SubstrateMotion::table({{0, {0, 1}}, {1, {0.1, 1}}});
   on_belt.motion = SubstrateMotion::constant({0.1, 0});
+  HardScene open_box = some_box(1), periodic = some_scene(1);
+  open_box.box->lid.reset();
+  periodic.periodic = {0.1, 0};
   std::vector<Bytes> messages = {
       encode(Request(Hello{})),
       encode(Request(Configure{some_scene(3), "default", 0.01})),
       encode(Request(Configure{on_table, "default", 0.01})),
       encode(Request(Configure{on_belt, "default", 0.01})),
+      encode(Request(Configure{some_box(3), "default", 0.01})),
+      encode(Request(Configure{open_box, "default", 0.01})),
+      encode(Request(Configure{periodic, "default", 0.01})),
       encode(Request(Start{some_scene(3).initial, 0.5})),
       encode(Request(Step{100})),
       encode(Reply(Welcome{1, {"bullet", "3.24", "double", {"default", "naive"}}})),

@@ -98,44 +98,6 @@ TEST(Protocol, FramesComeThroughBitForBit) {
   }
 }
 
-TEST(Protocol, TheSceneComesThroughWhole) {
-  const HardScene scene = some_scene(3);
-  const auto request = request_through<Configure>(Configure{scene, "default", 1e-3});
-  EXPECT_EQ(request.profile, "default");
-  EXPECT_EQ(request.time_step, 1e-3);
-  // The encoding is a function of every field, so equal encodings are equal scenes.
-  EXPECT_EQ(scene_to_json(request.scene), scene_to_json(scene));
-  EXPECT_EQ(request.scene.on_substrate(0).rolling(0.25), 0.0015);
-  EXPECT_EQ(restitution_at(request.scene.between(0, 1).restitution, 0.01), 0.32);
-  EXPECT_EQ(std::get<double>(request.scene.between(0, 2).restitution), 0.9);
-  EXPECT_EQ(restitution_at(request.scene.between(1, 1).restitution, 0.2),
-            restitution_at(scene.between(1, 1).restitution, 0.2));
-  EXPECT_EQ(request.scene.on_substrate(1).coupled_radius, 1e-4);
-  EXPECT_TRUE(request.scene.on_substrate(1).hertzian_pressure);
-  EXPECT_TRUE(request.scene.on_substrate(1).rolling_while_sliding);
-  EXPECT_FALSE(request.scene.on_substrate(0).rolling_while_sliding);
-  EXPECT_EQ(request.scene.downhill, Vector2(0, -0.8));
-}
-
-TEST(Protocol, EveryKindOfMotionComesThroughBitForBit) {
-  const std::vector<SubstrateMotion> motions = {
-      {},
-      SubstrateMotion::constant({0.1, -1.0 / 3}),
-      SubstrateMotion::oscillation({0.1, 0.02}, 1.0 / 7, 0.3),
-      SubstrateMotion::table({{0, {0, 1}}, {1, {0.1, 1}}, {3, {0.2, -1}}})};
-  for (const SubstrateMotion& motion : motions) {
-    HardScene scene = some_scene();
-    scene.motion = motion;
-    const auto received = request_through<Configure>(Configure{scene, "default", 1e-3}).scene;
-    EXPECT_EQ(received.motion.kind(), motion.kind());
-    EXPECT_EQ(received.motion.next_kink(0), motion.next_kink(0));
-    for (double t : {0.0, 0.7, 1.9, 4.0}) {
-      EXPECT_EQ(received.motion.position(t), motion.position(t));
-      EXPECT_EQ(received.motion.velocity(t), motion.velocity(t));
-    }
-  }
-}
-
 TEST(Protocol, TheOtherMessagesComeThrough) {
   EXPECT_EQ(request_through<Hello>(Hello{}).version, kVersion);
   EXPECT_EQ(request_through<Step>(Step{77}).count, 77u);
@@ -213,64 +175,6 @@ TEST(Protocol, ABadReplyIsNamed) {
   touches[4] = 1;
   expect_rubbish(with("touches", bytes(touches)), "a touch's normal impulse is -1, not > 0");
   expect_rubbish({{"type", "refused"}, {"reason", "\xff"}}, "reply.reason is not valid UTF-8");
-}
-
-TEST(Protocol, ABadSceneIsNamed) {
-  const auto expect = [](const std::function<void(nlohmann::json&)>& spoil, const char* reason) {
-    nlohmann::json scene = scene_to_json(some_scene());
-    spoil(scene);
-    try {
-      scene_from_json(scene);
-      ADD_FAILURE() << "accepted: " << reason;
-    } catch (const Rubbish& rubbish) {
-      EXPECT_STREQ(rubbish.what(), reason);
-    }
-  };
-  using json = nlohmann::json;
-  expect([](json& s) { s["bodies"][1]["material"] = 2; },
-         "scene.bodies[1].material is 2, more than 1");
-  expect([](json& s) { s["bodies"] = json::array(); }, "scene.bodies is empty");
-  expect([](json& s) { s["pairs"].erase(0); }, "scene.pairs has 3 entries for 2 materials");
-  expect([](json& s) { s["initial"] = json::binary(Bytes(72)); },
-         "scene.initial has 1 states for 2 bodies");
-  expect([](json& s) { s["initial"] = json::binary(Bytes(71)); },
-         "scene.initial has 71 bytes, no multiple of 72");
-  expect(
-      [](json& s) {
-        s["substrate"][0]["rolling"] = {{1, 0.1}, {1, 0.2}};
-      },
-      "scene.substrate[0].rolling: the speeds do not rise");
-  expect([](json& s) { s["substrate"][0]["rolling"] = json::array(); },
-         "scene.substrate[0].rolling has no point");
-  expect([](json& s) { s["confined"] = 0; }, "scene.confined is neither true nor false");
-  expect([](json& s) { s["pairs"][0]["restitution"] = 1.5; },
-         "scene.pairs[0].restitution is 1.5, not in [0, 1]");
-  expect([](json& s) { s["pairs"][3]["restitution"]["slope"].erase(0); },
-         "scene.pairs[3].restitution.slope has 2 entries for 3 points");
-  expect([](json& s) { s["pairs"][3]["restitution"]["log_odds"] = json::array(); },
-         "scene.pairs[3].restitution.log_odds is empty");
-  expect([](json& s) { s["pairs"][3]["restitution"]["slope"][1] = "x"; },
-         "scene.pairs[3].restitution.slope holds something that is not a finite number");
-  expect([](json& s) { s["substrate"][1].erase("coupled_radius"); },
-         "scene.substrate[1].coupled_radius is missing");
-  expect([](json& s) { s["downhill"] = {1, 2, 3}; }, "scene.downhill is not [x, y]");
-  expect([](json& s) { s["motion"]["kind"] = "wobble"; },
-         "scene.motion.kind is 'wobble', no kind of motion");
-  expect(
-      [](json& s) {
-        s["motion"] = {{"kind", "table"}, {"points", json::array()}};
-      },
-      "scene.motion.points is empty");
-  expect(
-      [](json& s) {
-        s["motion"] = {{"kind", "table"}, {"points", {{0, 0, 0}, {0, 1, 0}}}};
-      },
-      "scene.motion.points: the times do not rise");
-  expect(
-      [](json& s) {
-        s["motion"] = {{"kind", "table"}, {"points", {{0, 0}, {0, 1}}}};
-      },
-      "scene.motion.points: a point is not [time, x, y]");
 }
 
 TEST(Protocol, DeepNestingAndOddCborAreRefused) {

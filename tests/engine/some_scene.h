@@ -40,6 +40,23 @@ inline HardScene some_scene(std::size_t count = 2) {
   return scene;
 }
 
+/// The same spheres in a shaken box with a lid, each contact different.
+inline HardScene some_box(std::size_t count = 2) {
+  HardScene scene = some_scene(count);
+  scene.downhill = Vector2::Zero();
+  scene.motion = {};
+  Box box;
+  box.width = 0.1;
+  box.floor = {1e-3, 1.0 / 7};
+  box.moving_walls = true;
+  box.lid = 0.3;
+  box.on_floor = {{0.9, 0.5, 0}, {PowerLawRestitution{}, 0.4, 0.1}};
+  box.on_wall = {{0.8, 0.3, -0.5}, {TabulatedRestitution{-2, 0.5, {3, 2}, {-1, -2}}, 0, -1}};
+  box.on_lid = {{0.7, 0.2, 0.5}, {0.6, 0.1, 1}};
+  scene.box = box;
+  return scene;
+}
+
 inline std::string faulty_engine() {
   return std::string(SLIPCHECK_BINARY_DIR) + "/faulty/slipcheck-engine-faulty-double";
 }

@@ -1,0 +1,186 @@
+#include "engine/scene_json.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "engine/protocol.h"
+#include "some_scene.h"
+
+namespace slipcheck::protocol {
+namespace {
+
+using nlohmann::json;
+
+Request decode(const Request& request) {
+  return decode_request(std::span<const std::uint8_t>(encode(request)).subspan(kPrefix));
+}
+
+HardScene through(const HardScene& scene) {
+  return std::get<Configure>(decode(Configure{scene, "default", 1e-3})).scene;
+}
+
+void expect_rubbish(const HardScene& scene, const std::function<void(json&)>& spoil,
+                    const char* reason) {
+  json object = scene_to_json(scene);
+  spoil(object);
+  try {
+    scene_from_json(object);
+    ADD_FAILURE() << "accepted: " << reason;
+  } catch (const Rubbish& rubbish) {
+    EXPECT_STREQ(rubbish.what(), reason);
+  }
+}
+
+TEST(SceneJson, TheSceneComesThroughWhole) {
+  const HardScene scene = some_scene(3);
+  const auto request = std::get<Configure>(decode(Configure{scene, "default", 1e-3}));
+  EXPECT_EQ(request.profile, "default");
+  EXPECT_EQ(request.time_step, 1e-3);
+  // The encoding is a function of every field, so equal encodings are equal scenes.
+  EXPECT_EQ(scene_to_json(request.scene), scene_to_json(scene));
+  EXPECT_EQ(request.scene.on_substrate(0).rolling(0.25), 0.0015);
+  EXPECT_EQ(restitution_at(request.scene.between(0, 1).restitution, 0.01), 0.32);
+  EXPECT_EQ(std::get<double>(request.scene.between(0, 2).restitution), 0.9);
+  EXPECT_EQ(restitution_at(request.scene.between(1, 1).restitution, 0.2),
+            restitution_at(scene.between(1, 1).restitution, 0.2));
+  EXPECT_EQ(request.scene.on_substrate(1).coupled_radius, 1e-4);
+  EXPECT_TRUE(request.scene.on_substrate(1).hertzian_pressure);
+  EXPECT_TRUE(request.scene.on_substrate(1).rolling_while_sliding);
+  EXPECT_FALSE(request.scene.on_substrate(0).rolling_while_sliding);
+  EXPECT_EQ(request.scene.downhill, Vector2(0, -0.8));
+}
+
+TEST(SceneJson, EveryKindOfMotionComesThroughBitForBit) {
+  const std::vector<SubstrateMotion> motions = {
+      {},
+      SubstrateMotion::constant({0.1, -1.0 / 3}),
+      SubstrateMotion::oscillation({0.1, 0.02}, 1.0 / 7, 0.3),
+      SubstrateMotion::table({{0, {0, 1}}, {1, {0.1, 1}}, {3, {0.2, -1}}})};
+  for (const SubstrateMotion& motion : motions) {
+    HardScene scene = some_scene();
+    scene.motion = motion;
+    const auto received = through(scene);
+    EXPECT_EQ(received.motion.kind(), motion.kind());
+    EXPECT_EQ(received.motion.next_kink(0), motion.next_kink(0));
+    for (double t : {0.0, 0.7, 1.9, 4.0}) {
+      EXPECT_EQ(received.motion.position(t), motion.position(t));
+      EXPECT_EQ(received.motion.velocity(t), motion.velocity(t));
+    }
+  }
+}
+
+TEST(SceneJson, ABoxComesThroughWhole) {
+  const HardScene scene = some_box(3);
+  const auto received = through(scene);
+  ASSERT_TRUE(received.box);
+  const Box& box = *received.box;
+  EXPECT_EQ(box.width, 0.1);
+  EXPECT_EQ(box.floor.amplitude, 1e-3);
+  EXPECT_EQ(box.floor.frequency, 1.0 / 7);
+  EXPECT_TRUE(box.moving_walls);
+  EXPECT_EQ(box.lid, 0.3);
+  ASSERT_EQ(box.on_floor.size(), 2u);
+  EXPECT_EQ(box.on_floor[1].friction, 0.4);
+  EXPECT_EQ(restitution_at(box.on_floor[1].restitution, 0.01), 0.32);
+  EXPECT_EQ(box.on_wall[0].tangential_restitution, -0.5);
+  EXPECT_EQ(restitution_at(box.on_wall[1].restitution, 0.2),
+            restitution_at(scene.box->on_wall[1].restitution, 0.2));
+  EXPECT_EQ(std::get<double>(box.on_lid[1].restitution), 0.6);
+
+  HardScene open = some_box();
+  open.box->lid.reset();
+  open.box->moving_walls = false;
+  const auto received_open = through(open);
+  ASSERT_TRUE(received_open.box);
+  EXPECT_FALSE(received_open.box->lid);
+  EXPECT_FALSE(received_open.box->moving_walls);
+  EXPECT_EQ(scene_to_json(received_open), scene_to_json(open));
+}
+
+TEST(SceneJson, APeriodicPlaneComesThroughAndTheReferencesRuleDoesNot) {
+  HardScene scene = some_scene();
+  scene.periodic = {0.1, 1.0 / 3};
+  scene.collapse = {CollapseRule::Model::contact_time, 1e-5};
+  const auto received = through(scene);
+  EXPECT_FALSE(received.box);
+  EXPECT_EQ(received.periodic, scene.periodic);
+  EXPECT_EQ(received.collapse.model, CollapseRule{}.model);
+  EXPECT_EQ(received.collapse.contact_time, 0);
+}
+
+TEST(SceneJson, ABadSceneIsNamed) {
+  const auto expect = [](auto spoil, const char* reason) {
+    expect_rubbish(some_scene(), spoil, reason);
+  };
+  expect([](json& s) { s["bodies"][1]["material"] = 2; },
+         "scene.bodies[1].material is 2, more than 1");
+  expect([](json& s) { s["bodies"] = json::array(); }, "scene.bodies is empty");
+  expect([](json& s) { s["pairs"].erase(0); }, "scene.pairs has 3 entries for 2 materials");
+  expect([](json& s) { s["initial"] = json::binary(Bytes(72)); },
+         "scene.initial has 1 states for 2 bodies");
+  expect([](json& s) { s["initial"] = json::binary(Bytes(71)); },
+         "scene.initial has 71 bytes, no multiple of 72");
+  expect(
+      [](json& s) {
+        s["substrate"][0]["rolling"] = {{1, 0.1}, {1, 0.2}};
+      },
+      "scene.substrate[0].rolling: the speeds do not rise");
+  expect([](json& s) { s["substrate"][0]["rolling"] = json::array(); },
+         "scene.substrate[0].rolling has no point");
+  expect([](json& s) { s["confined"] = 0; }, "scene.confined is neither true nor false");
+  expect([](json& s) { s["pairs"][0]["restitution"] = 1.5; },
+         "scene.pairs[0].restitution is 1.5, not in [0, 1]");
+  expect([](json& s) { s["pairs"][3]["restitution"]["slope"].erase(0); },
+         "scene.pairs[3].restitution.slope has 2 entries for 3 points");
+  expect([](json& s) { s["pairs"][3]["restitution"]["log_odds"] = json::array(); },
+         "scene.pairs[3].restitution.log_odds is empty");
+  expect([](json& s) { s["pairs"][3]["restitution"]["slope"][1] = "x"; },
+         "scene.pairs[3].restitution.slope holds something that is not a finite number");
+  expect([](json& s) { s["substrate"][1].erase("coupled_radius"); },
+         "scene.substrate[1].coupled_radius is missing");
+  expect([](json& s) { s["downhill"] = {1, 2, 3}; }, "scene.downhill is not [x, y]");
+  expect([](json& s) { s["motion"]["kind"] = "wobble"; },
+         "scene.motion.kind is 'wobble', no kind of motion");
+  expect(
+      [](json& s) {
+        s["motion"] = {{"kind", "table"}, {"points", json::array()}};
+      },
+      "scene.motion.points is empty");
+  expect(
+      [](json& s) {
+        s["motion"] = {{"kind", "table"}, {"points", {{0, 0, 0}, {0, 1, 0}}}};
+      },
+      "scene.motion.points: the times do not rise");
+  expect(
+      [](json& s) {
+        s["motion"] = {{"kind", "table"}, {"points", {{0, 0}, {0, 1}}}};
+      },
+      "scene.motion.points: a point is not [time, x, y]");
+}
+
+TEST(SceneJson, ABadBoxIsNamed) {
+  const auto expect = [](auto spoil, const char* reason) {
+    expect_rubbish(some_box(), spoil, reason);
+  };
+  expect([](json& s) { s["box"] = nullptr; }, "scene.box is not a map");
+  expect([](json& s) { s["box"]["width"] = 0; },
+         "scene.box.width is 0, not in [2.2250738585072014e-308, 1.7976931348623157e+308]");
+  expect([](json& s) { s["box"]["floor"]["amplitude"] = -1; },
+         "scene.box.floor.amplitude is -1, not in [0, 1.7976931348623157e+308]");
+  expect([](json& s) { s["box"]["floor"].erase("frequency"); },
+         "scene.box.floor.frequency is missing");
+  expect([](json& s) { s["box"]["moving_walls"] = "yes"; },
+         "scene.box.moving_walls is neither true nor false");
+  expect([](json& s) { s["box"]["lid"] = "open"; }, "scene.box.lid is not a number");
+  expect([](json& s) { s["box"]["on_wall"].erase(0); },
+         "scene.box.on_wall has 1 entries for 2 materials");
+  expect([](json& s) { s["box"]["on_lid"][1]["restitution"] = 1.5; },
+         "scene.box.on_lid[1].restitution is 1.5, not in [0, 1]");
+  expect([](json& s) { s["periodic"] = {-1, 0}; }, "scene.periodic holds a length below 0");
+  expect([](json& s) { s.erase("periodic"); }, "scene.periodic is missing");
+}
+
+}  // namespace
+}  // namespace slipcheck::protocol
