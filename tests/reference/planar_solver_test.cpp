@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include "physics/collision.h"
@@ -157,6 +159,34 @@ TEST(PlanarSolver, AGasKeepsMomentumAndEnergyAndNeverOverlaps) {
   EXPECT_LT(run.momentum_error, 1e-13);
   EXPECT_LT(solver.world().momentum_error(), 1e-12);
   EXPECT_LT(solver.world().deepest_overlap(run.end_time), 1e-12);
+}
+
+/// Over very many events too; SLIPCHECK_SOAK_EVENTS asks for more than is quick.
+TEST(PlanarSolver, NothingOverlapsInManyEvents) {
+  const char* asked = std::getenv("SLIPCHECK_SOAK_EVENTS");
+  const auto events = static_cast<std::size_t>(asked ? std::atof(asked) : 2e5);
+  const HardScene gas = test::smooth_gas(300, 0.4, contact(1));
+  const HardScene box = test::shaken_box(50, 1, contact(0.9, 0.2, 0.3));
+  for (const HardScene& scene : {gas, box}) {
+    PlanarWorld world(scene, scene.initial, 1e-6, 1e-4);
+    EventScheduler<PlanarWorld> scheduler(world, 0);
+    const double first = world.energy_at(0);
+    double deepest = -1;
+    for (std::size_t k = 0; k < events; ++k) {
+      scheduler.step();
+      if (k % 1000 == 0) deepest = std::max(deepest, world.deepest_overlap(scheduler.now()));
+    }
+    // Rounding of a time t moves a body by its speed times 1e-16 t: of its radius at most so much.
+    const double speed = scene.box ? 10 : 5, radius = scene.bodies[0].radius;
+    EXPECT_LT(deepest, 1e-13 + 4e-16 * scheduler.now() * speed / radius);
+    EXPECT_LT(world.momentum_error(), 1e-12);
+    const double balance =
+        world.energy_at(scheduler.now()) - first - world.work() + world.dissipated();
+    const double sum = first + std::abs(world.work()) + world.dissipated();
+    EXPECT_LT(std::abs(balance), (1e-13 + 2e-16 * static_cast<double>(events)) * sum);
+    std::printf("%zu events, %zu collisions: deepest overlap %.1e, energy balance %.1e\n", events,
+                world.collisions(), deepest, balance / sum);
+  }
 }
 
 /// What the collisions' laws say they dissipate is what is gone.
