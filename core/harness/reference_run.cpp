@@ -1,5 +1,7 @@
 #include "harness/reference_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cfenv>
 #include <cmath>
@@ -44,6 +46,18 @@ Solved solve(const ReferenceSolver& solver, const RunEnd& end, int rounding,
   solved.run = solver.run(end, &observer, accuracy);
   solved.seen = observer.finish(solved.run.end_time);
   return solved;
+}
+
+const char* name_of(CollapseRule::Model model) {
+  switch (model) {
+    case CollapseRule::Model::slowest_rebound:
+      return "slowest_rebound: 1e-6 of the scene's speed";
+    case CollapseRule::Model::contact_time:
+      return "contact_time";
+    case CollapseRule::Model::largest_velocity:
+      return "largest_velocity";
+  }
+  return "";
 }
 
 /// The run that the values come from and those that tell their uncertainty.
@@ -115,6 +129,12 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
     if (!std::isnan(closed[k])) result.closed_form.emplace(value_name[k], closed[k]);
     result.observables.emplace(std::move(value_name[k]), UncertainValue{value, uncertainty});
   }
+  if (!scene.periodic.isZero(0) && result.run.end_time > 0) {
+    // Counts scatter by their square root where collisions are independent.
+    const auto count = static_cast<double>(result.run.collisions);
+    result.observables["all.collision_rate"] = {count / result.run.end_time,
+                                                std::sqrt(count) / result.run.end_time};
+  }
   if (solver.hardens())
     result.warnings.push_back(
         "event takes soft contacts as hard ones of their restitution and friction; pairs that rub "
@@ -123,9 +143,8 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
   if (!result.run.reached) result.warnings.push_back("the run did not end: " + result.run.reason);
   if (result.run.collapses > 0)
     result.warnings.push_back(
-        "inelastic collapse: " + std::to_string(result.run.collapses) + " of " +
-        std::to_string(result.run.collisions) +
-        " collisions were slower than 1e-6 of the scene's speed and part with that speed");
+        fmt::format("inelastic collapse: the rule of run.collapse ({}) changed {} of {} collisions",
+                    name_of(scene.collapse.model), result.run.collapses, result.run.collisions));
   return result;
 }
 

@@ -74,7 +74,7 @@ EngineRecord::Status status_of(JobResult::Status status) {
 std::variant<ReferenceSolver, BoxSolver> solver_of(const Scenario& scenario,
                                                    const ContactScene& scene) {
   if (scene.hard.box) return BoxSolver(scene, scenario.compare.reference, scenario.run.most_events);
-  return ReferenceSolver(scene, scenario.compare.reference);
+  return ReferenceSolver(scene, scenario.compare.reference, scenario.run.most_events);
 }
 
 ReferenceResult reference_of(const ReferenceSolver& solver, const Scenario& scenario) {

@@ -1,19 +1,49 @@
 #include "reference/event_solver.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
-#include "physics/collision.h"
-#include "physics/polynomial_roots.h"
+#include "reference/event_scheduler.h"
+#include "reference/indexed_heap.h"
+#include "reference/scan_queue.h"
+#include "reference/substrate_world.h"
 
 namespace slipcheck {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-using Kind = SubstratePhase::Kind;
+
+LeastSpeeds least_speeds(const HardScene& scene, std::span<const BodyState> states,
+                         const EventSettings& settings) {
+  const double scale = speed_scale(scene, states);
+  return {settings.collapse_fraction * scale, settings.landing_fraction * scale};
+}
+
+/// Tells when events have come too fast for too long.
+class RateLimit {
+ public:
+  RateLimit(const EventSettings& settings, std::size_t bodies, double now)
+      : most_(settings.most_events * static_cast<double>(bodies)),
+        window_(settings.burst + 1000 * (bodies > settings.most_without_cells ? bodies : 0)),
+        start_(now) {}
+
+  /// After one event more, at `now` [s].
+  bool is_exceeded(double now) {
+    if (++count_ % window_ != 0) return false;
+    const double passed = now - start_;
+    start_ = now;
+    return static_cast<double>(window_) > most_ * passed;
+  }
+
+ private:
+  double most_;
+  std::size_t window_, count_ = 0;
+  double start_;
+};
 
 }  // namespace
 
@@ -30,278 +60,205 @@ double speed_scale(const HardScene& scene, std::span<const BodyState> states) {
   return scale;
 }
 
-EventSolver::EventSolver(const HardScene& scene, std::span<const BodyState> initial,
-                         const EventSettings& settings)
-    : scene_(&scene), settings_(settings), bodies_(initial.size()) {
-  const double scale = speed_scale(scene, initial);
-  collapse_speed_ = settings.collapse_fraction * scale;
-  landing_speed_ = settings.landing_fraction * scale;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    BodyState state = initial[i];
-    const Sphere& sphere = scene.bodies[i];
-    const bool touches = state.position.z() <= sphere.radius * (1 + 4 * kEpsilon);
-    if (touches && state.velocity.z() < 0 && !scene.confined)
-      land(sphere, scene.on_substrate(i), landing_speed_, state);
-    set_state(i, state);
+/// A world with its scheduler, whatever kind of both the scene asks for.
+class EventSolver::Engine {
+ public:
+  virtual ~Engine() = default;
+  virtual std::unique_ptr<Engine> copy() const = 0;
+  virtual EventRun run(const RunEnd& end, FrameSink* sink) = 0;
+  virtual double first_contact(double limit) const = 0;
+  virtual double next_collision(double limit, double slowest) const = 0;
+  virtual std::vector<BodyState> states() const = 0;
+  virtual double now() const = 0;
+};
+
+template <class World, class Queue>
+class EventSolver::EngineOf final : public Engine {
+ public:
+  EngineOf(const HardScene& scene, std::span<const BodyState> initial,
+           const EventSettings& settings, const LeastSpeeds& least, double now)
+      : scene_(&scene),
+        settings_(settings),
+        least_(least),
+        now_(now),
+        world_(scene, initial, least, now),
+        scheduler_(world_, now) {}
+  EngineOf(const EngineOf& other)
+      : scene_(other.scene_),
+        settings_(other.settings_),
+        least_(other.least_),
+        now_(other.now_),
+        world_(other.world_),
+        scheduler_(other.scheduler_, world_) {
+    world_.set_sink(nullptr);
   }
-  for (std::size_t i = 0; i < bodies_.size(); ++i) predict_for(i);
-}
 
-BodyState EventSolver::state_of(std::size_t i) const {
-  return bodies_[i].phase.at(now_ - bodies_[i].start);
-}
-
-void EventSolver::set_state(std::size_t i, const BodyState& state) {
-  bodies_[i].phase = SubstratePhase(scene_->bodies[i], scene_->on_substrate(i), scene_->gravity,
-                                    state, scene_->confined);
-  bodies_[i].start = now_;
-}
-
-std::vector<BodyState> EventSolver::states() const {
-  std::vector<BodyState> states(bodies_.size());
-  for (std::size_t i = 0; i < states.size(); ++i) states[i] = state_of(i);
-  return states;
-}
-
-/// When two bodies collide if both stay in their present phases, or infinity.
-double EventSolver::collision_time(std::size_t i, std::size_t j) const {
-  const Moving& a = bodies_[i];
-  const Moving& b = bodies_[j];
-  if (a.phase.is_at_rest() && b.phase.is_at_rest()) return kNever;
-  // The phases' own ends may come a rounding error late; a collision there must not be lost.
-  const double end = std::min(a.phase_end(), b.phase_end());
-  const double horizon = end - now_ + 4 * kEpsilon * (std::isfinite(end) ? end : 0);
-  if (!a.phase.is_parabola() || !b.phase.is_parabola())
-    return searched_collision_time(i, j, horizon);
-
-  // |Δx + Δv t + ½ Δa t²|² − (R_i + R_j)²
-  const BodyState si = state_of(i), sj = state_of(j);
-  const Vector3 dx = si.position - sj.position;
-  const Vector3 dv = si.velocity - sj.velocity;
-  const Vector3 da = a.phase.acceleration() - b.phase.acceleration();
-  const double contact = scene_->bodies[i].radius + scene_->bodies[j].radius;
-  // The difference of squares as a product keeps its digits where the gap is small.
-  const double distance = dx.norm();
-  const Quartic gap = {(distance - contact) * (distance + contact), 2 * dx.dot(dv),
-                       dv.squaredNorm() + dx.dot(da), dv.dot(da), 0.25 * da.squaredNorm()};
-  return now_ + first_falling_root(gap, horizon);
-}
-
-/// The same where a path is not a parabola (rolling friction that depends on the speed). Since
-/// gap(t + τ) >= gap − c τ − ½ B τ² with c the closing speed and B a bound of the relative
-/// acceleration, steps to the root of that bound never pass a contact.
-double EventSolver::searched_collision_time(std::size_t i, std::size_t j, double horizon) const {
-  const Moving& a = bodies_[i];
-  const Moving& b = bodies_[j];
-  const auto largest_acceleration = [&](std::size_t k, const SubstratePhase& phase) {
-    if (phase.is_parabola()) return phase.acceleration().norm();
-    const double speed = phase.start().velocity.norm();
-    return scene_->gravity * scene_->on_substrate(k).rolling.largest_up_to(speed);
-  };
-  const double bound = largest_acceleration(i, a.phase) + largest_acceleration(j, b.phase);
-  const double contact = scene_->bodies[i].radius + scene_->bodies[j].radius;
-  const double touching = 8 * kEpsilon * contact;
-  double t = 0;
-  while (t <= horizon) {
-    const BodyState si = a.phase.at(now_ + t - a.start), sj = b.phase.at(now_ + t - b.start);
-    const Vector3 dx = si.position - sj.position;
-    const double distance = dx.norm();
-    const double gap = distance - contact;
-    const double closing = -dx.dot(si.velocity - sj.velocity) / distance;
-    if (gap <= touching && closing > 0) return now_ + t;
-    if (bound == 0 && closing <= 0) return kNever;
-    // The positive root of ½ B τ² + c τ − gap = 0.
-    const double open = std::max(gap, touching);
-    const double root = std::sqrt(closing * closing + 2 * bound * open);
-    const double step = closing > 0 ? 2 * open / (closing + root) : (root - closing) / bound;
-    const double next = t + step;
-    if (next == t) return closing > 0 ? now_ + t : kNever;
-    t = next;
+  std::unique_ptr<Engine> copy() const override { return std::make_unique<EngineOf>(*this); }
+  double now() const override { return now_; }
+  std::vector<BodyState> states() const override {
+    std::vector<BodyState> states(world_.size());
+    for (std::uint32_t i = 0; i < states.size(); ++i) states[i] = world_.state_at(i, now_);
+    return states;
   }
-  return kNever;
-}
 
-void EventSolver::predict_for(std::size_t i) {
-  Moving& body = bodies_[i];
-  body.next_collision = kNever;
-  for (std::size_t j = 0; j < bodies_.size(); ++j) {
-    if (j == i) continue;
-    const double t = collision_time(i, j);
-    if (t < body.next_collision) {
-      body.next_collision = t;
-      body.partner = j;
-    }
+  double first_contact(double limit) const override {
+    const std::size_t so_far = world_.collisions() + world_.landings();
+    return time_of(
+        limit, [&](const World& world) { return world.collisions() + world.landings() != so_far; });
   }
-}
+  double next_collision(double limit, double slowest) const override {
+    std::size_t so_far = world_.collisions();
+    return time_of(limit, [&](const World& world) {
+      if (world.collisions() == so_far) return false;
+      so_far = world.collisions();
+      return slowest == 0 || world.last_impact_speed() >= slowest;
+    });
+  }
 
-void EventSolver::predict_after_change(std::span<const std::size_t> changed) {
-  const auto has_changed = [&](std::size_t j) {
-    return std::find(changed.begin(), changed.end(), j) != changed.end();
-  };
-  for (std::size_t i : changed) predict_for(i);
-  for (std::size_t j = 0; j < bodies_.size(); ++j) {
-    if (has_changed(j)) continue;
-    Moving& other = bodies_[j];
-    if (other.next_collision < kNever && has_changed(other.partner)) {
-      predict_for(j);
-      continue;
-    }
-    for (std::size_t i : changed) {
-      if (bodies_[i].next_collision >= kNever) continue;
-      const double t = bodies_[i].partner == j ? bodies_[i].next_collision : collision_time(i, j);
-      if (t < other.next_collision) {
-        other.next_collision = t;
-        other.partner = i;
+  EventRun run(const RunEnd& end, FrameSink* sink) override {
+    EventRun run;
+    const bool to_a_time = end.until == Run::Until::time;
+    const double last = to_a_time ? end.time : end.limit;
+    const std::size_t events = world_.events(), collisions = world_.collisions();
+    const std::size_t collapses = world_.collapses();
+    RateLimit rate(settings_, world_.size(), now_);
+    world_.set_sink(sink);
+    world_.show(now_);
+    while (true) {
+      if (has_ended(end)) {
+        run.reached = true;
+        break;
+      }
+      if (!(scheduler_.next_time() <= last)) {
+        if (std::isfinite(last)) now_ = std::max(now_, last);
+        world_.show(now_);
+        run.reached = to_a_time;
+        if (!to_a_time)
+          run.reason = end.until == Run::Until::rolling
+                           ? "a body still slides or flies, or collides again, at the limit"
+                           : "a body still moves at the limit";
+        break;
+      }
+      scheduler_.step();
+      now_ = scheduler_.now();
+      if (rate.is_exceeded(now_)) {
+        world_.show(now_);
+        run.reason = fmt::format(
+            "more than {:g} events for each body and second at {:.9g} s: inelastic collapse; "
+            "run.collapse or run.most_events decides what then happens",
+            settings_.most_events, now_);
+        break;
       }
     }
+    world_.set_sink(nullptr);
+    run.end_time = now_;
+    run.events = world_.events() - events;
+    run.collisions = world_.collisions() - collisions;
+    run.collapses = world_.collapses() - collapses;
+    return run;
   }
-}
 
-EventSolver::Event EventSolver::next_event() const {
-  Event next{kNever, 0, false};
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (bodies_[i].next_collision < next.time) next = {bodies_[i].next_collision, i, true};
-    // At one instant the phase ends first: who collides there does so with a finished phase.
-    if (bodies_[i].phase_end() < next.time ||
-        (next.is_collision && bodies_[i].phase_end() == next.time))
-      next = {bodies_[i].phase_end(), i, false};
-  }
-  return next;
-}
-
-double EventSolver::approach_speed(std::size_t i, std::size_t j) const {
-  const BodyState si = state_of(i), sj = state_of(j);
-  return -(si.position - sj.position).normalized().dot(si.velocity - sj.velocity);
-}
-
-double EventSolver::next_collision(double limit, double slowest) const {
-  EventSolver ahead = *this;
-  EventRun run;
-  while (run.events < settings_.max_events) {
-    const Event event = ahead.next_event();
-    if (!(event.time <= limit)) return kNever;
-    ahead.now_ = std::max(ahead.now_, event.time);
-    if (event.is_collision &&
-        (slowest == 0 ||
-         ahead.approach_speed(event.body, ahead.bodies_[event.body].partner) >= slowest))
-      return event.time;
-    ++run.events;
-    ahead.handle(event, nullptr, run);
-  }
-  return kNever;
-}
-
-double EventSolver::first_contact(double limit) const {
-  EventSolver ahead = *this;
-  EventRun run;
-  while (true) {
-    const Event event = ahead.next_event();
-    if (!(event.time <= limit)) return kNever;
-    if (event.is_collision || ahead.bodies_[event.body].phase.kind() == Kind::flying)
-      return event.time;
-    ahead.handle(event, nullptr, run);
-  }
-}
-
-bool EventSolver::has_ended(const RunEnd& end) const {
-  if (end.until == Run::Until::time) return false;
-  bool collision_predicted = false, phase_will_end = false;
-  for (const Moving& body : bodies_) {
-    if (end.until == Run::Until::rest && !body.phase.is_at_rest()) return false;
-    if (body.phase.kind() == Kind::flying || body.phase.kind() == Kind::sliding) return false;
-    collision_predicted |= body.next_collision < kNever;
-    phase_will_end |= body.phase_end() < kNever;
-  }
-  if (collision_predicted) return false;
-  return !phase_will_end || next_collision(end.limit) == kNever;
-}
-
-EventRun EventSolver::run(const RunEnd& end, FrameSink* sink) {
-  EventRun run;
-  const bool to_a_time = end.until == Run::Until::time;
-  const double last = to_a_time ? end.time : end.limit;
-  show(sink);
-  while (!has_ended(end)) {
-    const Event event = next_event();
-    if (!(event.time <= last) || run.events >= settings_.max_events) {
-      if (run.events < settings_.max_events && std::isfinite(last)) now_ = std::max(now_, last);
-      show(sink);
-      run.end_time = now_;
-      run.reached = to_a_time && run.events < settings_.max_events;
-      if (run.events >= settings_.max_events)
-        run.reason = "more than " + std::to_string(settings_.max_events) + " events";
-      else if (!to_a_time)
-        run.reason = end.until == Run::Until::rolling
-                         ? "a body still slides or flies, or collides again, at the limit"
-                         : "a body still moves at the limit";
-      return run;
+ private:
+  /// When a copy that runs ahead comes to what `has_come` tells, or infinity where it does not
+  /// before `limit` [s].
+  template <class HasCome>
+  double time_of(double limit, HasCome has_come) const {
+    EngineOf ahead = *this;
+    RateLimit rate(settings_, world_.size(), now_);
+    while (ahead.scheduler_.next_time() <= limit) {
+      ahead.scheduler_.step();
+      if (has_come(ahead.world_)) return ahead.scheduler_.now();
+      if (rate.is_exceeded(ahead.scheduler_.now())) break;
     }
-    ++run.events;
-    handle(event, sink, run);
+    return kNever;
   }
-  run.end_time = now_;
-  run.reached = true;
-  return run;
-}
 
-void EventSolver::handle(const Event& event, FrameSink* sink, EventRun& run) {
-  // A root may lie a rounding error before the last event; time never runs back.
-  now_ = std::max(now_, event.time);
-  if (event.is_collision)
-    handle_collision(event.body, sink, run);
-  else
-    handle_phase_end(event.body, sink);
-}
-
-void EventSolver::handle_collision(std::size_t first, FrameSink* sink, EventRun& run) {
-  const std::size_t second = bodies_[first].partner;
-  const auto [i, j] = std::minmax(first, second);
-  BodyState si = state_of(i), sj = state_of(j);
-  show(sink);
-  const CollisionResult result =
-      collide(scene_->between(i, j), {scene_->confined, collapse_speed_},
-              {scene_->bodies[i], scene_->on_substrate(i), si, bodies_[i].phase.is_supported()},
-              {scene_->bodies[j], scene_->on_substrate(j), sj, bodies_[j].phase.is_supported()});
-  ++run.collisions;
-  if (result.impact_speed < collapse_speed_) ++run.collapses;
-  set_state(i, si);
-  set_state(j, sj);
-  predict_after_change(std::array{i, j});
-  if (sink) {
-    frame_.touches.push_back(
-        {static_cast<int>(i), static_cast<int>(j), std::max(result.impulse.norm(), 1e-300)});
-    show(sink);
+  bool has_ended(const RunEnd& end) {
+    if (end.until == Run::Until::time) return false;
+    if (end.until == Run::Until::rest && world_.is_any_moving()) return false;
+    if (world_.is_any_slipping()) return false;
+    if (scheduler_.next_time() == kNever) return true;
+    return !collides_again(end.limit);
   }
-}
 
-void EventSolver::handle_phase_end(std::size_t i, FrameSink* sink) {
-  Moving& body = bodies_[i];
-  BodyState state = body.phase.at_end();
-  if (body.phase.kind() == Kind::flying) {
-    show(sink);
-    land(scene_->bodies[i], scene_->on_substrate(i), landing_speed_, state);
-    if (sink && state.velocity.z() > 0) frame_.touches.push_back(substrate_touch(i));
+  bool collides_again(double limit) {
+    const std::size_t after_next = world_.collisions() + 1;
+    if (certain_collisions_ == after_next) return true;
+    if (is_any_planned() || time_of_next(limit) < kNever) certain_collisions_ = after_next;
+    return certain_collisions_ == after_next;
   }
-  set_state(i, state);
-  predict_after_change(std::array{i});
-  show(sink);
-}
 
-/// That the body touches the substrate; frames of the reference do not say how hard.
-Touch EventSolver::substrate_touch(std::size_t i) const {
-  return {static_cast<int>(i), kSubstrate, scene_->bodies[i].mass};
-}
-
-/// Shows the state of all bodies now; a touch that is already in the frame stays.
-void EventSolver::show(FrameSink* sink) {
-  if (!sink) return;
-  frame_.bodies.resize(bodies_.size());
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    frame_.bodies[i] = state_of(i);
-    if (bodies_[i].phase.is_supported()) frame_.touches.push_back(substrate_touch(i));
+  /// A collision planned on exact paths comes, unless another one comes before.
+  bool is_any_planned() const {
+    for (std::uint32_t i = 0; i < world_.size(); ++i)
+      if (scheduler_.has_collision(i) && world_.is_exact_pair(i, scheduler_.partner(i)))
+        return true;
+    return false;
   }
-  sink->take(now_, frame_);
-  frame_.touches.clear();
+
+  /// On an unbounded plane bodies that fly apart would cross cells for ever; all pairs do not.
+  double time_of_next(double limit) const {
+    if constexpr (World::kHasCells) {
+      if (scene_->periodic == Vector2::Zero()) {
+        using Pairs = SubstrateWorld<typename World::PhaseType, AllPairs>;
+        const EngineOf<Pairs, HeapQueue> ahead(*scene_, states(), settings_, least_, now_);
+        return ahead.next_collision(limit, 0);
+      }
+    }
+    return next_collision(limit, 0);
+  }
+
+  const HardScene* scene_;
+  EventSettings settings_;
+  LeastSpeeds least_;
+  double now_;
+  World world_;
+  EventScheduler<World, Queue> scheduler_;
+  std::size_t certain_collisions_ = 0;  ///< so many there will be before the limit
+};
+
+EventSolver::EventSolver(const HardScene& scene, std::span<const BodyState> initial,
+                         const EventSettings& settings) {
+  const bool has_cells =
+      initial.size() > settings.most_without_cells || scene.periodic != Vector2::Zero();
+  const LeastSpeeds least = least_speeds(scene, initial, settings);
+  const auto make = [&]<class Phase>(std::type_identity<Phase>) -> std::unique_ptr<Engine> {
+    if (has_cells)
+      return std::make_unique<EngineOf<SubstrateWorld<Phase, PlaneCells>, CalendarQueue>>(
+          scene, initial, settings, least, settings.start);
+    return std::make_unique<EngineOf<SubstrateWorld<Phase, AllPairs>, ScanQueue>>(
+        scene, initial, settings, least, settings.start);
+  };
+  engine_ = is_exact(scene) ? make(std::type_identity<SubstratePhase>{})
+                            : make(std::type_identity<DrivenPhase>{});
 }
+
+EventSolver::EventSolver(const EventSolver& other) : engine_(other.engine_->copy()) {}
+EventSolver& EventSolver::operator=(const EventSolver& other) {
+  engine_ = other.engine_->copy();
+  return *this;
+}
+EventSolver::EventSolver(EventSolver&&) noexcept = default;
+EventSolver& EventSolver::operator=(EventSolver&&) noexcept = default;
+EventSolver::~EventSolver() = default;
+
+bool EventSolver::is_exact(const HardScene& scene) {
+  return scene.motion.is_still() && scene.downhill.isZero(0);
+}
+
+bool EventSolver::can_solve(const HardScene& scene) {
+  return !scene.box && std::ranges::all_of(scene.substrate, [](const SubstrateContact& contact) {
+    return contact.coupled_radius == 0 &&
+           (!contact.rolling_while_sliding || contact.rolling.is_zero());
+  });
+}
+
+EventRun EventSolver::run(const RunEnd& end, FrameSink* sink) { return engine_->run(end, sink); }
+double EventSolver::first_contact(double limit) const { return engine_->first_contact(limit); }
+double EventSolver::next_collision(double limit, double slowest) const {
+  return engine_->next_collision(limit, slowest);
+}
+std::vector<BodyState> EventSolver::states() const { return engine_->states(); }
+double EventSolver::now() const { return engine_->now(); }
 
 }  // namespace slipcheck

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "physics/frame.h"
-#include "physics/substrate_phase.h"
 #include "scenario/hard_scene.h"
 
 namespace slipcheck {
@@ -24,7 +24,14 @@ struct EventSettings {
   double collapse_fraction = 1e-6;
   /// A landing that would rebound slower than this fraction of the scene's speed does not.
   double landing_fraction = 1e-10;
-  std::size_t max_events = 20'000'000;
+  double start = 0;  ///< time of the initial states [s]
+  /// More events for each body and simulated second [1/s], > 0, than any rule for collapse can
+  /// still be said to keep finite: the run stops with a reason.
+  double most_events = 1e7;
+  /// Looked at over so many events, and 1000 for each body, that no harmless burst counts; > 0.
+  std::size_t burst = 1'000'000;
+  /// Up to this many bodies on an unbounded plane are each other's neighbours; more have cells.
+  std::size_t most_without_cells = 24;
 };
 
 struct EventRun {
@@ -33,18 +40,38 @@ struct EventRun {
   std::string reason;          ///< why not
   std::size_t events = 0;      ///< collisions, landings and ends of phases
   std::size_t collisions = 0;  ///< of two bodies
-  std::size_t collapses = 0;   ///< of these, the ones below the collapse speed
+  std::size_t collapses = 0;   ///< of these, the ones that the rule for collapse changed
 };
 
-/// Hard spheres on a still, level substrate, from event to event: collisions at the roots of the
-/// exact paths, and between them the exact phases of sliding, rolling, drilling, flight and rest
-/// (SubstratePhase). Nothing is stepped; the only errors are of rounding.
+/// Hard spheres on a substrate, from event to event: collisions at the roots of the exact paths,
+/// and between them the phases of sliding, rolling, drilling, flight and rest, exact on a still,
+/// level plane (SubstratePhase), and to the bound that DrivenPhase states on a tilted or moving
+/// one. Nothing is stepped; on a still, level plane the only errors are of rounding. The cost of an
+/// event does not grow with the number of bodies (SubstrateWorld, EventScheduler), but that of
+/// showing the frames around it does.
+///
+/// On a plane that repeats itself states are unfolded: they go on across the border.
 class EventSolver {
  public:
+  /// `scene` has a substrate and must outlive the solver; can_solve() holds.
   EventSolver(const HardScene& scene, std::span<const BodyState> initial,
               const EventSettings& settings = {});
+  EventSolver(const EventSolver& other);
+  EventSolver& operator=(const EventSolver& other);
+  EventSolver(EventSolver&&) noexcept;
+  EventSolver& operator=(EventSolver&&) noexcept;
+  ~EventSolver();
 
-  /// Runs from time 0 and shows `sink`, where given, the frames before and after each event.
+  /// Whether there are phases for what the substrate does to bodies.
+  static bool can_solve(const HardScene& scene);
+  /// Whether these phases are exact: the substrate is level and still.
+  static bool is_exact(const HardScene& scene);
+
+  /// Runs on to the end and shows `sink`, where given, the frames before and after each event.
+  ///
+  /// Until::rolling and Until::rest ask, whenever nothing slides or flies (moves), whether a
+  /// collision still comes before the limit. The answer is found once and holds until that
+  /// collision; many bodies on an unbounded plane are then looked at in all pairs.
   EventRun run(const RunEnd& end, FrameSink* sink);
 
   /// The time [s] of the first collision of two bodies or landing on the substrate, or infinity
@@ -56,44 +83,14 @@ class EventSolver {
 
   /// All bodies' states now.
   std::vector<BodyState> states() const;
-  double now() const { return now_; }
+  double now() const;
 
  private:
-  struct Moving {
-    SubstratePhase phase;
-    double start = 0;  ///< of the phase [s]
-    double next_collision = 0;
-    std::size_t partner = 0;
-    double phase_end() const { return start + phase.duration(); }
-  };
-  struct Event {
-    double time;
-    std::size_t body;
-    bool is_collision;
-  };
+  class Engine;
+  template <class World, class Queue>
+  class EngineOf;
 
-  BodyState state_of(std::size_t i) const;
-  void set_state(std::size_t i, const BodyState& state);
-  double collision_time(std::size_t i, std::size_t j) const;
-  double approach_speed(std::size_t i, std::size_t j) const;
-  double searched_collision_time(std::size_t i, std::size_t j, double horizon) const;
-  void predict_for(std::size_t i);
-  void predict_after_change(std::span<const std::size_t> changed);
-  Event next_event() const;
-  bool has_ended(const RunEnd& end) const;
-  void handle(const Event& event, FrameSink* sink, EventRun& run);
-  void handle_collision(std::size_t i, FrameSink* sink, EventRun& run);
-  void handle_phase_end(std::size_t i, FrameSink* sink);
-  Touch substrate_touch(std::size_t i) const;
-  void show(FrameSink* sink);
-
-  const HardScene* scene_;
-  EventSettings settings_;
-  double collapse_speed_ = 0;
-  double landing_speed_ = 0;
-  double now_ = 0;
-  std::vector<Moving> bodies_;
-  Frame frame_;
+  std::unique_ptr<Engine> engine_;
 };
 
 /// The largest speed that the bodies bring with them [m/s]: of centres, of surfaces, and of the

@@ -34,7 +34,7 @@ CellGrid plane_grid(const HardScene& scene, std::span<const BodyState> initial) 
     cells[axis] = static_cast<std::uint32_t>(std::clamp(count, length > 0 ? 3.0 : 4.0, 4096.0));
     width[axis] = length > 0 ? length / cells[axis] : edge;
   }
-  return {initial.size(), width[0],     width[1], cells[0], cells[1], scene.periodic.x() > 0,
+  return {initial.size(),        width[0], width[1], cells[0], cells[1], scene.periodic.x() > 0,
           scene.periodic.y() > 0};
 }
 
@@ -131,8 +131,9 @@ void PlaneCells::cross(std::uint32_t i) {
 CellGrid::Shift PlaneCells::nearest_image(const Vector3& x_i, const Vector3& x_j) const {
   const CellGrid::Shift& period = grid_.period();
   CellGrid::Shift shift;
-  if (period.x > 0) shift.x = period.x * std::nearbyint((x_i.x() - x_j.x()) / period.x);
-  if (period.y > 0) shift.y = period.y * std::nearbyint((x_i.y() - x_j.y()) / period.y);
+  // The nearest one in any rounding mode.
+  if (period.x > 0) shift.x = period.x * std::round((x_i.x() - x_j.x()) / period.x);
+  if (period.y > 0) shift.y = period.y * std::round((x_i.y() - x_j.y()) / period.y);
   return shift;
 }
 

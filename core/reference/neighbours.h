@@ -72,9 +72,8 @@ class PlaneCells {
 
   template <class F>
   void for_each_near(std::uint32_t i, F f) const {
-    grid_.for_each_near(i, [&](std::uint32_t j, CellGrid::Shift shift) {
-      f(j, between_paths(i, j, shift));
-    });
+    grid_.for_each_near(
+        i, [&](std::uint32_t j, CellGrid::Shift shift) { f(j, between_paths(i, j, shift)); });
   }
   /// After cross(i).
   template <class F>

@@ -320,8 +320,8 @@ void PlanarWorld::meet(std::uint32_t i, const Surface& surface, double now) {
 CellGrid::Shift PlanarWorld::nearest_image(const Body& a, const Body& b) const {
   const CellGrid::Shift& period = grid_.period();
   CellGrid::Shift shift;
-  if (period.x > 0) shift.x = period.x * std::nearbyint((a.x - b.x) / period.x);
-  if (period.y > 0) shift.y = period.y * std::nearbyint((a.y - b.y) / period.y);
+  if (period.x > 0) shift.x = period.x * std::round((a.x - b.x) / period.x);
+  if (period.y > 0) shift.y = period.y * std::round((a.y - b.y) / period.y);
   return shift;
 }
 

@@ -1,20 +1,20 @@
 #include "reference/reference_solver.h"
 
-#include <algorithm>
-
 namespace slipcheck {
 
 bool has_exact_phases(const HardScene& scene) {
-  const bool plain = std::all_of(
-      scene.substrate.begin(), scene.substrate.end(), [](const SubstrateContact& contact) {
-        const bool rubs_both = contact.rolling_while_sliding && !contact.rolling.is_zero();
-        return contact.coupled_radius == 0 && !rubs_both;
-      });
-  return plain && scene.motion.is_still() && scene.downhill.isZero(0);
+  return EventSolver::can_solve(scene) && EventSolver::is_exact(scene);
 }
 
-ReferenceSolver::ReferenceSolver(const ContactScene& scene, Compare::Reference asked)
-    : scene_(&scene) {
+bool runs_in_phases(const HardScene& scene) {
+  const bool is_large = scene.bodies.size() > EventSettings{}.most_without_cells ||
+                        scene.periodic != Vector2::Zero();
+  return EventSolver::can_solve(scene) && (EventSolver::is_exact(scene) || is_large);
+}
+
+ReferenceSolver::ReferenceSolver(const ContactScene& scene, Compare::Reference asked,
+                                 double most_events)
+    : scene_(&scene), most_events_(most_events) {
   const bool soft = !scene.is_hard();
   resolved_ =
       asked == Compare::Reference::contact || (asked == Compare::Reference::automatic && soft);
@@ -22,14 +22,15 @@ ReferenceSolver::ReferenceSolver(const ContactScene& scene, Compare::Reference a
     hardened_ = scene;
     hardened_->soft.assign(scene.soft.size(), std::nullopt);
   }
-  exact_ = !resolved_ && has_exact_phases(scene.hard);
+  phases_ = !resolved_ && runs_in_phases(scene.hard);
 }
 
 SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
                                const SolverAccuracy& accuracy) const {
   const std::vector<BodyState>& initial = scene().hard.initial;
-  if (exact_) {
+  if (phases_) {
     EventSettings settings;
+    settings.most_events = most_events_;
     settings.collapse_fraction *= accuracy.cut_offs;
     settings.landing_fraction *= accuracy.cut_offs;
     const EventRun run = EventSolver(scene().hard, initial, settings).run(end, sink);
@@ -45,7 +46,7 @@ SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
 }
 
 double ReferenceSolver::first_contact(double limit, double tolerance) const {
-  if (has_exact_phases(scene().hard))
+  if (runs_in_phases(scene().hard))
     return EventSolver(scene().hard, scene().hard.initial).first_contact(limit);
   ContactSettings settings;
   settings.tolerance = tolerance;
@@ -56,7 +57,7 @@ std::vector<BodyState> ReferenceSolver::states_at(double time) const {
   const HardScene& hard = scene().hard;
   if (time == 0) return hard.initial;
   const RunEnd end{Run::Until::time, time, time};
-  if (has_exact_phases(hard)) {
+  if (runs_in_phases(hard)) {
     EventSolver solver(hard, hard.initial);
     solver.run(end, nullptr);
     return solver.states();
@@ -68,8 +69,11 @@ std::vector<BodyState> ReferenceSolver::states_at(double time) const {
 
 double ReferenceSolver::next_collision(std::span<const BodyState> states, double start,
                                        double limit, double slowest) const {
-  if (has_exact_phases(scene().hard))
-    return start + EventSolver(scene().hard, states).next_collision(limit - start, slowest);
+  if (runs_in_phases(scene().hard)) {
+    EventSettings settings;
+    settings.start = start;
+    return EventSolver(scene().hard, states, settings).next_collision(limit, slowest);
+  }
   ContactSettings settings;
   settings.tolerance = 1e-8;  // engines are further off
   settings.start = start;

@@ -17,7 +17,7 @@ struct SolvedRun {
   std::string reason;          ///< why not reached
   std::size_t events = 0;      ///< collisions, landings and changes of mode
   std::size_t collisions = 0;  ///< of two bodies
-  std::size_t collapses = 0;   ///< of these, the ones below the collapse speed (EventSolver)
+  std::size_t collapses = 0;   ///< of these, the ones that the rule for collapse changed
   std::size_t steps = 0;       ///< of the integrator; 0 where phases are exact
   std::optional<EnergyBalance> balance;  ///< where the solver keeps one
 };
@@ -30,16 +30,18 @@ struct SolverAccuracy {
 
 /// The solver that is the truth for a scene, chosen once.
 ///
-/// event: hard contacts. On a level, still substrate exact phases from event to event
-/// (EventSolver); else the phases are integrated (ContactSolver) and collisions are instants.
+/// event: hard contacts, phases from event to event (EventSolver): exact on a level, still substrate,
+/// to DrivenPhase's bound for many bodies on others. Few bodies on a tilted or moving substrate have
+/// their phases integrated (ContactSolver), as do laws without phases; collisions are instants.
 /// contact: soft contacts resolved in time.
 class ReferenceSolver {
  public:
-  /// `scene` must outlive the solver.
-  ReferenceSolver(const ContactScene& scene, Compare::Reference asked);
+  /// `scene` must outlive the solver. most_events [1/s] as of Run.
+  ReferenceSolver(const ContactScene& scene, Compare::Reference asked,
+                  double most_events = Run{}.most_events);
 
   const char* name() const { return resolved_ ? "contact" : "event"; }
-  bool is_exact() const { return exact_; }        ///< no integrator is needed
+  bool is_exact() const { return phases_; }       ///< no integrator is needed
   bool is_resolved() const { return resolved_; }  ///< contacts of bodies last
   /// Contacts that last are taken as instants: `event` was asked for.
   bool hardens() const { return hardened_.has_value(); }
@@ -59,10 +61,13 @@ class ReferenceSolver {
  private:
   const ContactScene* scene_;
   std::optional<ContactScene> hardened_;  ///< event asked for a scene of soft contacts
-  bool exact_, resolved_;
+  bool resolved_, phases_;
+  double most_events_;
 };
 
 /// Whether EventSolver has an exact solution for what bodies do between collisions.
 bool has_exact_phases(const HardScene& scene);
+/// Whether the scene is run from phase to phase: they are exact, or there are many bodies.
+bool runs_in_phases(const HardScene& scene);
 
 }  // namespace slipcheck

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "reference/indexed_heap.h"
+#include "reference/calendar_queue.h"
 
 namespace slipcheck {
 
@@ -17,8 +17,8 @@ class ScanQueue {
 
   void set(std::uint32_t body, double time) { times_[body] = time; }
   /// The body with the earliest time; there is one body at least.
-  IndexedHeap::Entry first() const {
-    IndexedHeap::Entry earliest{times_.front(), 0};
+  QueuedEvent first() const {
+    QueuedEvent earliest{times_.front(), 0};
     for (std::uint32_t i = 1; i < times_.size(); ++i)
       if (times_[i] < earliest.time) earliest = {times_[i], i};
     return earliest;

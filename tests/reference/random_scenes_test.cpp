@@ -111,7 +111,8 @@ TEST(RandomScenes, GainNoEnergyAndNeverOverlap) {
   for (unsigned seed = 0; seed < 400; ++seed) {
     const HardScene scene = random_scene(seed);
     EventSettings settings;
-    settings.max_events = 5000;
+    settings.most_events = 1000;
+    settings.burst = 5000;
     EventSolver solver(scene, scene.initial, settings);
     Watch watch(scene);
     const EventRun run = solver.run({Run::Until::time, 2, 2}, &watch);
