@@ -17,7 +17,7 @@ struct PaperFigure {
   Table table;  ///< every number that is drawn, and the residuals
 };
 
-// One for each figure; K are Kondic's, B those of Brilliantov et al.
+// One for each figure; K are Kondic's, B those of Brilliantov et al., L Luding's.
 PaperFigure figure_k5();   ///< one symmetric collision
 PaperFigure figure_k6();   ///< from it to rolling
 PaperFigure figure_k7();   ///< sliding time and distance over the relative speed
@@ -25,8 +25,18 @@ PaperFigure figure_k8();   ///< slip after asymmetric collisions
 PaperFigure figure_k9();   ///< their sliding times and distances
 PaperFigure figure_k10();  ///< their rolling velocities and effective restitution
 PaperFigure figure_k11();  ///< energy and momentum lost while sliding
+PaperFigure figure_k12();  ///< effective restitution in a gas, over the free path
 PaperFigure figure_b1();   ///< normal restitution of ice
 PaperFigure figure_b2();   ///< tangential restitution of rough ice
+PaperFigure figure_l2();   ///< tangential velocity after a collision over that before
+PaperFigure figure_l7();   ///< energies of translation and rotation over the friction
+PaperFigure figure_l8();   ///< over β0
+PaperFigure figure_l9();   ///< over the shape factor
+PaperFigure figure_l10();  ///< height over the floor's speed, elastic smooth walls
+PaperFigure figure_l11();  ///< dissipative smooth walls
+PaperFigure figure_l12();  ///< rough moving walls
+PaperFigure figure_l13();  ///< over the floor's speed and the number of spheres
+PaperFigure figure_lb();   ///< event driven against contacts that last, App. B
 
 // How the same things look in all of them.
 inline constexpr Look kReference{Ink::black, Line::none, Marker::circle};

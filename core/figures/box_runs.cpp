@@ -1,0 +1,128 @@
+#include "figures/box_runs.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <future>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <thread>
+
+#include "harness/box_observer.h"
+#include "reference/planar_solver.h"
+
+namespace slipcheck {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kSteelDensity = 7850;
+
+/// The error of mean(a)/mean(b) relative to it: that of the mean of a/mean(a) − b/mean(b), to first
+/// order, so that what both have in common does not count.
+double relative_ratio_error(const std::vector<double>& a, double mean_a,
+                            const std::vector<double>& b, double mean_b) {
+  std::vector<double> apart(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) apart[k] = a[k] / mean_a - b[k] / mean_b;
+  return blocked_mean(apart).standard_error;
+}
+
+BoxMeans run_box(const VibratedBox& box, double longer) {
+  const HardScene scene = box.scene();
+  const double flight = 2 * box.speed / kGravity * box.frequency;  // in periods
+  const double discard = std::ceil(std::max(250.0, 10 * flight));
+  const double periods = discard + std::ceil(longer * std::max(1500.0, 60 * flight));
+
+  PlanarSolver solver(scene, scene.initial);
+  BoxSampling sampling;
+  sampling.discard = static_cast<std::size_t>(discard);
+  BoxObserver observer(scene, sampling, [&solver] { return solver.world().collisions(); });
+  const double end = periods / box.frequency;
+  const PlanarRun run = solver.run({Run::Until::time, end, end}, &observer, 1 / box.frequency);
+  if (!run.reached) throw std::runtime_error("vibrated box: " + run.reason);
+
+  const BoxObservables seen = observer.finish();
+  BoxMeans means;
+  means.height = seen.height.mean;
+  means.height_error = seen.height.standard_error;
+  means.kinetic_energy = seen.kinetic_energy.mean;
+  means.ratio = seen.kinetic_energy.mean / seen.rotational_energy.mean;
+  means.ratio_error =
+      means.ratio * relative_ratio_error(observer.series().kinetic_energy, means.kinetic_energy,
+                                         observer.series().rotational_energy,
+                                         seen.rotational_energy.mean);
+  means.collision_rate = seen.collision_rate.mean;
+  means.steady = seen.steady;
+  return means;
+}
+
+}  // namespace
+
+void VibratedBox::set_contacts(double e, double friction, double tangential_restitution) {
+  pair = floor = wall = PairContact{e, friction, tangential_restitution};
+}
+
+HardScene VibratedBox::scene() const {
+  const double radius = diameter / 2;
+  HardScene scene;
+  scene.gravity = kGravity;
+  scene.bodies.assign(
+      count,
+      {radius, kSteelDensity * 4 * std::numbers::pi / 3 * std::pow(radius, 3), shape_factor});
+  scene.material.assign(count, 0);
+  scene.substrate.resize(1);
+  scene.pairs = {pair};
+  scene.box.emplace();
+  scene.box->width = width * diameter;
+  scene.box->floor = {speed / (2 * std::numbers::pi * frequency), frequency};
+  scene.box->moving_walls = moving_walls;
+  scene.box->on_floor = scene.box->on_lid = {floor};
+  scene.box->on_wall = {wall};
+
+  const auto in_row = static_cast<std::size_t>(width - 0.5);
+  const double apart = scene.box->width / static_cast<double>(in_row);
+  std::mt19937_64 random(1995);
+  for (std::size_t i = 0; i < count; ++i) {
+    // The standard's distributions differ between libraries; its generators do not.
+    const double angle = 2 * std::numbers::pi * static_cast<double>(random() >> 11) * 0x1p-53;
+    BodyState state;
+    state.position.x() = (static_cast<double>(i % in_row) + 0.5) * apart;
+    state.position.z() = (0.55 + 1.1 * static_cast<double>(i / in_row)) * diameter;
+    state.velocity = 0.2 * speed * Vector3(std::cos(angle), 0, std::sin(angle));
+    scene.initial.push_back(state);
+  }
+  return scene;
+}
+
+std::vector<BoxMeans> run_boxes(std::span<const VibratedBox> boxes, double longer) {
+  std::vector<BoxMeans> means(boxes.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t k = next++; k < boxes.size(); k = next++) means[k] = run_box(boxes[k], longer);
+  };
+  std::vector<std::future<void>> workers;
+  for (unsigned n = 1; n < std::thread::hardware_concurrency(); ++n)
+    workers.push_back(std::async(std::launch::async, work));
+  work();
+  for (std::future<void>& worker : workers) worker.get();
+  return means;
+}
+
+Curve error_bars(Ink ink, const std::vector<double>& x, const std::vector<double>& y,
+                 const std::vector<double>& error) {
+  Curve bars{"", {ink, Line::solid, Marker::none}, {}, {}};
+  for (std::size_t k = 0; k < x.size(); ++k)
+    for (double end : {y[k] - error[k], y[k] + error[k], static_cast<double>(NAN)}) {
+      bars.x.push_back(x[k]);
+      bars.y.push_back(end);
+    }
+  return bars;
+}
+
+std::vector<double> column(std::span<const BoxMeans> runs, double BoxMeans::*member) {
+  std::vector<double> values;
+  for (const BoxMeans& run : runs) values.push_back(run.*member);
+  return values;
+}
+
+}  // namespace slipcheck
