@@ -113,7 +113,7 @@ EventMeans dilute_box_by_events() {
   PlanarSolver solver(scene, scene.initial);
   BoxObserver observer(scene, after_discard(), [&] { return solver.world().collisions(); });
   const PlanarRun run =
-      reached(solver.run(until_time(after_periods(60'000)), &observer, 1 / box.frequency));
+      reached(solver.run(until_time(after_periods(40'000)), &observer, 1 / box.frequency));
   const double taken_part = static_cast<double>(2 * run.collisions + run.contacts);
   return {observer.finish(), static_cast<double>(box.count) * run.end_time / taken_part};
 }
@@ -124,7 +124,7 @@ BoxObservables dilute_box_by_contacts(double collision_time) {
   const ContactScene scene = softened(box.scene(), collision_time, kSlowing);
   SoftBoxSolver solver(scene, scene.hard.initial, {kSteps});
   BoxObserver observer(scene.hard, after_discard(), [&] { return solver.collisions(); });
-  reached(solver.run(until_time(after_periods(2600)), &observer, 1 / box.frequency));
+  reached(solver.run(until_time(after_periods(2000)), &observer, 1 / box.frequency));
   return observer.finish();
 }
 

@@ -34,9 +34,9 @@ struct EventMeans {
   double between = 0;  ///< t_E, mean time between two collisions of a sphere, with whatever [s]
 };
 
-/// The dilute box from event to event, 60 000 periods.
+/// The dilute box from event to event, 40 000 periods.
 EventMeans dilute_box_by_events();
-/// With contacts that last t_col [s], > 0; 2600 periods.
+/// With contacts that last t_col [s], > 0; 2000 periods.
 BoxObservables dilute_box_by_contacts(double collision_time);
 
 }  // namespace slipcheck

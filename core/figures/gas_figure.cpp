@@ -71,12 +71,12 @@ PaperFigure figure_k12() {
   figure.name = "K12";
   figure.title = "Effective restitution in a gas that rolls and slides";
   LineChart a{"(a) effective restitution",
-              {"l/s, mean free path over sliding distance", true},
+              {"l/s [-], mean free path over sliding distance", true},
               {"e_{eff}", false, 0.3, 1.0},
               {},
               {}};
   LineChart b{"(b) collisions after which both ceased to slide",
-              {"l/s, mean free path over sliding distance", true},
+              {"l/s [-], mean free path over sliding distance", true},
               {"share", false, 0, 1.05},
               {},
               {}};

@@ -339,14 +339,15 @@ double PlanarWorld::exchange_impulse(std::uint32_t i, std::uint32_t j, const Pai
   const Sphere first{a.radius, of_a.mass, of_a.shape_factor};
   const Sphere second{b.radius, of_b.mass, of_b.shape_factor};
   const bool is_slow = !has_elastic_rule() && -u_n < slowest_rebound_;
-  const PlanarImpulse impulse =
+  PlanarImpulse impulse =
       planar_impulse(contact, effective_mass(first, second), tangential_mass_ratio(first, second),
                      u_n, u_t, is_slow ? slowest_rebound_ : 0);
+  // That n is a unit vector but for rounding must not add up over many collisions.
+  impulse.normal *= 2 - (n_x * n_x + n_y * n_y);
   if (is_slow) ++collapses_;
   PlanarVelocity v{a.vx, a.vy, a.spin}, w{b.vx, b.vy, b.spin};
   apply(impulse, n_x, n_y, a.radius, of_a.mass, of_a.shape_factor, v);
-  PlanarImpulse reaction = impulse;
-  apply(reaction, -n_x, -n_y, b.radius, of_b.mass, of_b.shape_factor, w);
+  apply(impulse, -n_x, -n_y, b.radius, of_b.mass, of_b.shape_factor, w);
   const double change_x = of_a.mass * (v.x - a.vx) + of_b.mass * (w.x - b.vx);
   const double change_y = of_a.mass * (v.y - a.vy) + of_b.mass * (w.y - b.vy);
   const double size = std::max(

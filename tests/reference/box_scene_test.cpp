@@ -176,7 +176,7 @@ TEST(BoxScene, BundledScenesOfManyBodiesAreMade) {
                                  "polydisperse", "viscoelastic", "collapse-tc"}) {
     const ContactScene scene = made("box-" + name);
     EXPECT_EQ(scene.hard.bodies.size(), 50u) << name;
-    EXPECT_EQ(scene.hard.box->width, 0.005);
+    EXPECT_EQ(scene.hard.box->width, 0.01);
     EXPECT_NEAR(scene.hard.box->floor.largest_speed(), name == "collapse-tc" ? 0.3 : 1, 1e-4);
     EXPECT_TRUE(scene.is_hard() && scene.warnings.empty()) << name;
     EXPECT_EQ(scene.hard.substrate.size(), 1u) << name;

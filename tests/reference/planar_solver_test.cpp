@@ -183,7 +183,8 @@ TEST(PlanarSolver, NothingOverlapsInManyEvents) {
     const double balance =
         world.energy_at(scheduler.now()) - first - world.work() + world.dissipated();
     const double sum = first + std::abs(world.work()) + world.dissipated();
-    EXPECT_LT(std::abs(balance), (1e-13 + 2e-16 * static_cast<double>(events)) * sum);
+    // Rounding of each collision, at random.
+    EXPECT_LT(std::abs(balance), (1e-13 + 4e-16 * std::sqrt(static_cast<double>(events))) * sum);
     std::printf("%zu events, %zu collisions: deepest overlap %.1e, energy balance %.1e\n", events,
                 world.collisions(), deepest, balance / sum);
   }
