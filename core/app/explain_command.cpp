@@ -6,7 +6,10 @@
 #include <cmath>
 
 #include "app/commands.h"
+#include "app/explain_bodies.h"
+#include "app/explain_box.h"
 #include "app/explain_contacts.h"
+#include "app/explain_gas.h"
 #include "app/explain_pair.h"
 #include "app/explain_rows.h"
 #include "app/load_files.h"
@@ -16,6 +19,8 @@
 #include "harness/reference_run.h"
 #include "harness/scene_features.h"
 #include "physics/closed_forms.h"
+#include "reference/box_solver.h"
+#include "reference/planar_solver.h"
 #include "reference/reference_solver.h"
 #include "scenario/observable_names.h"
 
@@ -27,10 +32,19 @@ void print_solver(const ContactScene& scene, const ReferenceSolver& solver) {
       solver.is_resolved()
           ? (scene.is_hard() ? "asked for by compare.reference; collisions are instants"
                              : "contacts last; all forces are integrated in time")
-      : !scene.is_hard()  ? "asked for by compare.reference; soft contacts become hard ones"
-      : solver.is_exact() ? "every contact is hard; exact phases between collisions"
-                          : "every contact is hard; integrated between collisions";
+      : !scene.is_hard() ? "asked for by compare.reference; soft contacts become hard ones"
+      : has_exact_phases(scene.hard) ? "every contact is hard; exact phases between collisions"
+      : solver.is_exact()
+          ? "every contact is hard; phases between collisions to 1e-13 of the speeds"
+          : "every contact is hard; integrated between collisions";
   fmt::print("  solver: {} ({})\n", solver.name(), text);
+}
+
+void print_solver(const ContactScene& scene, const BoxSolver& solver) {
+  fmt::print("  solver: {} ({})\n", solver.name(),
+             solver.is_resolved() ? "contacts last; their forces are integrated in time"
+             : scene.is_hard() ? "every contact is hard; exact flight from collision to collision"
+                               : "asked for by compare.reference; soft contacts become hard ones");
 }
 
 void print_features(const ContactScene& scene) {
@@ -40,28 +54,6 @@ void print_features(const ContactScene& scene) {
     for (const Feature& feature : features)
       if (feature.needed == needed) fmt::print("    {:<36} {}\n", feature.name, feature.detail);
   }
-}
-
-void print_bodies(const Scenario& scenario, const HardScene& scene) {
-  constexpr std::size_t most = 20;
-  const auto row = [](const std::string& name, const std::string& radius, const std::string& mass,
-                      const std::string& inertia, const std::string& A, const std::string& speed,
-                      const std::string& slip) {
-    fmt::print("    {}{}{}{}{}{}{}\n", padded(shortened(name, 12), 12), padded(radius, 11, true),
-               padded(mass, 12, true), padded(inertia, 20, true), padded(A, 12, true),
-               padded(speed, 13, true), padded(slip, 13, true));
-  };
-  fmt::print("\n  Bodies\n");
-  row("", "R", "m", "I", "A = mR²/I", "speed", "slip");
-  for (std::size_t i = 0; i < std::min(most, scene.bodies.size()); ++i) {
-    const Sphere& s = scene.bodies[i];
-    const BodyState& state = scene.initial[i];
-    row(scenario.bodies[i].name, quantity(s.radius, kLength), quantity(s.mass, kMass),
-        in_unit(s.moment_of_inertia(), "kg m²"), fmt::format("{:.4g}", s.inverse_shape_factor()),
-        quantity(state.velocity.norm(), kVelocity),
-        quantity((slip_velocity(state, s.radius) - scene.motion.velocity(0)).norm(), kVelocity));
-  }
-  if (scene.bodies.size() > most) fmt::print("    and {} more\n", scene.bodies.size() - most);
 }
 
 /// What tilt and motion do to a body that rolls, K (17), (22)-(25).
@@ -170,26 +162,41 @@ void print_engines(const Scenario& scenario, const HardScene& scene) {
   }
 }
 
+void explain_in_box(const Scenario& scenario, const ContactScene& scene) {
+  const BoxSolver solver(scene, scenario.compare.reference, scenario.run.most_events);
+  print_solver(scene, solver);
+  print_features(solver.is_resolved() ? scene : with_hard_contacts(scene.hard));
+  explain_bodies(scenario, scene.hard);
+  explain_box(scenario, scene);
+  const double speed = planar_speed_scale(scene.hard, scene.hard.initial);
+  explain_contacts(scenario, scene, std::nullopt, speed > 0 ? speed : 1);
+}
+
+void explain_on_substrate(const Scenario& scenario, const ContactScene& scene) {
+  const ReferenceSolver solver(scene, scenario.compare.reference);
+  const RunEnd end = run_end(scenario);
+  const auto meeting = first_meeting(scene, end.until == Run::Until::time ? end.time : end.limit);
+  print_solver(scene, solver);
+  print_features(solver.scene());
+  explain_bodies(scenario, scene.hard);
+  print_substrate(scenario, scene.hard);
+  explain_gas(scene.hard);
+  explain_contacts(scenario, scene, meeting, 1);
+  if (meeting) explain_meeting(scenario, scene, *meeting);
+  print_expectations(scenario, scene, solver);
+}
+
 void explain(const Scenario& scenario) {
   fmt::print("{}  {}\n", scenario.name, scenario.title);
   if (!scenario.source.empty()) fmt::print("  source: {}\n", scenario.source);
   ContactScene scene;
   try {
     scene = make_contact_scene(scenario);
+    scene.hard.box ? explain_in_box(scenario, scene) : explain_on_substrate(scenario, scene);
   } catch (const Unsupported& unsupported) {
     fmt::print("\n  No solver for this scene:\n{}\n", unsupported.what());
     return;
   }
-  const ReferenceSolver solver(scene, scenario.compare.reference);
-  const RunEnd end = run_end(scenario);
-  const auto meeting = first_meeting(scene, end.until == Run::Until::time ? end.time : end.limit);
-  print_solver(scene, solver);
-  print_features(scene);
-  print_bodies(scenario, scene.hard);
-  print_substrate(scenario, scene.hard);
-  explain_contacts(scenario, scene, meeting);
-  if (meeting) explain_meeting(scenario, scene, *meeting);
-  print_expectations(scenario, scene, solver);
   print_warnings(scene);
   print_engines(scenario, scene.hard);
 }

@@ -14,26 +14,57 @@
 namespace slipcheck {
 namespace {
 
-/// Two bodies that have a contact, and how fast they meet.
+/// Who has a contact, and how fast they meet.
 struct Partners {
-  std::size_t first = 0, second = 0;
-  double speed = 1;  ///< [m/s]
+  std::string names;  ///< "i and j"
+  double mass = 0;    ///< effective [kg]
+  double speed = 1;   ///< [m/s]
+  const PairContact* hard = nullptr;
+  const std::optional<SoftContact>* soft = nullptr;
 };
 
+Partners bodies(const Scenario& scenario, const ContactScene& scene, std::size_t i, std::size_t j,
+                double speed) {
+  return {scenario.bodies[i].name + " and " + scenario.bodies[j].name,
+          effective_mass(scene.hard.bodies[i], scene.hard.bodies[j]), speed,
+          &scene.hard.between(i, j), &scene.between(i, j)};
+}
+
+/// The first body that meets the floor, walls or lid by this contact.
+std::optional<Partners> at_surface(const Scenario& scenario, const ContactScene& scene,
+                                   const BodyContact& contact, double speed) {
+  const Box& box = *scene.hard.box;
+  const SoftBox& soft = scene.soft_box;
+  const bool floor = contact.second == "floor", wall = contact.second == "wall";
+  if (!floor && !wall && !box.lid) return std::nullopt;
+  const auto& hard_ones = floor ? box.on_floor : wall ? box.on_wall : box.on_lid;
+  const auto& soft_ones = floor ? soft.on_floor : wall ? soft.on_wall : soft.on_lid;
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    if (scenario.bodies[i].material != contact.first) continue;
+    const std::size_t material = scene.hard.material[i];
+    return Partners{scenario.bodies[i].name, scene.hard.bodies[i].mass, speed, &hard_ones[material],
+                    &soft_ones[material]};
+  }
+  return std::nullopt;
+}
+
 /// Those that meet first, if it is their contact; else the first two that can have it.
-std::optional<Partners> partners(const Scenario& scenario, const BodyContact& contact,
-                                 const std::optional<Meeting>& meeting) {
+std::optional<Partners> partners(const Scenario& scenario, const ContactScene& scene,
+                                 const BodyContact& contact, const std::optional<Meeting>& meeting,
+                                 double typical_speed) {
+  if (contact.second == "floor" || contact.second == "wall" || contact.second == "lid")
+    return at_surface(scenario, scene, contact, typical_speed);
   const auto have_it = [&](std::size_t i, std::size_t j) {
     const std::string &a = scenario.bodies[i].material, &b = scenario.bodies[j].material;
     return (a == contact.first && b == contact.second) ||
            (a == contact.second && b == contact.first);
   };
-  const double speed = meeting ? meeting->closing_speed() : 1;
+  const double speed = meeting ? meeting->closing_speed() : typical_speed;
   if (meeting && have_it(meeting->first, meeting->second))
-    return Partners{meeting->first, meeting->second, speed};
+    return bodies(scenario, scene, meeting->first, meeting->second, speed);
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i)
     for (std::size_t j = i + 1; j < scenario.bodies.size(); ++j)
-      if (have_it(i, j)) return Partners{i, j, speed};
+      if (have_it(i, j)) return bodies(scenario, scene, i, j, speed);
   return std::nullopt;
 }
 
@@ -126,7 +157,7 @@ void print_hard(const PairContact& contact, double speed) {
   print_row("e_n", pure(restitution_at(contact.restitution, speed)),
             "restitution at " + quantity(speed, kVelocity));
   if (contact.friction == 0) return;
-  print_row("μ", pure(contact.friction), "friction between the bodies");
+  print_row("μ", pure(contact.friction), "friction");
   print_row("β0", pure(contact.tangential_restitution), "tangential restitution where it sticks");
 }
 
@@ -147,26 +178,23 @@ std::optional<LinearContact> linear_contact_between(const ContactScene& scene, s
 }
 
 void explain_contacts(const Scenario& scenario, const ContactScene& scene,
-                      const std::optional<Meeting>& meeting) {
+                      const std::optional<Meeting>& meeting, double typical_speed) {
   constexpr const char* kNormal[] = {"linear", "hertz", "power", "viscoelastic, expanded",
                                      "viscoelastic, compact"};
   constexpr const char* kTangential[] = {"no rubbing", "viscous rubbing", "asperities"};
   for (const BodyContact& contact : scenario.contacts) {
-    const auto found = partners(scenario, contact, meeting);
+    const auto found = partners(scenario, scene, contact, meeting, typical_speed);
     if (!found) continue;
-    const std::size_t i = found->first, j = found->second;
-    const double speed = found->speed;
-    fmt::print("\n  Contact {} on {} ({} and {}): ", contact.first, contact.second,
-               scenario.bodies[i].name, scenario.bodies[j].name);
-    const auto& soft = scene.between(i, j);
+    const double speed = found->speed, mass = found->mass;
+    fmt::print("\n  Contact {} on {} ({}): ", contact.first, contact.second, found->names);
+    const std::optional<SoftContact>& soft = *found->soft;
     if (!soft) {
       fmt::print("hard\n");
-      print_hard(scene.hard.between(i, j), speed);
+      print_hard(*found->hard, speed);
       continue;
     }
     fmt::print("{}, {}, {}\n", kNormal[soft->normal.index()], end_name(soft->end),
                kTangential[soft->tangential.index()]);
-    const double mass = effective_mass(scene.hard.bodies[i], scene.hard.bodies[j]);
     std::visit([&](const auto& law) { print_normal(law, *soft, mass, speed); }, soft->normal);
     std::visit([&](const auto& law) { print_tangential(law, mass); }, soft->tangential);
     if (!std::holds_alternative<LinearForce>(soft->normal) &&

@@ -10,6 +10,8 @@ namespace {
 /// Keeps the last states before two bodies touch.
 class UntilTouch final : public FrameSink {
  public:
+  explicit UntilTouch(const Vector2& periodic) : periodic_(periodic) {}
+
   void take(double time, const Frame& frame) override {
     if (found) return;
     for (const Touch& touch : frame.touches) {
@@ -20,7 +22,7 @@ class UntilTouch final : public FrameSink {
       meeting.time = time;
       meeting.a = before_[meeting.first];
       meeting.b = before_[meeting.second];
-      meeting.n = (meeting.b.position - meeting.a.position).normalized();
+      meeting.n = to_nearest_image(meeting.b.position - meeting.a.position).normalized();
       found = meeting;
       return;
     }
@@ -30,18 +32,25 @@ class UntilTouch final : public FrameSink {
   std::optional<Meeting> found;
 
  private:
+  Vector3 to_nearest_image(Vector3 apart) const {
+    for (int k = 0; k < 2; ++k)
+      if (periodic_[k] > 0) apart[k] -= periodic_[k] * std::round(apart[k] / periodic_[k]);
+    return apart;
+  }
+
+  Vector2 periodic_;
   std::vector<BodyState> before_;
 };
 
 }  // namespace
 
 std::optional<Meeting> first_meeting(const ContactScene& scene, double limit) {
-  if (scene.hard.bodies.size() < 2) return std::nullopt;
+  if (scene.hard.bodies.size() < 2 || scene.hard.box) return std::nullopt;
   const ContactScene hard = with_hard_contacts(scene.hard);
   const ReferenceSolver solver(hard, Compare::Reference::event);
   const double time = solver.next_collision(hard.hard.initial, 0, limit, 0);
   if (!(time <= limit)) return std::nullopt;
-  UntilTouch sink;
+  UntilTouch sink(scene.hard.periodic);
   const double end = time * (1 + 1e-6) + 1e-12;
   solver.run({Run::Until::time, end, end}, &sink);
   return sink.found;

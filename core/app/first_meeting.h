@@ -20,7 +20,7 @@ struct Meeting {
 };
 
 /// Follows the scene, its contacts taken as hard, until two bodies touch; nothing if none do before
-/// `limit` [s].
+/// `limit` [s], nor in a box, where the first of many collisions says little.
 std::optional<Meeting> first_meeting(const ContactScene& scene, double limit);
 
 }  // namespace slipcheck

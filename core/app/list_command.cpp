@@ -91,11 +91,12 @@ Json list_observables() {
   return list;
 }
 
-/// The solvers that take a model. Between bodies, `event` takes hard contacts and `contact` soft
-/// ones; what the substrate does, both take.
+/// The solvers that take a model. Between bodies, `event` takes hard contacts, which alone can
+/// collapse, and `contact` soft ones; what the substrate does, both take.
 Json solvers_of(const std::string& key, const std::string& model) {
   if (key == "normal") return {model == "hard" ? "event" : "contact"};
   if (key == "tangential" && model != "none") return {model == "hard" ? "event" : "contact"};
+  if (key == "collapse") return {"event"};
   return {"event", "contact"};
 }
 

@@ -4,42 +4,15 @@
 
 #include <algorithm>
 
+#include "harness/box_features.h"
+#include "harness/contact_kinds.h"
+
 namespace slipcheck {
 namespace {
 
-/// Between bodies of the scene, by what the contact is.
-struct PairKinds {
-  bool any_soft = false;
-  bool viscous = false, asperity = false, impulse = false;  // of rubbing
-  bool speed_law = false;                                   // of a hard restitution
-};
-
-PairKinds pair_kinds(const ContactScene& scene) {
-  PairKinds kinds;
-  if (scene.hard.bodies.size() < 2) return kinds;
-  for (std::size_t k = 0; k < scene.soft.size(); ++k) {
-    if (const auto& soft = scene.soft[k]) {
-      kinds.any_soft = true;
-      kinds.viscous |= std::holds_alternative<ViscousForce>(soft->tangential);
-      kinds.asperity |= std::holds_alternative<AsperityForce>(soft->tangential);
-    } else {
-      const PairContact& hard = scene.hard.pairs[k];
-      kinds.impulse |= hard.friction > 0;
-      kinds.speed_law |= !std::holds_alternative<double>(hard.restitution);
-    }
-  }
-  return kinds;
-}
-
-std::string rubbing_detail(const PairKinds& kinds) {
-  std::string text;
-  const auto add = [&](bool has, const char* what) {
-    if (has) text += (text.empty() ? "" : ", ") + std::string(what);
-  };
-  add(kinds.impulse, "Coulomb friction with restitution beta0");
-  add(kinds.viscous, "viscous up to Coulomb's cap");
-  add(kinds.asperity, "asperities that bend and break");
-  return text.empty() ? "the impulse is normal" : text;
+ContactKinds pair_kinds(const ContactScene& scene) {
+  if (scene.hard.bodies.size() < 2) return {};
+  return contact_kinds(scene.hard.pairs, scene.soft);
 }
 
 bool any_substrate(const HardScene& scene, bool (*has)(const SubstrateContact&)) {
@@ -64,9 +37,10 @@ bool unlike_radii(const HardScene& scene) {
 
 std::vector<Feature> scene_features(const ContactScene& contacts) {
   const HardScene& scene = contacts.hard;
-  const PairKinds kinds = pair_kinds(contacts);
+  if (scene.box) return box_features(contacts);
+  const ContactKinds kinds = pair_kinds(contacts);
   const bool collisions = scene.bodies.size() > 1;
-  const bool rubbing = kinds.impulse || kinds.viscous || kinds.asperity;
+  const bool rubbing = kinds.rubs();
   const bool sliding =
       any_substrate(scene, [](const SubstrateContact& c) { return c.kinetic_friction > 0; });
   const bool rolling =
@@ -82,6 +56,7 @@ std::vector<Feature> scene_features(const ContactScene& contacts) {
   });
   const bool tilted = !scene.downhill.isZero(0), moving = !scene.motion.is_still();
   const bool exact = !tilted && !moving && !coupled && !rolls_sliding;
+  const bool periodic = scene.periodic != Vector2::Zero();
   const bool bounces =
       any_substrate(scene, [](const SubstrateContact& c) { return c.restitution > 0; });
   const bool jumps = !scene.confined && (starts_above(scene) || bounces ||
@@ -95,7 +70,7 @@ std::vector<Feature> scene_features(const ContactScene& contacts) {
        kinds.speed_law  ? "a law of hard contacts"
        : kinds.any_soft ? "it follows from the forces"
                         : "one number for all speeds"},
-      {"rubbing at collisions", rubbing, rubbing_detail(kinds)},
+      {"rubbing at collisions", rubbing, kinds.rubbing()},
       {"sliding friction on the substrate", sliding,
        !sliding ? "what slides goes on sliding"
        : exact  ? "straight slip, parabolic paths"
@@ -109,8 +84,10 @@ std::vector<Feature> scene_features(const ContactScene& contacts) {
        coupled    ? "coupled to the sliding: integrated"
        : drilling ? "uncoupled from the sliding"
                   : "spins about the vertical last"},
-      {"tilted substrate", tilted, tilted ? "gravity along the plane: integrated" : "level"},
-      {"moving substrate", moving, moving ? "integrated" : "still"},
+      {"tilted substrate", tilted, tilted ? "gravity along the plane" : "level"},
+      {"moving substrate", moving, moving ? "the slip's direction turns" : "still"},
+      {"periodic cell", periodic,
+       periodic ? "bodies meet the images of others across its edges" : "the plane has no edges"},
       {"flight and landing", jumps,
        jumps ? "bodies can leave the substrate" : "bodies stay on the substrate"},
   };

@@ -38,6 +38,13 @@ void add_error(const Deviation& deviation, const Dimension& dimension, Compariso
     row.severity = std::numeric_limits<double>::infinity();
 }
 
+/// "0.03", "4", "400": one significant digit, without a power of ten while it stays readable.
+std::string one_digit(double value) {
+  if (value < 9.5 || value >= 1e6) return fmt::format("{:.1g}", value);
+  const double unit = std::pow(10, std::floor(std::log10(value)));
+  return fmt::format("{:.0f}", std::round(value / unit) * unit);
+}
+
 }  // namespace
 
 const char* symbol_of(Mark mark) {
@@ -53,8 +60,9 @@ QuantityFormat format_for(const SceneRecord& scene, const std::string& name,
   double magnitude = 0;
   if (ensemble) magnitude = std::max(std::abs(ensemble->min), std::abs(ensemble->max));
   if (const UncertainValue* value = find(scene.reference.observables, name)) {
-    // A zero with its rounding errors has no magnitude of its own.
-    const bool is_zero = std::abs(value->value) <= 10 * value->uncertainty;
+    // A zero with its rounding errors has no magnitude of its own; an uncertain mean has.
+    const double factor = scene.reference.box ? 1 : 10;
+    const bool is_zero = std::abs(value->value) <= factor * value->uncertainty;
     if (!ensemble || (!is_zero && std::abs(value->value) > 1e-4 * magnitude))
       magnitude = is_zero && std::isfinite(value->uncertainty) ? 0 : std::abs(value->value);
   }
@@ -93,9 +101,9 @@ std::string reference_text(const SceneRecord& scene, const std::string& name,
   std::string text = format.number(value->value);
   const bool is_zero = std::abs(value->value) <= 1e-9 * format.factor();
   if (!is_zero && value->uncertainty > 1e-9 * std::abs(value->value))
-    text += std::isfinite(value->uncertainty)
-                ? fmt::format(" ± {:.1g}", value->uncertainty / format.factor())
-                : " ± ∞";
+    text +=
+        " ± " + (std::isfinite(value->uncertainty) ? one_digit(value->uncertainty / format.factor())
+                                                   : std::string("∞"));
   return format.unit().empty() ? text : text + " " + format.unit();
 }
 
@@ -150,9 +158,20 @@ std::string run_name(const EngineRecord& run) {
 
 std::string reference_summary(const ReferenceResult& reference) {
   const SolvedRun& run = reference.run;
-  return fmt::format("{} solver, {} collision{}, ends at {}, {} of CPU time", reference.solver,
-                     run.collisions, run.collisions == 1 ? "" : "s", quantity(run.end_time, kTime),
-                     quantity(reference.cpu_seconds, kTime, 2));
+  std::string text =
+      fmt::format("{} solver, {} collision{}, ends at {}, {} of CPU time", reference.solver,
+                  run.collisions, run.collisions == 1 ? "" : "s", quantity(run.end_time, kTime),
+                  quantity(reference.cpu_seconds, kTime, 2));
+  if (reference.box) text += "; " + sampling_summary(*reference.box);
+  return text;
+}
+
+std::string sampling_summary(const BoxReference& box) {
+  std::string text =
+      fmt::format("means over {} sample{}", box.samples, box.samples == 1 ? "" : "s");
+  if (box.discarded > 0)
+    text += fmt::format(" after {} period{}", box.discarded, box.discarded == 1 ? "" : "s");
+  return text + (box.steady ? ", steady" : ", NOT steady") + "; ± holds the true mean with 95 %";
 }
 
 std::string step_cost(const EngineRecord& run) {

@@ -58,8 +58,11 @@ std::vector<ComparisonRow> most_severe(std::vector<ComparisonRow> rows, std::siz
 /// "bullet 3.24 double, profile default, 240 Hz"
 std::string run_name(const EngineRecord& run);
 
-/// "event solver, 1 collision, ends at 83.01 ms, 2.1 µs of CPU time"
+/// "event solver, 1 collision, ends at 83.01 ms, 2.1 µs of CPU time", for a box with what follows.
 std::string reference_summary(const ReferenceResult& reference);
+
+/// "means over 250 samples after 50 periods, steady; ± holds the true mean with 95 %"
+std::string sampling_summary(const BoxReference& box);
 
 /// "3.1 µs/step", empty where nothing was stepped.
 std::string step_cost(const EngineRecord& run);

@@ -85,9 +85,11 @@ std::string html_charts(const SceneRecord& scene, const std::vector<std::string>
   std::string part = "<h3>Phase by phase</h3>\n";
   part += html_paragraph(
       "faint", "",
-      "Each mark is one run. The runs of a strip differ only in where within a time step the first "
-      "contact falls: from top to bottom the start is shifted through one step. The line is the "
-      "reference, the shaded band the tolerance; ● within, × outside, ◀ ▶ beyond the axis.");
+      fmt::format(
+          "Each mark is one run. The runs of a strip differ only in where within a time step "
+          "{}: from top to bottom the start is shifted through one step. The line is the "
+          "reference, the shaded band the tolerance; ● within, × outside, ◀ ▶ beyond the axis.",
+          scene.reference.box ? "they start" : "the first contact falls"));
   part += "<div class=\"charts\">\n" + html + "</div>\n";
   if (left_out > 0)
     part += html_paragraph("faint", "",

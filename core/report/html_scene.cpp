@@ -10,6 +10,7 @@
 #include "report/html_text.h"
 #include "report/scene_drawing.h"
 #include "report/selection.h"
+#include "report/time_chart.h"
 
 namespace slipcheck {
 namespace {
@@ -43,7 +44,10 @@ std::string reference_part(const SceneRecord& scene, const std::vector<std::stri
   std::string html = "<div class=\"reference\"><h3>The reference</h3>\n" +
                      html_paragraph("faint", "", reference_summary(reference));
   html += html_table("Reference values",
-                     {{"observable", ""}, {"value", "number"}, {"closed form", ""}}, rows);
+                     {{"observable", ""},
+                      {"value", "number"},
+                      {reference.closed_form.empty() && absent.empty() ? "" : "closed form", ""}},
+                     rows);
   if (names.size() > rows.size())
     html += html_paragraph("faint", "",
                            fmt::format("… {} observables more", names.size() - rows.size()));
@@ -154,7 +158,7 @@ std::string html_scene(const SceneRecord& scene, const std::string& id) {
   html += html_paragraph("faint", "", scenario.source);
   html += "<div class=\"setting\">\n" + scene_drawing(scenario) + reference_part(scene, names) +
           "</div>\n";
-  html += html_charts(scene, names);
+  html += html_time_charts(scene) + html_charts(scene, names);
   if (!scene.runs.empty()) html += "<h3>Engine by engine</h3>\n";
   for (const EngineRecord& run : scene.runs) html += run_part(scene, run, names);
   return html + "</section>\n";

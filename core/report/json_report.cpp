@@ -1,5 +1,8 @@
 #include "report/json_report.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "report/context.h"
@@ -39,6 +42,40 @@ Json strings(const std::vector<std::string>& texts) {
   return list;
 }
 
+constexpr std::size_t kMostPoints = 2000;  ///< of a series
+
+/// Every `stride`-th of the values from the first on.
+Json thinned(const std::vector<double>& values, std::size_t stride) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < values.size(); k += stride) list.push_back(number_or_null(values[k]));
+  return list;
+}
+
+Json statistics_json(const BoxReference& box) {
+  Json json;
+  json["samples"] = box.samples;
+  json["discarded_periods"] = box.discarded;
+  json["steady"] = box.steady;
+  const std::size_t count = box.series.time.size();
+  const std::size_t stride = std::max<std::size_t>(1, (count + kMostPoints - 1) / kMostPoints);
+  json["stride"] = stride;
+  Json& series = json["series"];
+  series["time"] = thinned(box.series.time, stride);
+  series["height"] = thinned(box.series.height, stride);
+  series["kinetic_energy"] = thinned(box.series.kinetic_energy, stride);
+  series["rotational_energy"] = thinned(box.series.rotational_energy, stride);
+  series["collision_rate"] = thinned(box.series.collision_rate, stride);
+  return json;
+}
+
+/// Why an uncertainty has no bound.
+std::string no_bound(const ReferenceResult& reference) {
+  if (reference.box)
+    return fmt::format("the uncertainty is not known: of fewer than {} samples a mean has no error",
+                       kFewestForAnError);
+  return "the uncertainty is unbounded: another rounding does not show the observable";
+}
+
 Json reference_json(const SceneRecord& scene) {
   const ReferenceResult& reference = scene.reference;
   Json json;
@@ -49,6 +86,7 @@ Json reference_json(const SceneRecord& scene) {
   json["events"] = reference.run.events;
   json["steps"] = reference.run.steps;
   if (reference.run.balance) put(json, "energy_error", reference.run.balance->error());
+  if (reference.box) json["statistics"] = statistics_json(*reference.box);
 
   // In alphabetical order, what is absent between what is shown.
   std::map<std::string, Json> observables;
@@ -56,9 +94,7 @@ Json reference_json(const SceneRecord& scene) {
     Json& entry = observables[name];
     put(entry, "value", value.value);
     put(entry, "uncertainty", value.uncertainty,
-        std::isinf(value.uncertainty)
-            ? "the uncertainty is unbounded: another rounding does not show the observable"
-            : "");
+        std::isinf(value.uncertainty) ? no_bound(reference) : "");
   }
   for (const auto& [name, reason] : absent_observables(scene))
     observables[name] = {{"value", nullptr}, {"uncertainty", nullptr}, {"reason", reason}};

@@ -94,9 +94,9 @@ std::optional<PhaseSpread> phase_spread(const SceneRecord& scene, const std::str
   const bool is_distance = observable->is_vector && name.ends_with(observable->name);
   const double value = is_distance ? 0 : reference->second.value;
   const double scale = is_distance ? vector_scale(scene, name) : std::abs(value);
-  // Never narrower than what the reference itself knows.
-  const double margin = std::max(*deviation->tolerance * (deviation->absolute ? 1 : scale),
-                                 10 * reference->second.uncertainty);
+  // Never narrower than what the reference itself knows, but for means, whose error is no rounding.
+  const double known = scene.reference.box ? 0 : 10 * reference->second.uncertainty;
+  const double margin = std::max(*deviation->tolerance * (deviation->absolute ? 1 : scale), known);
   if (!std::isfinite(value) || !std::isfinite(margin)) return {};
 
   PhaseSpread spread;

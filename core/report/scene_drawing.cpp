@@ -43,11 +43,18 @@ class View {
     }
     if (from_side_) cover(Vector2(0.5 * (low.x() + high.x()), 0), 0);
     if (const auto* box = std::get_if<Container>(&scenario.surroundings)) {
-      cover(Vector2(0, 0), 0);
-      cover(Vector2(box->width, 0), 0);
+      cover(Vector2(0, -box->floor_amplitude), 0);
+      cover(Vector2(box->width, box->floor_amplitude), 0);
+      if (box->height) cover(Vector2(0, *box->height), 0);
     }
-    // The fastest body's arrow is a quarter of the balls' extent.
-    if (fastest > 0) arrow_time_ = 0.25 * (high - low).maxCoeff() / fastest;
+    if (const auto* plane = std::get_if<Substrate>(&scenario.surroundings);
+        plane && plane->periodic && !from_side_) {
+      cover(Vector2::Zero(), 0);
+      cover(*plane->periodic, 0);
+    }
+    // The fastest body's arrow is a quarter of the balls' extent, less where there are many.
+    const double longest = scenario.bodies.size() > kMostNames ? 0.05 : 0.25;
+    if (fastest > 0) arrow_time_ = longest * (high - low).maxCoeff() / fastest;
     for (const Body& body : scenario.bodies)
       cover(seen(body.initial.position) + arrow_time_ * seen(body.initial.velocity), 0);
     const Vector2 extent = high - low;
@@ -154,16 +161,39 @@ std::string caption(const Scenario& scenario, const View& view) {
   return text;
 }
 
+/// How far the floor swings: thin lines at its lowest and its highest.
+std::string swing_of_floor(const Container& box, const View& view) {
+  std::string svg;
+  for (const double z : {-box.floor_amplitude, box.floor_amplitude}) {
+    const Vector2 from = view.place(Vector3(0, 0, z)), to = view.place(Vector3(box.width, 0, z));
+    svg += fmt::format("M{:.1f} {:.1f}H{:.1f}", from.x(), from.y(), to.x());
+  }
+  return fmt::format("<path class=\"sway\" d=\"{}\"/>\n", svg);
+}
+
+/// The periodic cell in whose lower left corner the scene's origin lies.
+std::string cell_of(const Scenario& scenario, const View& view) {
+  const auto* substrate = std::get_if<Substrate>(&scenario.surroundings);
+  if (!substrate || !substrate->periodic || view.from_side()) return {};
+  const Vector2 lengths = *substrate->periodic;
+  const Vector2 from = view.place(Vector3::Zero());
+  const Vector2 to = view.place(Vector3(lengths.x(), lengths.y(), 0));
+  return fmt::format("<path class=\"cell\" d=\"M{0:.1f} {1:.1f}H{2:.1f}V{3:.1f}H{0:.1f}Z\"/>\n",
+                     from.x(), from.y(), to.x(), to.y());
+}
+
 std::string surroundings(const Scenario& scenario, const View& view) {
   const double left = view.place(Vector3::Zero()).x(), ground = view.place(Vector3::Zero()).y();
   if (const auto* box = std::get_if<Container>(&scenario.surroundings)) {
     const double top = box->height ? ground - view.scale() * *box->height : 0;
     const double right = left + view.scale() * box->width;
+    const bool swings = box->floor_amplitude > 0 && box->floor_frequency > 0;
     return fmt::format(
-        "<path class=\"ground\" d=\"M{0:.1f} {1:.1f}V{2:.1f}H{3:.1f}V{1:.1f}{4}\"/>\n", left,
-        std::max(top, 0.0), ground, right, box->height ? "Z" : "");
+               "<path class=\"ground\" d=\"M{0:.1f} {1:.1f}V{2:.1f}H{3:.1f}V{1:.1f}{4}\"/>\n", left,
+               std::max(top, 0.0), ground, right, box->height ? "Z" : "") +
+           (swings ? swing_of_floor(*box, view) : "");
   }
-  if (!view.from_side()) return {};
+  if (!view.from_side()) return cell_of(scenario, view);
   return fmt::format("<path class=\"ground\" d=\"M0 {0:.1f}H{1}\"/>\n", ground, kWidth);
 }
 

@@ -143,10 +143,14 @@ class CommandLine(unittest.TestCase):
 
     def test_model_without_a_solver_is_refused_by_name(self):
         file = self.scene("")
-        file.write_text(file.read_text().replace("substrate: {}", "substrate: {periodic: [4, 4]}"))
+        text = file.read_text()
+        for old, new in self.UNSUPPORTED:
+            text = text.replace(old, new)
+        file.write_text(text)
         result = run("run", file)
         self.assertEqual(result.returncode, 2)
-        self.assertRegex(result.stderr, r"pair\.yaml:10:\d+: substrate\.periodic: .*")
+        self.assertRegex(result.stderr, r"pair\.yaml:8:\d+: contacts\[0\]\.normal\.restitution: .*"
+                                        r"materials\.steel\.dissipation_time")
 
     def test_killed_worker_leaves_every_other_run_intact_and_exit_3(self):
         bullet = "{engine: bullet, precision: double, rate: [240, 1000]}"
@@ -240,6 +244,7 @@ class CommandLine(unittest.TestCase):
                 ("normal", "hard", ["event"]), ("normal", "hertz", ["contact"]),
                 ("tangential", "asperity", ["contact"]), ("tangential", "hard", ["event"]),
                 ("drilling", "coupled", ["event", "contact"]),
+                ("collapse", "contact_time", ["event"]),
                 ("motion", "oscillate", ["event", "contact"])):
             self.assertEqual(solvers[key, model], expected, model)
         self.assertIn("bullet", run("list", "engines").stdout)
@@ -269,6 +274,10 @@ class CommandLine(unittest.TestCase):
                 rows.setdefault(match[1], match[2])
         return result.stdout, rows
 
+    # A restitution over the speed for which the material lacks its dissipation_time.
+    UNSUPPORTED = (("{model: hard, restitution: 0.9}", "{model: hard, restitution: viscoelastic}"),
+                   ("{density: 7.85}",
+                    "{density: 7.85, young_modulus: 2.06e12, poisson_ratio: 0.28}"))
     LINEAR = ("{model: hard, restitution: 0.9}",
               "{model: linear, restitution: 0.9, collision_time: 2.55e-5}")
     VISCOUS = ("{model: none}", "{model: viscous, damping_ratio: 0.5, friction: 0.5}")
@@ -324,9 +333,110 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(rows["a_roll"].split()[0], f"{2 / 7 * 1e-3 * (10 * math.pi)**2:.5g}")
 
     def test_explain_names_what_no_solver_takes(self):
-        text, _ = self.explained(("substrate: {}", "substrate: {periodic: [4, 4]}"))
+        text, _ = self.explained(*self.UNSUPPORTED)
         self.assertIn("No solver for this scene", text)
-        self.assertIn("substrate.periodic", text)
+        self.assertIn("contacts[0].normal.restitution", text)
+
+    def explained_file(self, file):
+        """What `explain` says of a file: (text, rows by symbol, what is needed, what is left out)."""
+        result = run("explain", file)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = {}
+        for line in result.stdout.splitlines():
+            match = re.match(r"    (\S.*?) {2,}(\S+(?: \S+)?)  \S", line)
+            if match:
+                rows.setdefault(match[1], match[2])
+        needs, left_out = result.stdout.split("  Needs\n")[1].split("  Bodies\n")[0].split(
+            "  Left out\n")
+        return result.stdout, rows, needs, left_out
+
+    def test_explain_of_a_vibrated_box(self):
+        text, rows, needs, left_out = self.explained_file(SCENES / "box-rough-moving-walls.yaml")
+        self.assertRegex(text, r"solver: event \(every contact is hard")
+        for feature in ("collisions of two bodies", "rubbing at collisions",
+                        "rubbing at floor, walls and lid", "vibrating floor", "moving walls",
+                        "rule for inelastic collapse"):
+            self.assertIn(feature, needs)
+        for feature in ("bodies of unlike size", "contacts that last",
+                        "restitution over the impact speed", "lid"):
+            self.assertIn(feature, left_out)
+        self.assertNotIn("substrate", text)
+        omega = 200 * math.pi
+        self.assertEqual(rows["V"], "1.000 m/s")
+        self.assertEqual(rows["Γ"], f"{1.5915e-3 * omega**2 / 9.81:.5g}")
+        self.assertEqual(rows["N d/width"], "5")
+        # (9 ((1 - √3/2) 5 + (√3/2) 25) + 5 (1 + 5 √3)) d0/100, L (14).
+        self.assertEqual(rows["h_cm0"], "2.492 mm")
+        # (2/q + 1/μ)/(1 + β0) with q = 2/5, μ = 1/2, β0 = 0, L (15).
+        self.assertEqual(rows["K/R"], "7")
+        self.assertEqual(rows["samples"], "250 looks")
+        self.assertIn("Contact glass on floor (g1): hard", text)
+        self.assertIn("Contact glass on wall (g1): hard", text)
+        self.assertIn("g1 … g50", text)
+
+    def test_explain_of_boxes_of_other_kinds(self):
+        text, _, needs, left_out = self.explained_file(SCENES / "box-one-ball.yaml")
+        self.assertNotIn("vibrating floor", needs)
+        self.assertIn("elastic bodies cannot collapse", left_out)
+        self.assertIn("the floor is at rest", text)
+        _, _, needs, _ = self.explained_file(SCENES / "box-polydisperse.yaml")
+        self.assertIn("bodies of unlike size", needs)
+        _, _, needs, _ = self.explained_file(SCENES / "box-viscoelastic.yaml")
+        self.assertIn("restitution over the impact speed", needs)
+        _, _, needs, _ = self.explained_file(SCENES / "box-collapse-tc.yaml")
+        self.assertIn("TC model: no loss within 1e-06 s", needs)
+
+    def test_explain_of_a_box_whose_contacts_last(self):
+        file = self.path / "soft.yaml"
+        file.write_text((SCENES / "box-elastic-walls.yaml").read_text().replace(
+            "{model: hard, restitution: 0.9}",
+            "{model: linear, restitution: 0.9, collision_time: 1e-5}").replace(
+            "{model: hard, restitution: 1}",
+            "{model: linear, restitution: 1, collision_time: 1e-5}"))
+        text, rows, needs, left_out = self.explained_file(file)
+        self.assertIn("solver: contact", text)
+        self.assertIn("contacts that last", needs)
+        self.assertIn("contacts that last cannot collapse", left_out)
+        self.assertIn("Contact glass on floor (g1): linear", text)
+        self.assertEqual(rows["t_col"], "10.00 µs")
+
+    def test_explain_of_a_gas_on_a_periodic_plane(self):
+        text, rows, needs, _ = self.explained_file(SCENES / "gas-rolling.yaml")
+        self.assertIn("periodic cell", needs)
+        covered = 200 * math.pi * 2e-3**2 / 0.16**2
+        chi = (1 - 7 * covered / 16) / (1 - covered)**2
+        path = 0.16**2 / (2 * math.sqrt(2) * 200 * 4e-3 * chi)
+        v_rel, e, mu, g = math.sqrt(2) * 0.2, 0.9, 0.1, 9.81
+        slide = v_rel**2 * (1 + e) * (e - 1 + 5 * e) / (8 * mu * g * 3.5**2)
+        self.assertEqual(rows["φ"], f"{covered:.5g}")
+        self.assertEqual(rows["l"], f"{1e3 * path:.3f} mm")
+        self.assertEqual(rows["s"], f"{1e3 * slide:.3f} mm")
+        self.assertEqual(rows["l/s"], f"{path / slide:.5g}")
+        self.assertEqual(rows["L_x"], "160.0 mm")
+
+    def test_a_box_is_run_and_told_of_in_every_form(self):
+        scene = self.path / "box.yaml"
+        text = (SCENES / "box-rough-moving-walls.yaml").read_text()
+        scene.write_text(text.split("compare:")[0])
+        table = run("run", scene)
+        self.assertEqual(table.returncode, 0, table.stderr)
+        self.assertRegex(" ".join(table.stdout.split()), "means over 250 samples after 50 periods")
+        self.assertIn("all.height", table.stdout)
+        run("run", scene, "--out", self.path / "box")
+        report = json.loads((self.path / "box/box-rough-moving-walls.json").read_text())
+        reference = report["reference"]
+        statistics = reference["statistics"]
+        self.assertEqual((statistics["samples"], statistics["discarded_periods"],
+                          statistics["stride"]), (250, 50, 1))
+        for name in ("height", "kinetic_energy", "rotational_energy", "collision_rate"):
+            values = statistics["series"][name]
+            self.assertEqual(len(values), 250)
+            self.assertAlmostEqual(sum(values) / 250 / reference["observables"]["all." + name]["value"],
+                                   1, delta=1e-12)
+        # Phase zero at each 10 ms.
+        for k, instant in enumerate(statistics["series"]["time"]):
+            self.assertAlmostEqual(instant, 0.01 * (51 + k), delta=1e-12)
+        self.assertEqual((self.path / "box/report.html").read_text().count('<path class="trace"'), 4)
 
     def test_every_bundled_scene_runs_in_the_reference(self):
         report = json.loads(run("run", *sorted(SCENES.glob("*.yaml")), "--json", "-",
@@ -360,7 +470,7 @@ class CommandLine(unittest.TestCase):
         result = run("figures", folder, "--only", "K7,K4")
         self.assertEqual(result.returncode, 2)
         self.assertEqual(result.stderr, "slipcheck: --only: must be of K5, K6, K7, K8, K9, K10, K11, "
-                         "B1, B2, got K4\n")
+                         "K12, B1, B2, L2, L7, L8, L9, L10, L11, L12, L13, LB, got K4\n")
         self.assertFalse(folder.exists())
         folder.write_text("a file")
         result = run("figures", folder, "--only", "K7")

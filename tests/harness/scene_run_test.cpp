@@ -139,13 +139,18 @@ TEST(SceneRun, AnUnknownEngineIsRefusedAtItsPlace) {
 
 TEST(SceneRun, AModelWithoutASolverIsRefusedByName) {
   std::string text = pair_scene("");
-  const std::string substrate = "substrate: {}";
-  text.replace(text.find(substrate), substrate.size(), "substrate: {periodic: [9, 9]}");
+  const auto replace = [&](const std::string& old, const std::string& now) {
+    text.replace(text.find(old), old.size(), now);
+  };
+  replace("{density: 7.85}", "{density: 7.85, young_modulus: 2.06e12, poisson_ratio: 0.28}");
+  replace("restitution: 0.9", "restitution: viscoelastic");
   try {
     run(text);
     FAIL() << "accepted";
   } catch (const Unsupported& unsupported) {
-    EXPECT_NE(std::string(unsupported.what()).find("substrate.periodic"), std::string::npos);
+    const std::string what = unsupported.what();
+    EXPECT_NE(what.find("contacts[0].normal.restitution"), std::string::npos) << what;
+    EXPECT_NE(what.find("materials.steel.dissipation_time"), std::string::npos) << what;
   }
 }
 

@@ -147,6 +147,51 @@ TEST(Html, StaysBelowThreeMegabytes) {
   EXPECT_LT(html_of(std::vector<SceneRecord>(15, scene), "").size(), 3'000'000u);
 }
 
+TEST(Html, DrawsWhatABoxShowsOverTime) {
+  const std::string html = html_of({box_scene()}, "");
+  // H, K and the collision rate; R is zero throughout.
+  EXPECT_EQ(count(html, "<path class=\"trace\""), 3u);
+  EXPECT_EQ(count(html, "<line class=\"mean\""), 3u);
+  EXPECT_EQ(count(html, "<rect class=\"band\""), 3u);
+  EXPECT_EQ(count(html, "<path class=\"trace early\""), 0u);
+  EXPECT_TRUE(contains(html, "time [s]"));
+  EXPECT_TRUE(contains(html, "means over 250 samples after 50 periods, steady"));
+  EXPECT_EQ(count(html_of({lottery_scene()}, ""), "<path class=\"trace"), 0u);
+}
+
+TEST(Html, DrawsSamplesThatAreNotAveragedFainter) {
+  SceneRecord scene = box_scene();
+  scene.reference.box->samples = 200;
+  const std::string html = html_of({scene}, "");
+  EXPECT_EQ(count(html, "<path class=\"trace early\""), 3u);
+  // 50 of 250 samples come before the mean.
+  EXPECT_EQ(count(html, "<line class=\"mean\" x1=\"20.00%\""), 3u);
+}
+
+TEST(Html, DrawsABoxWithoutAnErrorOrWithFewSamples) {
+  SceneRecord scene = box_scene(20);
+  for (auto& [name, value] : scene.reference.observables) value.uncertainty = kInfinity;
+  EXPECT_EQ(count(html_of({scene}, ""), "<rect class=\"band\""), 0u);
+  EXPECT_EQ(count(html_of({scene}, ""), "<path class=\"trace\""), 3u);
+  EXPECT_EQ(count(html_of({box_scene(1)}, ""), "<path class=\"trace"), 0u);
+  EXPECT_EQ(count(html_of({box_scene(0)}, ""), "<path class=\"trace"), 0u);
+}
+
+TEST(Html, KeepsALongSeriesShort) {
+  // 16 characters a point, two points in each of 400 columns, up to twice that where the number of
+  // samples is no multiple; three strips.
+  const std::size_t without = html_of({box_scene(2)}, "").size();
+  EXPECT_LT(html_of({box_scene(100'000)}, "").size(), without + 3u * 2u * 2u * 400u * 16u);
+}
+
+TEST(Html, DrawsTheFloorsSwingAndAPeriodicCell) {
+  EXPECT_EQ(count(html_of({box_scene()}, ""), "<path class=\"sway\""), 1u);
+  SceneRecord scene = lottery_scene();
+  EXPECT_EQ(count(html_of({scene}, ""), "<path class=\"cell\""), 0u);
+  scene.scenario.surroundings = Substrate{.periodic = Vector2(0.02, 0.01)};
+  EXPECT_EQ(count(html_of({scene}, ""), "<path class=\"cell\""), 1u);
+}
+
 TEST(Html, CanBeEmpty) {
   EXPECT_TRUE(contains(html_of({}, ""), "</html>"));
   SceneRecord scene;

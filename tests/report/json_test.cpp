@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "records.h"
 #include "report/json_report.h"
 
@@ -137,6 +139,48 @@ TEST(JsonReport, SaysWhatTheReferenceDoesNotShow) {
   scene.reference.observables.erase("i-j.effective_restitution");
   EXPECT_EQ(read_back(scene)["reference"]["observables"]["effective_restitution"]["reason"],
             "no pair collides in the reference");
+}
+
+TEST(JsonReport, TellsHowTheMeansOverABoxCameAbout) {
+  SceneRecord scene = box_scene();
+  const Json statistics = read_back(scene)["reference"]["statistics"];
+  EXPECT_EQ(keys(statistics), (std::vector<std::string>{"samples", "discarded_periods", "steady",
+                                                        "stride", "series"}));
+  EXPECT_EQ(statistics["samples"], 250);
+  EXPECT_EQ(statistics["discarded_periods"], 50);
+  EXPECT_EQ(statistics["steady"], true);
+  EXPECT_EQ(statistics["stride"], 1);
+  EXPECT_EQ(keys(statistics["series"]),
+            (std::vector<std::string>{"time", "height", "kinetic_energy", "rotational_energy",
+                                      "collision_rate"}));
+  const BoxSeries& series = scene.reference.box->series;
+  EXPECT_EQ(statistics["series"]["time"].get<std::vector<double>>(), series.time);
+  EXPECT_EQ(statistics["series"]["height"].get<std::vector<double>>(), series.height);
+  EXPECT_EQ(statistics["series"]["collision_rate"].get<std::vector<double>>(),
+            series.collision_rate);
+  EXPECT_FALSE(read_back(lottery_scene())["reference"].contains("statistics"));
+}
+
+TEST(JsonReport, ThinsALongSeries) {
+  for (const auto& [samples, stride, kept] :
+       {std::array<std::size_t, 3>{2000, 1, 2000}, {2001, 2, 1001}, {6100, 4, 1525}}) {
+    const SceneRecord scene = box_scene(samples);
+    const Json statistics = read_back(scene)["reference"]["statistics"];
+    EXPECT_EQ(statistics["stride"], stride);
+    EXPECT_EQ(statistics["samples"], samples);
+    for (const auto& [name, values] : statistics["series"].items())
+      ASSERT_EQ(values.size(), kept) << name;
+    EXPECT_EQ(statistics["series"]["height"][7], scene.reference.box->series.height[7 * stride]);
+  }
+}
+
+TEST(JsonReport, SaysWhyAMeanHasNoError) {
+  SceneRecord scene = box_scene(20);
+  scene.reference.observables["all.height"].uncertainty = kInfinity;
+  const Json height = read_back(scene)["reference"]["observables"]["all.height"];
+  EXPECT_TRUE(height["uncertainty"].is_null());
+  EXPECT_EQ(height["reason"],
+            "the uncertainty is not known: of fewer than 32 samples a mean has no error");
 }
 
 TEST(JsonReport, TellsTheStatusAndItsReason) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -71,6 +72,35 @@ inline SceneRecord lottery_scene(std::size_t phases = 64) {
                                  {"j.sliding_time", {0.1 / 3.6, 1e-17}}};
   scene.reference.closed_form = {{"i-j.effective_restitution", 5.0 / 14}};
   scene.runs = {lottery_run(240, phases), lottery_run(4000, phases)};
+  return scene;
+}
+
+/// A vibrated box without engines whose H swings about 15 mm, of `samples` samples 10 ms apart.
+inline SceneRecord box_scene(std::size_t samples = 250) {
+  SceneRecord scene = lottery_scene();
+  scene.runs.clear();
+  scene.scenario.compare.tolerance.clear();
+  scene.scenario.surroundings = Container{
+      .width = 0.01, .floor_amplitude = 5e-4, .floor_frequency = 100, .height = std::nullopt};
+  for (Body& body : scene.scenario.bodies) body.initial.position.x() += 0.005;
+  ReferenceResult& reference = scene.reference;
+  reference.closed_form.clear();
+  reference.observables = {{"all.height", {0.015, 0.001}},
+                           {"all.kinetic_energy", {1.461e-7, 7e-9}},
+                           {"all.rotational_energy", {0, 0}},
+                           {"all.collision_rate", {5414, 391}}};
+  BoxReference& box = reference.box.emplace();
+  box.samples = samples;
+  box.discarded = 50;
+  box.steady = true;
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double t = 0.5 + 0.01 * static_cast<double>(k + 1);
+    box.series.time.push_back(t);
+    box.series.height.push_back(0.015 + 0.002 * std::sin(7 * t));
+    box.series.kinetic_energy.push_back(1.461e-7 + 1e-8 * std::cos(5 * t));
+    box.series.rotational_energy.push_back(0);
+    box.series.collision_rate.push_back(5414 + 500 * std::sin(3 * t));
+  }
   return scene;
 }
 

@@ -67,6 +67,19 @@ TEST(Table, ShowsAnUncertaintyThatMatters) {
   EXPECT_FALSE(contains(table_of(scene, kWide), "±"));
 }
 
+TEST(Table, TellsWhatTheMeansOverABoxAreTakenOver) {
+  SceneRecord scene = box_scene();
+  const TableStyle wide{.colour = false, .width = 200};
+  EXPECT_TRUE(contains(table_of(scene, wide),
+                       "of CPU time; means over 250 samples after 50 periods, steady; ± holds the "
+                       "true mean with 95 %"));
+  EXPECT_TRUE(contains(table_of(scene, wide), "5414 ± 400 1/s"));
+  EXPECT_TRUE(contains(table_of(scene, wide), "146.1 ± 7 nJ"));
+  scene.reference.box->steady = false;
+  scene.reference.box->discarded = 0;
+  EXPECT_TRUE(contains(table_of(scene, wide), "means over 250 samples, NOT steady"));
+}
+
 TEST(Table, FitsItsWidth) {
   SceneRecord scene = lottery_scene();
   scene.runs[0].warnings = {

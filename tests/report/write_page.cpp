@@ -31,5 +31,14 @@ int main() {
   SceneRecord box = lottery_scene();
   box.scenario.surroundings = Container{.width = 0.02, .height = 0.03};
   box.runs.clear();
-  std::cout << html_of({good, evil, numbers, box, SceneRecord()}, "slipcheck run <x>.yaml");
+
+  SceneRecord shaken = box_scene(5000);
+  shaken.reference.box->samples = 4000;
+  shaken.reference.observables["all.height"] = {kNaN, kInfinity};
+  shaken.reference.observables.erase("all.collision_rate");
+
+  SceneRecord gas = lottery_scene();
+  gas.scenario.surroundings = Substrate{.periodic = Vector2(0.02, 0.01)};
+  std::cout << html_of({good, evil, numbers, box, shaken, gas, SceneRecord()},
+                       "slipcheck run <x>.yaml");
 }
