@@ -114,6 +114,13 @@ PaperFigure figure_k12() {
                       {Ink::black, Line::solid},
                       ends,
                       {head_on.effective_restitution(), head_on.effective_restitution()}});
+  // Each of the two travels s, and meets the next body after l in the mean.
+  Curve poisson{"e^{−2s/l}", {Ink::black, Line::solid}, {}, {}};
+  for (double x = ends[0]; x <= ends[1]; x *= 1.1) {
+    poisson.x.push_back(x);
+    poisson.y.push_back(std::exp(-2 / x));
+  }
+  b.curves.push_back(poisson);
   figure.drawing.panels = {a, b};
   Table& table = figure.table;
   table.add("area fraction [-]", fraction);
@@ -136,7 +143,8 @@ PaperFigure figure_k12() {
       "collisions (e_n) to the restitution of an isolated pair. Each point averages {} collisions "
       "in turn. Densities fall on one curve until the gas forms clusters. s is what each body "
       "would "
-      "slide if nothing came in its way.",
+      "slide if nothing came in its way; e^{{−2s/l}} is the share if collisions were independent "
+      "of it.",
       kSide * kSide, kSpeed, kRestitution, kFriction, kCollisions);
   return figure;
 }

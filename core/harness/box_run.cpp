@@ -109,6 +109,9 @@ ReferenceResult run_box_reference(const BoxSolver& solver, const Scenario& scena
     result.observables["all.momentum_drift"] = {run.momentum_error, std::abs(run.momentum_error)};
   result.box = BoxReference{seen.samples, seen.discarded, seen.steady, observer.series()};
 
+  if (!solver.is_resolved() && !solver.scene().is_hard())
+    result.warnings.push_back(
+        "event takes soft contacts as hard ones of their restitution and friction");
   for (const std::string& warning : solver.scene().warnings) result.warnings.push_back(warning);
   if (!run.reached) result.warnings.push_back("the run did not end: " + run.reason);
   if (!seen.steady)

@@ -107,9 +107,11 @@ Deviation deviation(const Scenario& scenario, const ReferenceResult& reference,
     const double scale = result.absolute ? 1 : differences.scale;
     result.median = median(differences.by_phase);
     result.max = *std::max_element(differences.by_phase.begin(), differences.by_phase.end());
-    // Zero within the reference's own uncertainty: a relative error has no meaning.
-    const bool is_zero = !result.absolute && scale <= 10 * differences.uncertainty;
-    if (is_zero && result.max > 10 * differences.uncertainty) {
+    // Zero within the reference's own uncertainty: a relative error has no meaning. That of an
+    // average over a box is statistical, a bound with 95 %; elsewhere it is of rounding.
+    const double slack = (reference.box ? 1 : 10) * differences.uncertainty;
+    const bool is_zero = !result.absolute && scale <= slack;
+    if (is_zero && result.max > slack) {
       result.median = result.max = kNotObserved;
       result.reason = "the reference is 0: a tolerance with a unit compares it";
     } else if (is_zero) {

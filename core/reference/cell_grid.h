@@ -18,8 +18,8 @@ class CellGrid {
     double x = 0, y = 0;  ///< [m]
   };
 
-  /// Cells of width_x by width_y [m] for n bodies, folded after nx and ny >= 4 cells; periodic: the
-  /// plane repeats itself there.
+  /// Cells of width_x by width_y [m] for n bodies, folded after nx and ny in [4, 65536) cells;
+  /// periodic: the plane repeats itself there.
   CellGrid(std::size_t n, double width_x, double width_y, std::uint32_t nx, std::uint32_t ny,
            bool periodic_x, bool periodic_y)
       : width_x_(width_x),
@@ -50,8 +50,8 @@ class CellGrid {
   void move(std::uint32_t body, int dx, int dy) {
     unlink(body);
     Node& node = nodes_[body];
-    node.x = step(node.x, dx, nx_);
-    node.y = step(node.y, dy, ny_);
+    node.x = static_cast<std::uint16_t>(step(node.x, dx, nx_));
+    node.y = static_cast<std::uint16_t>(step(node.y, dy, ny_));
     link(body);
   }
 
@@ -70,14 +70,15 @@ class CellGrid {
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
+  /// Small, so that the nodes of neighbours, which are close in number too, share cache lines.
   struct Node {
-    std::uint32_t before = kNone, after = kNone;
-    std::uint32_t x = 0, y = 0;
+    std::uint32_t after = kNone;
+    std::uint16_t x = 0, y = 0;
   };
 
-  static std::uint32_t fold(std::int32_t i, std::uint32_t n) {
+  static std::uint16_t fold(std::int32_t i, std::uint32_t n) {
     const auto m = static_cast<std::int64_t>(n);
-    return static_cast<std::uint32_t>(((i % m) + m) % m);
+    return static_cast<std::uint16_t>(((i % m) + m) % m);
   }
   static std::uint32_t step(std::uint32_t i, int d, std::uint32_t n) {
     if (d < 0) return i == 0 ? n - 1 : i - 1;
@@ -101,15 +102,15 @@ class CellGrid {
   void link(std::uint32_t body) {
     Node& node = nodes_[body];
     std::uint32_t& head = head_[cell(node.x, node.y)];
-    node.before = kNone;
     node.after = head;
-    if (head != kNone) nodes_[head].before = body;
     head = body;
   }
   void unlink(std::uint32_t body) {
     const Node& node = nodes_[body];
-    (node.before == kNone ? head_[cell(node.x, node.y)] : nodes_[node.before].after) = node.after;
-    if (node.after != kNone) nodes_[node.after].before = node.before;
+    // There are few bodies in a cell.
+    std::uint32_t* link = &head_[cell(node.x, node.y)];
+    while (*link != body) link = &nodes_[*link].after;
+    *link = node.after;
   }
 
   double width_x_, width_y_;

@@ -123,7 +123,8 @@ PlanarWorld::PlanarWorld(const HardScene& scene, std::span<const BodyState> init
       grid_(grid_for(scene, initial)),
       place_(initial.size()),
       bodies_(initial.size()),
-      matter_(initial.size()) {
+      matter_(initial.size()),
+      own_(initial.size(), Own::none) {
   if (scene.box)
     last_column_ = static_cast<std::int32_t>(std::lround(scene.box->width / grid_.width_x())) - 1;
   const CellGrid::Shift& period = grid_.period();
@@ -198,7 +199,7 @@ double PlanarWorld::own_event_time(std::uint32_t i, double now) {
         Own::down);
   }
   if (upright_) find_wall_event(i, now, earliest, own);
-  matter_[i].own = own;
+  own_[i] = own;
   return earliest;
 }
 
@@ -246,7 +247,7 @@ Change PlanarWorld::do_own_event(std::uint32_t i, double now) {
     grid_.move(i, moved_x_ = 0, moved_y_ = step);
     return Change::cell;
   };
-  switch (matter_[i].own) {
+  switch (own_[i]) {
     case Own::left:
       return cross_x(-1);
     case Own::right:
@@ -266,7 +267,7 @@ Change PlanarWorld::do_own_event(std::uint32_t i, double now) {
   const Box& box = *scene_->box;
   const double shaken = box.floor.velocity(now) * (box.floor.is_still() ? 0 : 1);
   const double walls = box.moving_walls ? shaken : 0;
-  switch (matter_[i].own) {
+  switch (own_[i]) {
     case Own::left_wall:
       meet(i, {1, 0, walls, &box.on_wall}, now);
       break;

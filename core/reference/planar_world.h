@@ -98,7 +98,6 @@ class PlanarWorld {
     double last_collision;  ///< [s]
     std::int32_t image_x = 0, image_y = 0;
     std::uint32_t material;
-    Own own = Own::none;
   };
   struct Surface {
     double n_x, n_y;  ///< towards the body
@@ -139,6 +138,7 @@ class PlanarWorld {
   std::vector<std::uint32_t> place_;  ///< of the scene's bodies; neighbours lie close in memory
   std::vector<Body> bodies_;
   std::vector<Matter> matter_;
+  std::vector<Own> own_;           ///< what each body's next own event is
   int moved_x_ = 0, moved_y_ = 0;  ///< of the body whose cell changed last
   std::vector<std::uint32_t> changed_;
   std::size_t collisions_ = 0, collapses_ = 0, contacts_ = 0;

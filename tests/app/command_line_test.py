@@ -369,7 +369,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(rows["h_cm0"], "2.492 mm")
         # (2/q + 1/μ)/(1 + β0) with q = 2/5, μ = 1/2, β0 = 0, L (15).
         self.assertEqual(rows["K/R"], "7")
-        self.assertEqual(rows["samples"], "250 looks")
+        self.assertEqual(rows["samples"], "800 looks")
         self.assertIn("Contact glass on floor (g1): hard", text)
         self.assertIn("Contact glass on wall (g1): hard", text)
         self.assertIn("g1 … g50", text)
@@ -420,22 +420,22 @@ class CommandLine(unittest.TestCase):
         scene.write_text(text.split("compare:")[0])
         table = run("run", scene)
         self.assertEqual(table.returncode, 0, table.stderr)
-        self.assertRegex(" ".join(table.stdout.split()), "means over 250 samples after 50 periods")
+        self.assertRegex(" ".join(table.stdout.split()), "means over 800 samples after 200 periods")
         self.assertIn("all.height", table.stdout)
         run("run", scene, "--out", self.path / "box")
         report = json.loads((self.path / "box/box-rough-moving-walls.json").read_text())
         reference = report["reference"]
         statistics = reference["statistics"]
         self.assertEqual((statistics["samples"], statistics["discarded_periods"],
-                          statistics["stride"]), (250, 50, 1))
+                          statistics["stride"]), (800, 200, 1))
         for name in ("height", "kinetic_energy", "rotational_energy", "collision_rate"):
             values = statistics["series"][name]
-            self.assertEqual(len(values), 250)
-            self.assertAlmostEqual(sum(values) / 250 / reference["observables"]["all." + name]["value"],
+            self.assertEqual(len(values), 800)
+            self.assertAlmostEqual(sum(values) / 800 / reference["observables"]["all." + name]["value"],
                                    1, delta=1e-12)
         # Phase zero at each 10 ms.
         for k, instant in enumerate(statistics["series"]["time"]):
-            self.assertAlmostEqual(instant, 0.01 * (51 + k), delta=1e-12)
+            self.assertAlmostEqual(instant, 0.01 * (201 + k), delta=1e-11)
         self.assertEqual((self.path / "box/report.html").read_text().count('<path class="trace"'), 4)
 
     def test_every_bundled_scene_runs_in_the_reference(self):

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "../scenes.h"
 #include "physics/closed_forms.h"
 #include "reference/event_solver.h"
-#include "scenes.h"
 
 namespace slipcheck {
 namespace {
