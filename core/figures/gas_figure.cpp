@@ -75,7 +75,7 @@ PaperFigure figure_k12() {
               {"e_{eff}", false, 0.3, 1.0},
               {},
               {}};
-  LineChart b{"(b) collisions after which both ceased to slide",
+  LineChart b{"(b) slides that nothing interrupted",
               {"l/s [-], mean free path over sliding distance", true},
               {"share", false, 0, 1.05},
               {},

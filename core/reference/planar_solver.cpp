@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace slipcheck {
@@ -26,7 +27,9 @@ PlanarSolver::PlanarSolver(const HardScene& scene, std::span<const BodyState> in
              settings.landing_fraction * planar_speed_scale(scene, initial)),
       scheduler_(world_, 0),
       first_energy_(world_.energy_at(0)),
-      first_momentum_(world_.momentum_at(0)) {}
+      first_momentum_(world_.momentum_at(0)) {
+  assert(PlanarWorld::is_planar(scene, initial));
+}
 
 void PlanarSolver::show(double time, FrameSink* sink) {
   if (!sink) return;

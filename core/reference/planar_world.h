@@ -105,7 +105,6 @@ class PlanarWorld {
     const std::vector<PairContact>* contacts;
   };
 
-  static CellGrid grid_for(const HardScene& scene, std::span<const BodyState> initial);
   Body& moved_to(std::uint32_t i, double now) {
     Body& body = bodies_[i];
     const double dt = now - body.time;

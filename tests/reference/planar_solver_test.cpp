@@ -86,6 +86,23 @@ TEST(PlanarSolver, ABallInAnElasticBoxGoesOnForEver) {
   EXPECT_EQ(run.collisions, 0u);
 }
 
+TEST(PlanarSolver, KnowsWhatStaysInAPlane) {
+  const HardScene gas = test::smooth_gas(9, 0.1, contact(0.9));
+  const auto is_planar = [](const HardScene& scene) {
+    return PlanarWorld::is_planar(scene, scene.initial);
+  };
+  EXPECT_TRUE(is_planar(gas));
+  EXPECT_TRUE(is_planar(test::shaken_box(5, 1, contact(0.9, 0.1, 0))));
+  HardScene rubbed = gas, rolling = gas, unlike = gas, tilted = gas, flying = gas;
+  rubbed.substrate[0].kinetic_friction = 0.1;
+  rolling.initial[3].angular_velocity.x() = 1;  // its collisions would lift
+  unlike.bodies[2].radius *= 0.5;               // lines of centres would not be level
+  tilted.downhill = {0, -1};
+  flying.initial[1].position.z() *= 2;
+  for (const HardScene& scene : {rubbed, rolling, unlike, tilted, flying})
+    EXPECT_FALSE(is_planar(scene));
+}
+
 /// On a floor that moves with v_f at the impact the rebound is −e (v − v_f) + v_f.
 TEST(PlanarSolver, ReboundsFromAMovingFloorInItsFrame) {
   HardScene scene = test::shaken_box(1, 1.5, contact(0.7));
