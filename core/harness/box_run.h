@@ -15,15 +15,17 @@ BoxSampling box_sampling(const Scenario& scenario);
 /// (BlockedMean). A series that is too short for an error makes it infinite.
 ReferenceResult run_box_reference(const BoxSolver& solver, const Scenario& scenario);
 
-/// Runs one engine's ensemble on a scene in a box and fills in `record`. The runs differ in where
-/// in the floor's period the first step falls: each starts from the reference's state a part of a
-/// step later. Throws what RemoteEngine throws.
+/// What an ensemble of one engine's runs in a box needs to know.
 struct BoxEnsembleTask {
   const BoxSolver* solver = nullptr;
   const ReferenceResult* reference = nullptr;
   const Scenario* scenario = nullptr;
   std::size_t phases = 32;  ///< >= 1
 };
+
+/// Runs one engine's ensemble on a scene in a box and fills in `record`. The runs differ in where
+/// in the floor's period the first step falls: each starts from the reference's state a part of a
+/// step later. Throws what RemoteEngine throws.
 void run_box_ensemble(RemoteEngine& engine, const BoxEnsembleTask& task, EngineRecord& record);
 
 }  // namespace slipcheck

@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "harness/comparison.h"
+#include "harness/engine_state.h"
 #include "harness/observer.h"
 #include "harness/phases.h"
 
 namespace slipcheck {
 namespace {
-
-/// A body this many times faster than the scene can make it has been blown off.
-constexpr double kExploded = 1e3;
 
 /// A state of an engine that no comparison can be made with.
 struct Unstable {
@@ -62,18 +61,8 @@ class PhaseRun {
  private:
   void check(const Frame& frame) const {
     // Falling adds to what the bodies bring with them.
-    const double fastest = kExploded * (scale_ + scene_.gravity * time_);
-    for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
-      const BodyState& s = frame.bodies[i];
-      if (!s.position.allFinite() || !s.velocity.allFinite() || !s.angular_velocity.allFinite())
-        throw Unstable{
-            fmt::format("body {} has a state that is not finite at t = {:.6g} s", i, time_)};
-      if (s.velocity.norm() > fastest)
-        throw Unstable{
-            fmt::format("body {} moves at {:.3g} m/s at t = {:.6g} s, {} times faster "
-                        "than anything in the scene",
-                        i, s.velocity.norm(), time_, kExploded)};
-    }
+    std::string fault = fault_of_state(frame, time_, scale_ + scene_.gravity * time_);
+    if (!fault.empty()) throw Unstable{std::move(fault)};
   }
 
   bool has_ended(const Frame& frame) {

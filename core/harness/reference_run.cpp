@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cfenv>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
 #include "harness/closed_form_values.h"
+#include "harness/cpu_time.h"
 #include "harness/observer.h"
 
 namespace slipcheck {
@@ -25,12 +25,6 @@ class RoundingMode {
  private:
   int before_;
 };
-
-double thread_cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Solved {
   SolvedRun run;
