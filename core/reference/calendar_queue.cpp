@@ -9,8 +9,8 @@ namespace slipcheck {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Entries that are placed while time is in one stretch: few enough for a flat heap, and enough that
-/// the ends of all lists together stay in a cache.
+/// Entries that are placed while time is in one stretch: few enough for a flat heap, and enough
+/// that the ends of all lists together stay in a cache.
 constexpr double kGoal = 48;
 
 constexpr auto kLater = [](const QueuedEvent& a, const QueuedEvent& b) { return b < a; };
@@ -82,7 +82,8 @@ void CalendarQueue::advance() {
 /// Time goes on to the earliest of what lies beyond.
 void CalendarQueue::jump() {
   std::erase_if(beyond_, [&](const QueuedEvent& entry) { return !holds(entry); });
-  if (!beyond_.empty()) rebuild(std::min_element(beyond_.begin(), beyond_.end())->time, 1 / per_width_);
+  if (!beyond_.empty())
+    rebuild(std::min_element(beyond_.begin(), beyond_.end())->time, 1 / per_width_);
 }
 
 void CalendarQueue::rebuild(double base, double width) {

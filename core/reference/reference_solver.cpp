@@ -7,8 +7,8 @@ bool has_exact_phases(const HardScene& scene) {
 }
 
 bool runs_in_phases(const HardScene& scene) {
-  const bool is_large = scene.bodies.size() > EventSettings{}.most_without_cells ||
-                        scene.periodic != Vector2::Zero();
+  const bool is_large =
+      scene.bodies.size() > EventSettings{}.most_without_cells || scene.periodic != Vector2::Zero();
   return EventSolver::can_solve(scene) && (EventSolver::is_exact(scene) || is_large);
 }
 

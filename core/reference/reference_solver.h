@@ -11,14 +11,14 @@ namespace slipcheck {
 
 /// A reference run in numbers, whichever solver made it.
 struct SolvedRun {
-  double end_time = 0;         ///< [s]
-  bool reached = false;        ///< what RunEnd::until asks for
-  bool failed = false;         ///< the integrator gave up
-  std::string reason;          ///< why not reached
-  std::size_t events = 0;      ///< collisions, landings and changes of mode
-  std::size_t collisions = 0;  ///< of two bodies
-  std::size_t collapses = 0;   ///< of these, the ones that the rule for collapse changed
-  std::size_t steps = 0;       ///< of the integrator; 0 where phases are exact
+  double end_time = 0;                   ///< [s]
+  bool reached = false;                  ///< what RunEnd::until asks for
+  bool failed = false;                   ///< the integrator gave up
+  std::string reason;                    ///< why not reached
+  std::size_t events = 0;                ///< collisions, landings and changes of mode
+  std::size_t collisions = 0;            ///< of two bodies
+  std::size_t collapses = 0;             ///< of these, the ones that the rule for collapse changed
+  std::size_t steps = 0;                 ///< of the integrator; 0 where phases are exact
   std::optional<EnergyBalance> balance;  ///< where the solver keeps one
 };
 
@@ -30,9 +30,10 @@ struct SolverAccuracy {
 
 /// The solver that is the truth for a scene, chosen once.
 ///
-/// event: hard contacts, phases from event to event (EventSolver): exact on a level, still substrate,
-/// to DrivenPhase's bound for many bodies on others. Few bodies on a tilted or moving substrate have
-/// their phases integrated (ContactSolver), as do laws without phases; collisions are instants.
+/// event: hard contacts, phases from event to event (EventSolver): exact on a level, still
+/// substrate, to DrivenPhase's bound for many bodies on others. Few bodies on a tilted or moving
+/// substrate have their phases integrated (ContactSolver), as do laws without phases; collisions
+/// are instants.
 /// contact: soft contacts resolved in time.
 class ReferenceSolver {
  public:
