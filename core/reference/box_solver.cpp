@@ -78,7 +78,9 @@ std::vector<BodyState> BoxSolver::states_at(double time) const {
     solver.run(end, nullptr, 0);
     return solver.states();
   }
-  PlanarSolver solver(scene_->hard, scene_->hard.initial);
+  PlanarSettings settings;
+  settings.most_events = most_events_;
+  PlanarSolver solver(scene_->hard, scene_->hard.initial, settings);
   solver.run(end, nullptr, 1);
   return solver.states();
 }
