@@ -5,55 +5,62 @@
 #include <optional>
 
 #include "bullet_backend/bullet_world.h"
-#include "bullet_backend/coefficients.h"
-#include "bullet_backend/profiles.h"
+#include "bullet_backend/not_represented.h"
+#include "bullet_backend/settings.h"
+#include "bullet_backend/world_units.h"
 
 namespace slipcheck::bullet {
 namespace {
 
+void refuse_beyond_reach(const HardScene& scene, const BulletSettings& settings, double time_step) {
+  if (settings.beyond_reach != BeyondReach::refuse || settings.reach == 0) return;
+  const double approach = approach_in_a_step(scene, time_step);
+  if (approach > settings.reach)
+    throw Refused(fmt::format(
+        "bullet: bodies approach each other by {:.3g} radii in a step, and these settings are for "
+        "up to {:.3g}",
+        approach, settings.reach));
+}
+
 class BulletEngine final : public Engine {
  public:
   EngineInfo info() const override {
-    return {"bullet", bullet_version(), bullet_precision(), profile_names()};
+    return {"bullet", bullet_version(), bullet_precision(), setting_table()};
   }
 
-  Applied configure(const HardScene& scene, const std::string& profile, double time_step) override {
-    const Profile parsed = parse_profile(profile);
+  Applied configure(const HardScene& scene, const Settings& chosen, double time_step) override {
+    const BulletSettings settings = read_settings(chosen);
     if (scene.periodic != Vector2::Zero()) {
       throw Refused(
           "bullet: the substrate repeats itself, and a Bullet world has no periodic boundaries");
     }
-    if (!scene.motion.is_still()) {
-      throw Refused(
-          "bullet: the substrate moves, and a static plane has no velocity that friction could "
-          "feel");
-    }
-    if (is_no_time(time_step)) {
+    if (is_no_time(time_step * world_units(scene, settings).time)) {
       throw Refused(fmt::format("bullet in {} precision takes a step of {} s for none",
                                 bullet_precision(), time_step));
     }
+    refuse_beyond_reach(scene, settings, time_step);
     world_.reset();
-    setup_.emplace(Setup{scene, parsed, time_step, PairCoefficients(scene, time_step)});
+    setup_.emplace(Setup{scene, settings, time_step});
     start(scene.initial, 0);
-    return {world_->settings(), not_represented(scene, parsed, time_step)};
+    return {world_->applied(), not_represented(scene, settings, time_step)};
   }
 
   void start(std::span<const BodyState> states, double time) override {
     world_.reset();  // not two at a time
-    world_.emplace(setup_->scene, setup_->profile, setup_->coefficients, setup_->time_step, states,
-                   time);
+    world_.emplace(setup_->scene, setup_->settings, setup_->time_step, states, time);
   }
 
   void step() override { world_->step(); }
 
   void read(Frame& frame) const override { world_->read(frame); }
 
+  std::span<const Frame> parts() const override { return world_->parts(); }
+
  private:
   struct Setup {
     HardScene scene;
-    Profile profile;
+    BulletSettings settings;
     double time_step;  // [s]
-    PairCoefficients coefficients;
   };
   std::optional<Setup> setup_;
   std::optional<BulletWorld> world_;

@@ -4,182 +4,175 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "bullet_backend/applied.h"
+#include "bullet_backend/balls.h"
+#include "bullet_backend/coefficients.h"
 #include "bullet_backend/combine.h"
+#include "bullet_backend/convert.h"
+#include "bullet_backend/dynamics_world.h"
+#include "bullet_backend/flush_denormals.h"
 #include "bullet_backend/margins.h"
-#include "bullet_backend/settings.h"
+#include "bullet_backend/next_contact.h"
 #include "bullet_backend/surfaces.h"
+#include "bullet_backend/touches.h"
 
 namespace slipcheck::bullet {
 namespace {
 
-btVector3 to_bullet(const Vector3& v) {
-  return btVector3(btScalar(v.x()), btScalar(v.y()), btScalar(v.z()));
+std::vector<BodyState> to_world(std::span<const BodyState> states, const WorldUnits& units) {
+  std::vector<BodyState> made;
+  for (const BodyState& state : states) made.push_back(units.to_world(state));
+  return made;
 }
 
-Vector3 from_bullet(const btVector3& v) { return Vector3(v.x(), v.y(), v.z()); }
-
-void set_fields(btRigidBody& body, const BodyFields& fields) {
-  body.setFriction(btScalar(fields.friction));
-  body.setRestitution(btScalar(fields.restitution));
-  body.setRollingFriction(btScalar(fields.rolling_friction));
-  body.setSpinningFriction(btScalar(fields.spinning_friction));
+/// Gap that counts as touching where steps end at contacts: what Bullet would process, but neither
+/// below rounding nor more than a thousandth of a radius.
+double touching_gap(const HardScene& scene, const BulletSettings& settings) {
+  const double radius = std::ranges::min_element(scene.bodies, {}, &Sphere::radius)->radius;
+  return std::clamp(settings.contact_processing_threshold, 1e-9 * radius, 1e-3 * radius);
 }
 
-/// With the margins of margins.h.
-class World final : public btDiscreteDynamicsWorld {
- public:
-  World(double scale, btDispatcher* dispatcher, btBroadphaseInterface* broadphase,
-        btConstraintSolver* solver, btCollisionConfiguration* configuration)
-      : btDiscreteDynamicsWorld(dispatcher, broadphase, solver, configuration),
-        body_margin_(btScalar(kBodyMargin * scale)) {
-    gDbvtMargin = btScalar(kTreeMargin * scale);
-  }
-
-  void updateAabbs() override {
-    // The same number is elsewhere a factor on the size of a shape, and there it stays.
-    const btScalar as_a_factor = std::exchange(gContactBreakingThreshold, body_margin_);
-    btDiscreteDynamicsWorld::updateAabbs();
-    gContactBreakingThreshold = as_a_factor;
-  }
-
- private:
-  btScalar body_margin_;  // [m]
-};
-
-/// Whether the solver saw the manifold in the last step. It does not where both bodies sleep (the
-/// plane always does where it is still), and the impulses found there are those of the last step
-/// before.
-bool was_solved(const btPersistentManifold& manifold) {
-  return manifold.getBody0()->getActivationState() != ISLAND_SLEEPING ||
-         manifold.getBody1()->getActivationState() != ISLAND_SLEEPING;
-}
-
-/// Summed over a manifold's points: a rolling sphere keeps up to four. A point further away than
-/// the processing threshold is passed over by the solver and keeps an old impulse.
-double normal_impulse(const btPersistentManifold& manifold) {
-  double sum = 0;
-  for (int k = 0; k < manifold.getNumContacts(); ++k) {
-    const btManifoldPoint& point = manifold.getContactPoint(k);
-    if (point.getDistance() > manifold.getContactProcessingThreshold()) continue;
-    sum += double(point.getAppliedImpulse());
-  }
-  return sum;
-}
+/// A contact at which a step is split is solved in a step of its own, so short that friction and
+/// gravity do next to nothing in it: this part of a step, but not what Bullet takes for no time.
+constexpr double kImpactStep = 1e-6;
 
 }  // namespace
 
-/// In the order in which they need each other; the bodies leave before the world goes.
+/// In the order in which they need each other; balls and surfaces leave before the world goes.
 struct BulletWorld::Parts {
-  Parts(const HardScene& scene, std::span<const BodyState> states, double time, double time_step);
-  ~Parts();
-  Parts(const Parts&) = delete;
-  Parts& operator=(const Parts&) = delete;
+  Parts(const HardScene& scene_in_si, const BulletSettings& chosen, double step,
+        std::span<const BodyState> states, double time)
+      : settings(chosen),
+        units(world_units(scene_in_si, chosen)),
+        scene(in_world_units(scene_in_si, units)),
+        time_step(step * units.time),
+        start_time(time * units.time),
+        coefficients(scene, settings, time_step),
+        dynamics(settings, margin_scale(scene)),
+        surfaces(dynamics.world(), scene, units, settings),
+        balls(make_balls(dynamics.world(), scene, to_world(states, units), settings)) {
+    dynamics.world().setGravity(
+        to_bullet(units.turn * Vector3(scene.downhill.x(), scene.downhill.y(), -scene.gravity)));
+    if (settings.splits_at_contacts > 0)
+      next_contact.emplace(*balls, surfaces, scene, units, touching_gap(scene, settings));
+  }
 
-  btDefaultCollisionConfiguration configuration;
-  btCollisionDispatcher dispatcher;
-  btDbvtBroadphase broadphase;
-  btSequentialImpulseConstraintSolver solver;
-  std::vector<std::unique_ptr<btSphereShape>> shapes;
-  std::vector<std::unique_ptr<btRigidBody>> balls;
-  World world;
+  bool is_one_step() const { return settings.substeps == 1 && !next_contact; }
+
+  double step_begin() const { return start_time + static_cast<double>(steps) * time_step; }
+
+  /// One step of Bullet's.
+  void advance(double from, double length) {
+    coefficients.set_time_step(length);
+    surfaces.begin_step(from, length);
+    coefficients.set_ground_velocity(surfaces.told_before());
+    dynamics.world().stepSimulation(btScalar(length), 0);
+    if (is_one_step()) return;
+    look(frames.emplace_back());
+    frames.back().part = (from + length - step_begin()) / time_step;
+  }
+
+  /// SI.
+  void look(Frame& frame) {
+    frame.bodies.clear();
+    for (std::size_t i = 0; i < balls->count(); ++i)
+      frame.bodies.push_back(units.from_world(balls->state(i)));
+    find_touches(dynamics.dispatcher(), frame.touches);
+    for (Touch& touch : frame.touches) touch.normal_impulse /= units.impulse();
+  }
+
+  /// A step that ends where bodies touch and goes on from there.
+  void advance_by_contacts(double from, double length) {
+    const double end = from + length;
+    const double impact = std::max(kImpactStep * length, 4 * double(SIMD_EPSILON));
+    for (int split = 0; split < settings.splits_at_contacts; ++split) {
+      const double until = next_contact->after(from, end - from);
+      if (until >= end - from - impact) break;
+      const double part = std::max(until, impact);
+      // To push an overlap out within so short a step would be an explosion.
+      btScalar& push = dynamics.world().getSolverInfo().m_erp2;
+      const btScalar kept = std::exchange(push, until < impact ? btScalar(0) : push);
+      advance(from, part);
+      push = kept;
+      from += part;
+    }
+    advance(from, end - from);
+  }
+
+  BulletSettings settings;
+  WorldUnits units;
+  HardScene scene;
+  double time_step, start_time;
+  std::size_t steps = 0;
+  PairCoefficients coefficients;
+  DynamicsWorld dynamics;
   Surfaces surfaces;
+  std::unique_ptr<Balls> balls;
+  std::optional<NextContact> next_contact;
+  std::vector<Frame> frames;  // of the last step, where it has several parts
 };
 
-BulletWorld::Parts::Parts(const HardScene& scene, std::span<const BodyState> states, double time,
-                          double time_step)
-    : dispatcher(&configuration),
-      world(margin_scale(scene), &dispatcher, &broadphase, &solver, &configuration),
-      surfaces(world, scene, time, time_step) {
-  world.setGravity(btVector3(btScalar(scene.downhill.x()), btScalar(scene.downhill.y()),
-                             btScalar(-scene.gravity)));
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Sphere& sphere = scene.bodies[i];
-    shapes.push_back(std::make_unique<btSphereShape>(btScalar(sphere.radius)));
-    const auto inertia = static_cast<btScalar>(sphere.moment_of_inertia());
-    btRigidBody::btRigidBodyConstructionInfo ball(
-        btScalar(sphere.mass), nullptr, shapes.back().get(), btVector3(inertia, inertia, inertia));
-    ball.m_startWorldTransform.setOrigin(to_bullet(states[i].position));
-    balls.push_back(std::make_unique<btRigidBody>(ball));
-    balls.back()->setLinearVelocity(to_bullet(states[i].velocity));
-    balls.back()->setAngularVelocity(to_bullet(states[i].angular_velocity));
-    balls.back()->setUserIndex(static_cast<int>(i));
-    if (scene.box) {
-      balls.back()->setLinearFactor(btVector3(1, 0, 1));
-      balls.back()->setAngularFactor(btVector3(0, 1, 0));
-    }
-    world.addRigidBody(balls.back().get());
-  }
-}
-
-BulletWorld::Parts::~Parts() {
-  for (const auto& ball : balls) world.removeRigidBody(ball.get());
-}
-
-BulletWorld::BulletWorld(const HardScene& scene, Profile profile,
-                         const PairCoefficients& coefficients, double time_step,
+BulletWorld::BulletWorld(const HardScene& scene, const BulletSettings& settings, double time_step,
                          std::span<const BodyState> states, double time)
-    : scene_(scene),
-      profile_(profile),
-      time_step_(time_step),
-      start_time_(time),
-      parts_(std::make_unique<Parts>(scene, states, time, time_step)) {
-  switch (profile) {
-    case Profile::default_:
-      // Only read through the pointer, which Bullet keeps without const.
-      for (const auto& ball : parts_->balls) {
-        ball->setUserPointer(const_cast<PairCoefficients*>(&coefficients));
-      }
-      combine_by_pair();
-      break;
-    case Profile::naive:
-      for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        set_fields(*parts_->balls[i], naive_ball(scene, i));
-      }
-      for (btRigidBody* surface : parts_->surfaces.bodies()) {
-        set_fields(*surface, naive_surface(scene, surface->getUserIndex()));
-      }
-      combine_as_shipped();
-      break;
+    : parts_(std::make_unique<Parts>(scene, settings, time_step, states, time)) {
+  const auto set_fields = [](btCollisionObject& object, const BodyFields& fields) {
+    object.setFriction(btScalar(fields.friction));
+    object.setRestitution(btScalar(fields.restitution));
+    object.setRollingFriction(btScalar(fields.rolling_friction));
+    object.setSpinningFriction(btScalar(fields.spinning_friction));
+  };
+  if (settings.coefficients == CoefficientMap::fields) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      set_fields(parts_->balls->object(i), naive_ball(parts_->scene, i));
+    for (btRigidBody* surface : parts_->surfaces.bodies())
+      set_fields(*surface, naive_surface(parts_->scene, surface->getUserIndex()));
+    combine_as_shipped();
+  } else {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      parts_->balls->object(i).setUserPointer(&parts_->coefficients);
+    combine_by_pair();
   }
 }
 
 BulletWorld::~BulletWorld() = default;
 
 void BulletWorld::step() {
-  parts_->surfaces.set_time(start_time_ + static_cast<double>(steps_++) * time_step_);
-  parts_->world.stepSimulation(btScalar(time_step_), 0);
+  Parts& parts = *parts_;
+  const FlushDenormals while_stepping(parts.settings.flush_denormals);
+  const double from = parts.step_begin();
+  parts.frames.clear();
+  const int substeps = parts.settings.substeps;
+  const double length = parts.time_step / substeps;
+  for (int k = 0; k < substeps; ++k) {
+    if (parts.next_contact)
+      parts.advance_by_contacts(from + k * length, length);
+    else
+      parts.advance(from + k * length, length);
+  }
+  ++parts.steps;
+}
+
+std::span<const Frame> BulletWorld::parts() const {
+  const auto& frames = parts_->frames;
+  return std::span(frames).first(frames.empty() ? 0 : frames.size() - 1);
 }
 
 void BulletWorld::read(Frame& frame) const {
-  frame.bodies.clear();
-  for (const auto& ball : parts_->balls) {
-    frame.bodies.push_back({from_bullet(ball->getCenterOfMassPosition()),
-                            from_bullet(ball->getLinearVelocity()),
-                            from_bullet(ball->getAngularVelocity())});
-  }
-  frame.touches.clear();
-  const btDispatcher& dispatcher = parts_->dispatcher;
-  for (int k = 0; k < dispatcher.getNumManifolds(); ++k) {
-    const btPersistentManifold& manifold = *parts_->dispatcher.getManifoldByIndexInternal(k);
-    if (!was_solved(manifold)) continue;
-    const double impulse = normal_impulse(manifold);
-    if (!(impulse > 0)) continue;
-    int first = manifold.getBody0()->getUserIndex();
-    int second = manifold.getBody1()->getUserIndex();
-    if (first < 0 || (second >= 0 && second < first)) std::swap(first, second);
-    if (second == kWall || second == kLid) continue;
-    frame.touches.push_back({first, second, impulse});
-  }
-  std::sort(frame.touches.begin(), frame.touches.end(), [](const Touch& a, const Touch& b) {
-    return std::pair(a.first, a.second) < std::pair(b.first, b.second);
-  });
+  if (parts_->frames.empty())
+    parts_->look(frame);
+  else
+    frame = parts_->frames.back();
+  frame.part = 1;
 }
 
-std::map<std::string, Setting> BulletWorld::settings() const {
-  return read_settings(parts_->world, scene_, profile_, time_step_);
+Settings BulletWorld::applied() const {
+  const Parts& parts = *parts_;
+  return applied_settings(parts.dynamics.world(), parts.scene, parts.settings, parts.units,
+                          parts.time_step);
 }
 
 std::string bullet_version() {

@@ -16,9 +16,19 @@ const PairContact& box_contact(const HardScene& scene, std::size_t body, int sur
 
 }  // namespace
 
-PairCoefficients::PairCoefficients(const HardScene& scene, double time_step) : scene_(scene) {
+PairCoefficients::PairCoefficients(const HardScene& scene, const BulletSettings& settings,
+                                   double time_step)
+    : scene_(scene), settings_(settings) {
+  set_time_step(time_step);
+}
+
+void PairCoefficients::set_time_step(double time_step) {
+  if (time_step == time_step_) return;
+  time_step_ = time_step;
+  raise_.clear();
   for (const Sphere& body : scene_.bodies) {
-    raise_.push_back(std::max(1.0, body.mass * scene_.gravity * time_step));
+    const double weight = body.mass * scene_.gravity * time_step;
+    raise_.push_back(settings_.body == BodyKind::rigid ? std::max(1.0, weight) : 1.0);
   }
 }
 
@@ -27,31 +37,61 @@ const PairContact& PairCoefficients::pair_contact(int body, int other) const {
                    : scene_.between(index(body), index(other));
 }
 
-double PairCoefficients::friction(int body, int other) const {
-  if (is_substrate(other)) return scene_.on_substrate(index(body)).kinetic_friction;
-  const PairContact& pair = pair_contact(body, other);
-  // β0 = −1, u_t' = u_t: no tangential impulse whatever μ is.
-  return pair.tangential_restitution == -1 ? 0 : pair.friction;
+double PairCoefficients::gravity_onto(int other) const {
+  if (other == kFloor) return scene_.gravity;
+  return other == kLid ? -scene_.gravity : 0;
+}
+
+double PairCoefficients::friction(int body, int other, bool slips) const {
+  double mu = 0;
+  if (is_substrate(other)) {
+    const SubstrateContact& ground = scene_.on_substrate(index(body));
+    const bool sticks = settings_.coefficients == CoefficientMap::pair_and_slip && !slips;
+    mu = sticks ? ground.static_friction : ground.kinetic_friction;
+  } else {
+    const PairContact& pair = pair_contact(body, other);
+    // β0 = −1, u_t' = u_t: no tangential impulse whatever μ is.
+    mu = pair.tangential_restitution == -1 ? 0 : pair.friction;
+  }
+  return settings_.friction_factor * mu;
 }
 
 double PairCoefficients::restitution(int body, int other, double approach_speed) const {
-  if (is_substrate(other)) return scene_.on_substrate(index(body)).restitution;
-  return restitution_at(pair_contact(body, other).restitution, approach_speed);
+  double e = is_substrate(other)
+                 ? scene_.on_substrate(index(body)).restitution
+                 : restitution_at(pair_contact(body, other).restitution, approach_speed);
+  if (settings_.body == BodyKind::multibody && e > 0) {
+    const double kick = gravity_onto(other) * time_step_;
+    if (approach_speed + kick > 0) e *= approach_speed / (approach_speed + kick);
+  }
+  return settings_.restitution_factor * e;
 }
 
-double PairCoefficients::rolling_friction(int body, int other, double speed) const {
+double PairCoefficients::rolling_friction(int body, int other, double speed, bool slips) const {
   if (!is_substrate(other)) return 0;
   const Sphere& sphere = scene_.bodies[index(body)];
-  const double mu_r = scene_.on_substrate(index(body)).rolling(speed);
-  const double rho = (1 + sphere.shape_factor) * mu_r * sphere.radius * raise_[index(body)];
-  // Bullet looks at the spinning friction only where this one is > 0.
-  const double gate = spinning_friction(body, other) > 0 ? 1e-12 : 0;
-  return std::max(rho, gate);
+  const SubstrateContact& ground = scene_.on_substrate(index(body));
+  const bool rolls = settings_.coefficients != CoefficientMap::pair_and_slip ||
+                     ground.rolling_while_sliding || !slips;
+  const double mu_r = rolls ? ground.rolling(speed) : 0;
+  const double rho = settings_.rolling_friction_factor * (1 + sphere.shape_factor) * mu_r *
+                     sphere.radius * raise_[index(body)];
+  // Of a rigid body Bullet looks at the spinning friction only where this one is > 0.
+  const bool gated = settings_.body == BodyKind::rigid && spinning_friction(body, other) > 0;
+  return std::max(rho, gated ? 1e-12 : 0.0);
 }
 
 double PairCoefficients::spinning_friction(int body, int other) const {
   if (!is_substrate(other)) return 0;
-  return scene_.on_substrate(index(body)).drilling_length * raise_[index(body)];
+  return settings_.spinning_friction_factor * scene_.on_substrate(index(body)).drilling_length *
+         raise_[index(body)];
+}
+
+bool PairCoefficients::slips(int body, double slip_speed) const {
+  const double in_a_step = (1 + scene_.bodies[index(body)].inverse_shape_factor()) *
+                           scene_.on_substrate(index(body)).kinetic_friction * scene_.gravity *
+                           time_step_;
+  return slip_speed > in_a_step;
 }
 
 namespace {

@@ -4,45 +4,61 @@
 #include <utility>
 #include <vector>
 
+#include "bullet_backend/settings.h"
 #include "physics/frame.h"
 #include "scenario/hard_scene.h"
 
 /// A scene's coefficients in Bullet's terms. Bullet's solver knows four numbers of a contact:
 ///   friction           μ, |tangential impulse| <= μ λ_n
 ///   restitution        e
-///   rolling friction   a length ρ: |torque impulse| <= ρ min(λ_n, 1) about each of two fixed axes
-///                      in the plane of contact
-///   spinning friction  a length likewise, about the normal; left out where ρ = 0
-/// with λ_n the contact's normal impulse in whatever units [N s here]
-/// (btSequentialImpulseConstraintSolver.cpp, convertContact and solveSingleIteration).
+///   rolling friction   a length ρ: |torque impulse| <= ρ λ_n in the plane of contact. Of rigid
+///                      bodies <= ρ min(λ_n, 1) about each of two fixed axes
+///   spinning friction  a length likewise, about the normal; of rigid bodies left out where ρ = 0
+/// with λ_n the contact's normal impulse in whatever units
+/// (btSequentialImpulseConstraintSolver.cpp, convertContact and solveSingleIteration;
+/// btMultiBodyConstraintSolver.cpp, solveSingleIteration).
 namespace slipcheck::bullet {
 
 /// What stands in the place of a body's index where a ball touches no other ball: the substrate or
 /// the floor of a box, either of its walls, its lid.
 inline constexpr int kFloor = kSubstrate, kWall = -2, kLid = -3;
 
-/// The exact map: pair by pair, what makes Bullet's contact do what the scene says.
+/// The exact map: pair by pair, what makes Bullet's contact do what the scene says. Lengths, times
+/// and masses in the units of the scene that it is given.
 class PairCoefficients {
  public:
-  /// Steps of `time_step` [s], > 0, in which the substrate gives a resting body λ_n = m g dt.
-  PairCoefficients(const HardScene& scene, double time_step);
+  /// Steps of `time_step`, > 0, in which the substrate gives a resting body λ_n = m g dt.
+  PairCoefficients(const HardScene& scene, const BulletSettings& settings, double time_step);
 
-  /// Between a body and another, or kFloor, kWall, kLid [-].
-  double friction(int body, int other) const;
+  /// Further steps are of another length, > 0.
+  void set_time_step(double time_step);
 
-  /// At the normal approach speed [m/s], >= 0 [-].
+  /// Of the substrate, in the world's axes: slip and speed on it count from here.
+  void set_ground_velocity(const Vector3& velocity) { ground_velocity_ = velocity; }
+  const Vector3& ground_velocity() const { return ground_velocity_; }
+
+  /// Between a body and another, or kFloor, kWall, kLid [-]. A contact that does not slip has its
+  /// static friction where the settings tell the two apart.
+  double friction(int body, int other, bool slips) const;
+
+  /// At the normal approach speed, >= 0 [-]. A multibody has this step's gravity when Bullet looks
+  /// at its velocity: on a floor it would part with e (v + g dt), hence e v/(v + g dt).
   double restitution(int body, int other, double approach_speed) const;
 
-  /// On the substrate at a speed [m/s]; between bodies and in a box 0 [m].
-  /// K (16): a rolling sphere slows down with μ_r g. With a torque of ρ m g it slows down with
-  /// ρ g/((1 + q) R), q = I/(m R²), hence ρ = (1 + q) μ_r R.
-  double rolling_friction(int body, int other, double speed) const;
+  /// On the substrate at a speed; between bodies and in a box 0. K (16): a rolling sphere slows
+  /// down with μ_r g. With a torque of ρ m g it slows down with ρ g/((1 + q) R), q = I/(m R²),
+  /// hence ρ = (1 + q) μ_r R.
+  double rolling_friction(int body, int other, double speed, bool slips) const;
 
   /// On the substrate the torque about the vertical per normal force; between bodies and in a
-  /// box 0 [m].
+  /// box 0.
   double spinning_friction(int body, int other) const;
 
-  /// m g dt > 1 N s: there min(λ_n, 1) would cut the two torques, and they are raised by m g dt.
+  /// Whether a contact with the substrate slips at this speed: faster than friction can stop in
+  /// the step, in which u falls by (1 + 1/q) μ_k g dt.
+  bool slips(int body, double slip_speed) const;
+
+  /// m g dt > 1: there min(λ_n, 1) would cut the two torques, and they are raised by m g dt.
   /// Right for a body at rest on the plane, wrong by the ratio of its load to its weight otherwise.
   bool is_cut(int body) const { return raise_[index(body)] > 1; }
 
@@ -50,13 +66,18 @@ class PairCoefficients {
   /// What two balls do, or a ball and a box.
   const PairContact& pair_contact(int body, int other) const;
   bool is_substrate(int other) const { return other == kSubstrate && !scene_.box; }
+  /// Gravity towards a surface.
+  double gravity_onto(int other) const;
   static std::size_t index(int body) { return static_cast<std::size_t>(body); }
 
   HardScene scene_;
+  BulletSettings settings_;
+  double time_step_ = 0;
+  Vector3 ground_velocity_ = Vector3::Zero();
   std::vector<double> raise_;  // max(1, m g dt), by body
 };
 
-/// What people type into a rigid body's own fields.
+/// What people type into a body's own fields.
 struct BodyFields {
   double friction = 0.5;
   double restitution = 0;

@@ -4,58 +4,86 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <cmath>
+#include <utility>
 
+#include "bullet_backend/balls.h"
 #include "bullet_backend/coefficients.h"
+#include "bullet_backend/convert.h"
 
 namespace slipcheck::bullet {
 namespace {
 
 /// The two bodies of a contact, a ball first.
 struct Pair {
-  const btRigidBody* ball;
-  const btRigidBody* other;
+  const btCollisionObject* ball;
+  const btCollisionObject* other;
   const PairCoefficients& coefficients;
 
-  int body_index() const { return ball->getUserIndex(); }
+  int body() const { return ball->getUserIndex(); }
   int other_index() const { return other->getUserIndex(); }
 };
 
 Pair identify(const btCollisionObject* first, const btCollisionObject* second) {
   if (first->getUserIndex() < 0) std::swap(first, second);
-  return {btRigidBody::upcast(first), btRigidBody::upcast(second),
-          *static_cast<const PairCoefficients*>(first->getUserPointer())};
+  return {first, second, *static_cast<const PairCoefficients*>(first->getUserPointer())};
+}
+
+/// Of a plane, or along the line of centres.
+Vector3 normal_of(const Pair& pair) {
+  if (pair.other_index() < 0) {
+    const auto* plane = static_cast<const btStaticPlaneShape*>(pair.other->getCollisionShape());
+    return from_bullet(plane->getPlaneNormal());
+  }
+  const Vector3 line = from_bullet(pair.ball->getWorldTransform().getOrigin() -
+                                   pair.other->getWorldTransform().getOrigin());
+  return line.normalized();
+}
+
+/// How a ball moves over a plane.
+struct OverPlane {
+  double speed;       ///< of its centre
+  double slip_speed;  ///< of its lowest point
+};
+
+OverPlane over_plane(const Pair& pair) {
+  const Vector3 n = normal_of(pair);
+  const auto* sphere = static_cast<const btSphereShape*>(pair.ball->getCollisionShape());
+  const BodyState ball = motion_of(*pair.ball);
+  Vector3 v = ball.velocity - pair.coefficients.ground_velocity();
+  v -= v.dot(n) * n;
+  const Vector3 u = v - double(sphere->getRadius()) * ball.angular_velocity.cross(n);
+  return {v.norm(), u.norm()};
+}
+
+bool slips(const Pair& pair) {
+  return pair.other_index() < 0 &&
+         pair.coefficients.slips(pair.body(), over_plane(pair).slip_speed);
 }
 
 btScalar friction(const btCollisionObject* first, const btCollisionObject* second) {
   const Pair pair = identify(first, second);
-  return btScalar(pair.coefficients.friction(pair.body_index(), pair.other_index()));
+  return btScalar(pair.coefficients.friction(pair.body(), pair.other_index(), slips(pair)));
 }
 
 btScalar restitution(const btCollisionObject* first, const btCollisionObject* second) {
   const Pair pair = identify(first, second);
-  btVector3 normal(0, 0, 1);
-  if (pair.other_index() == kWall) {
-    normal = btVector3(1, 0, 0);
-  } else if (pair.other_index() >= 0) {
-    normal = pair.ball->getCenterOfMassPosition() - pair.other->getCenterOfMassPosition();
-    normal.safeNormalize();
-  }
-  const btVector3 velocity = pair.ball->getLinearVelocity() - pair.other->getLinearVelocity();
-  const double approach_speed = std::abs(double(velocity.dot(normal)));
-  return btScalar(
-      pair.coefficients.restitution(pair.body_index(), pair.other_index(), approach_speed));
+  const Vector3 velocity = motion_of(*pair.ball).velocity - motion_of(*pair.other).velocity;
+  const double approach_speed = std::abs(velocity.dot(normal_of(pair)));
+  return btScalar(pair.coefficients.restitution(pair.body(), pair.other_index(), approach_speed));
 }
 
 btScalar rolling_friction(const btCollisionObject* first, const btCollisionObject* second) {
   const Pair pair = identify(first, second);
-  const btVector3& velocity = pair.ball->getLinearVelocity();
-  const double speed = std::hypot(double(velocity.x()), double(velocity.y()));
-  return btScalar(pair.coefficients.rolling_friction(pair.body_index(), pair.other_index(), speed));
+  if (pair.other_index() >= 0) return 0;
+  const OverPlane motion = over_plane(pair);
+  return btScalar(
+      pair.coefficients.rolling_friction(pair.body(), pair.other_index(), motion.speed,
+                                         pair.coefficients.slips(pair.body(), motion.slip_speed)));
 }
 
 btScalar spinning_friction(const btCollisionObject* first, const btCollisionObject* second) {
   const Pair pair = identify(first, second);
-  return btScalar(pair.coefficients.spinning_friction(pair.body_index(), pair.other_index()));
+  return btScalar(pair.coefficients.spinning_friction(pair.body(), pair.other_index()));
 }
 
 }  // namespace

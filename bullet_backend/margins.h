@@ -18,7 +18,6 @@ inline double margin_scale(const HardScene& scene) {
   return std::min(1.0, largest);
 }
 
-inline constexpr double kBodyMargin = 0.02;  ///< around a body, Bullet's own [m]
-inline constexpr double kTreeMargin = 0.05;  ///< around that in the broadphase's tree [m]
+inline constexpr double kTreeMargin = 0.05;  ///< of the broadphase's tree, Bullet's own [m]
 
 }  // namespace slipcheck::bullet

@@ -2,79 +2,109 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <optional>
+
 #include "bullet_backend/coefficients.h"
+#include "bullet_backend/convert.h"
 
 namespace slipcheck::bullet {
-namespace {
-
-/// Tells Bullet where the floor is.
-class FloorMotion final : public btMotionState {
- public:
-  FloorMotion(const ShakenFloor& floor, double time) : floor_(floor), time_(time) {}
-
-  void set_time(double time) { time_ = time; }
-
-  btTransform at(double time) const {
-    return btTransform(btQuaternion::getIdentity(), btVector3(0, 0, btScalar(floor_.height(time))));
-  }
-  void getWorldTransform(btTransform& transform) const override { transform = at(time_); }
-  void setWorldTransform(const btTransform&) override {}  // nothing moves it but itself
-
- private:
-  ShakenFloor floor_;
-  double time_;
-};
-
-}  // namespace
 
 struct Surfaces::Parts {
   struct Surface {
-    Surface(const btVector3& normal, double offset, btMotionState* motion)
-        : shape(normal, btScalar(offset)),
-          body(btRigidBody::btRigidBodyConstructionInfo(0, motion, &shape)) {}
+    Surface(const btVector3& normal, btScalar offset)
+        : shape(normal, offset),
+          body(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &shape)) {}
     btStaticPlaneShape shape;
     btRigidBody body;
   };
 
-  Parts(const HardScene& scene, double time)
-      : motion(scene.box ? scene.box->floor : ShakenFloor{}, time) {}
-
-  FloorMotion motion;
+  SubstrateMotion motion;
+  ShakenFloor floor;
+  Eigen::Matrix3d turn;
+  SurfaceVelocity told;
   std::vector<std::unique_ptr<Surface>> surfaces;
+  std::vector<btRigidBody*> moving;
+  std::optional<Vector3> told_now;
+  Vector3 told_before = Vector3::Zero();
+
+  Vector3 position(double t) const { return motion.position(t) + Vector3(0, 0, floor.height(t)); }
+  Vector3 velocity(double t, double dt) const {
+    switch (told) {
+      case SurfaceVelocity::step_before:
+        return (position(t) - position(t - dt)) / dt;
+      case SurfaceVelocity::this_step:
+        return (position(t + dt) - position(t)) / dt;
+      case SurfaceVelocity::step_end:
+        return motion.velocity(t + dt) + Vector3(0, 0, floor.velocity(t + dt));
+    }
+    return Vector3::Zero();
+  }
 };
 
-Surfaces::Surfaces(btDiscreteDynamicsWorld& world, const HardScene& scene, double time,
-                   double time_step)
-    : world_(world), parts_(std::make_unique<Parts>(scene, time)) {
+Surfaces::Surfaces(btDiscreteDynamicsWorld& world, const HardScene& scene, const WorldUnits& units,
+                   const BulletSettings& settings)
+    : world_(world), parts_(std::make_unique<Parts>()) {
+  parts_->motion = scene.motion;
+  parts_->floor = scene.box ? scene.box->floor : ShakenFloor{};
+  parts_->turn = units.turn;
+  parts_->told = settings.surface_velocity;
   // Half-spaces normal·r <= offset.
-  const auto add = [&](const btVector3& normal, double offset, int index, bool shaken) {
-    FloorMotion* motion = shaken ? &parts_->motion : nullptr;
-    parts_->surfaces.push_back(std::make_unique<Parts::Surface>(normal, offset, motion));
+  const auto add = [&](const Vector3& normal, double offset, int index, bool moves) {
+    parts_->surfaces.push_back(
+        std::make_unique<Parts::Surface>(to_bullet(units.turn * normal), btScalar(offset)));
     btRigidBody& body = parts_->surfaces.back()->body;
     body.setUserIndex(index);
-    if (shaken) {
+    body.setContactProcessingThreshold(btScalar(settings.contact_processing_threshold));
+    if (moves) {
       body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
       body.setActivationState(DISABLE_DEACTIVATION);
-      // So that it has its velocity in the first step too.
-      body.setInterpolationWorldTransform(motion->at(time - time_step));
+      parts_->moving.push_back(&body);
     }
     world.addRigidBody(&body);
     bodies_.push_back(&body);
   };
-  const bool shaken = scene.box && !scene.box->floor.is_still();
-  add(btVector3(0, 0, 1), 0, kFloor, shaken);
+  const bool shaken = !parts_->floor.is_still();
+  add(Vector3::UnitZ(), 0, kFloor, shaken || !scene.motion.is_still());
   if (!scene.box) return;
   const Box& box = *scene.box;
   const bool with_walls = shaken && box.moving_walls;
-  add(btVector3(1, 0, 0), 0, kWall, with_walls);
-  add(btVector3(-1, 0, 0), -box.width, kWall, with_walls);
-  if (box.lid) add(btVector3(0, 0, -1), -*box.lid, kLid, with_walls);
+  add(Vector3::UnitX(), 0, kWall, with_walls);
+  add(-Vector3::UnitX(), -box.width, kWall, with_walls);
+  if (box.lid) add(-Vector3::UnitZ(), -*box.lid, kLid, with_walls);
 }
 
 Surfaces::~Surfaces() {
   for (btRigidBody* body : bodies_) world_.removeRigidBody(body);
 }
 
-void Surfaces::set_time(double time) { parts_->motion.set_time(time); }
+const Vector3& Surfaces::told_before() const { return parts_->told_before; }
+
+Vector3 Surfaces::displacement(const btRigidBody& surface, double time) const {
+  if (!surface.isKinematicObject()) return Vector3::Zero();
+  return parts_->turn * Vector3(0, 0, parts_->floor.height(time));
+}
+
+Vector3 Surfaces::velocity(const btRigidBody& surface, double time) const {
+  if (!surface.isKinematicObject()) return Vector3::Zero();
+  return parts_->turn * Vector3(0, 0, parts_->floor.velocity(time));
+}
+
+void Surfaces::begin_step(double time, double time_step) {
+  if (parts_->moving.empty()) return;
+  // A plane that moves along itself stays where it is.
+  const Vector3 place(0, 0, parts_->floor.height(time));
+  const Vector3 velocity = parts_->velocity(time, time_step);
+  parts_->told_before =
+      parts_->told_now.value_or(parts_->turn * parts_->velocity(time - time_step, time_step));
+  parts_->told_now = parts_->turn * velocity;
+  const Vector3 before = place - time_step * velocity;
+  btTransform now = btTransform::getIdentity(), then = now;
+  now.setOrigin(to_bullet(parts_->turn * place));
+  then.setOrigin(to_bullet(parts_->turn * before));
+  for (btRigidBody* body : parts_->moving) {
+    body->setWorldTransform(now);
+    body->setInterpolationWorldTransform(then);
+  }
+}
 
 }  // namespace slipcheck::bullet

@@ -4,33 +4,42 @@
 #include <span>
 #include <vector>
 
-#include "scenario/hard_scene.h"
+#include "bullet_backend/world_units.h"
 
 class btDiscreteDynamicsWorld;
 class btRigidBody;
 
 namespace slipcheck::bullet {
 
-/// What the balls of a world bounce off: the plane z = 0, or the floor, walls and lid of a box. All
-/// are half-spaces (btStaticPlaneShape): at 240 Hz and 1 m/s a ball of 0.5 mm goes through four
-/// times its diameter in a step, and would leave a box made of slabs on their far side. Their user
+/// What the balls of a world bounce off: a plane, or the floor, walls and lid of a box. All are
+/// half-spaces (btStaticPlaneShape): at 240 Hz and 1 m/s a ball of 0.5 mm goes through four times
+/// its diameter in a step, and would leave a box made of slabs on their far side. Their user
 /// indices are kFloor, kWall (twice) and kLid of coefficients.h.
 ///
-/// What is shaken is kinematic, as Bullet's manual has it: never asleep, and moved by a motion
-/// state that Bullet asks at the start of each step. There it is told where the floor is at that
-/// instant, to which the balls' positions belong too. From this and the place before Bullet makes
-/// the velocity that contacts feel, (z_f(t) - z_f(t - dt))/dt: half a step old when the step
-/// begins.
+/// What moves is kinematic and never asleep. Bullet makes the velocity that contacts feel from two
+/// places of such a body, and so each step begins with two that give the velocity which the
+/// settings ask for: `step_before` is what a motion state results in, (x(t) − x(t − dt))/dt, half
+/// a step old when the step begins.
 class Surfaces {
  public:
-  /// Adds the scene's surfaces to `world`, which must outlive them, where they are at `time` [s].
-  Surfaces(btDiscreteDynamicsWorld& world, const HardScene& scene, double time, double time_step);
+  /// Adds the scene's surfaces to `world`, which must outlive them; all in the world's units.
+  Surfaces(btDiscreteDynamicsWorld& world, const HardScene& scene, const WorldUnits& units,
+           const BulletSettings& settings);
   ~Surfaces();
   Surfaces(const Surfaces&) = delete;
   Surfaces& operator=(const Surfaces&) = delete;
 
-  /// The time at which the next step begins [s].
-  void set_time(double time);
+  /// A step of length `time_step` begins at `time`.
+  void begin_step(double time, double time_step);
+
+  /// What Bullet was told of the velocity of what moves in the step before the one that begins:
+  /// what stuck to it then goes with this now. At first what it would have been told.
+  const Vector3& told_before() const;
+
+  /// How far a surface of this world has moved off its plane at `time`, and how fast it does, as
+  /// the scene has it: a plane that moves along itself stays where it is.
+  Vector3 displacement(const btRigidBody& surface, double time) const;
+  Vector3 velocity(const btRigidBody& surface, double time) const;
 
   std::span<btRigidBody* const> bodies() const { return bodies_; }
 

@@ -17,6 +17,7 @@
 #include "engine/remote_engine.h"
 #include "harness/closed_form_values.h"
 #include "harness/reference_run.h"
+#include "harness/requested_runs.h"
 #include "harness/scene_features.h"
 #include "physics/closed_forms.h"
 #include "reference/box_solver.h"
@@ -135,30 +136,43 @@ std::string text_of(const Setting& setting) {
   return std::get<std::string>(setting);
 }
 
-/// Asks each engine what it would make of the scene; takes no step.
-void print_engines(const Scenario& scenario, const HardScene& scene) {
+/// Asks the engine of a run what it would make of the scene; takes no step.
+void print_engine(const EngineRecord& run, const HardScene& scene) {
+  const auto executable = find_engine(run.engine, run.precision);
+  if (!executable) {
+    fmt::print("    not installed\n");
+    return;
+  }
+  if (!run.reason.empty()) {
+    fmt::print("    skipped: {}\n", run.reason);
+    return;
+  }
+  for (const auto& [name, setting] : run.settings)
+    fmt::print("    the profile sets {:<32} {}\n", name, text_of(setting));
+  try {
+    RemoteEngine engine(executable->path);
+    const Applied applied = engine.configure(scene, run.settings, 1 / run.rate);
+    for (const std::string& missing : applied.not_represented)
+      fmt::print("    not represented: {}\n", missing);
+    for (const auto& [name, setting] : applied.settings)
+      fmt::print("    {:<36} {}\n", name, text_of(setting));
+  } catch (const Refused& refused) {
+    fmt::print("    refused: {}\n", refused.what());
+  } catch (const WorkerFailure& failure) {
+    fmt::print("    failed: {}\n", failure.what());
+  }
+}
+
+/// `runs` are those of the scenario; what an engine says at the first of its rates stands for all.
+void print_engines(const Scenario& scenario, const HardScene& scene,
+                   const std::vector<EngineRecord>& runs) {
+  std::size_t first = 0;
   for (const EngineRequest& request : scenario.compare.engines) {
-    const bool single = request.precision == EngineRequest::Precision::single_;
-    const std::string precision = single ? "single" : "double";
-    fmt::print("\n  Engine {} {}, profile {}, {} Hz\n", request.engine, precision, request.profile,
+    const EngineRecord& run = runs[first];
+    fmt::print("\n  Engine {} {}, profile {}, {} Hz\n", run.engine, run.precision, run.profile,
                fmt::join(request.rates, ", "));
-    const auto executable = find_engine(request.engine, precision);
-    if (!executable) {
-      fmt::print("    not installed\n");
-      continue;
-    }
-    try {
-      RemoteEngine engine(executable->path);
-      const Applied applied = engine.configure(scene, request.profile, 1 / request.rates.front());
-      for (const std::string& missing : applied.not_represented)
-        fmt::print("    not represented: {}\n", missing);
-      for (const auto& [name, setting] : applied.settings)
-        fmt::print("    {:<36} {}\n", name, text_of(setting));
-    } catch (const Refused& refused) {
-      fmt::print("    refused: {}\n", refused.what());
-    } catch (const WorkerFailure& failure) {
-      fmt::print("    failed: {}\n", failure.what());
-    }
+    print_engine(run, scene);
+    first += request.rates.size();
   }
 }
 
@@ -186,7 +200,7 @@ void explain_on_substrate(const Scenario& scenario, const ContactScene& scene) {
   print_expectations(scenario, scene, solver);
 }
 
-void explain(const Scenario& scenario) {
+void explain(const Scenario& scenario, const std::vector<EngineRecord>& runs) {
   fmt::print("{}  {}\n", scenario.name, scenario.title);
   if (!scenario.source.empty()) fmt::print("  source: {}\n", scenario.source);
   ContactScene scene;
@@ -198,7 +212,7 @@ void explain(const Scenario& scenario) {
     return;
   }
   print_warnings(scene);
-  print_engines(scenario, scene.hard);
+  print_engines(scenario, scene.hard, runs);
 }
 
 }  // namespace
@@ -211,7 +225,9 @@ void add_explain_command(CLI::App& app, int& exit_code) {
   accept_quiet(*command);
   command->footer("Example:\n  slipcheck explain scenarios/symmetric-30cms.yaml");
   command->callback([files, &exit_code] {
-    for (const Scenario& scenario : load_files(*files)) explain(scenario);
+    const std::vector<Scenario> scenarios = load_files(*files);
+    const auto runs = requested_runs(scenarios);
+    for (std::size_t s = 0; s < scenarios.size(); ++s) explain(scenarios[s], runs[s]);
     exit_code = kWithinTolerance;
   });
 }

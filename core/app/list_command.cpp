@@ -4,12 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "app/commands.h"
-#include "engine/engine_registry.h"
-#include "engine/remote_engine.h"
+#include "app/list_engines.h"
 #include "scenario/fault.h"
 #include "scenario/load.h"
 #include "scenario/observable_names.h"
@@ -20,31 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-/// Asks every worker on this machine who it is; engines that are known but not built are listed
-/// too.
-Json list_engines() {
-  Json list = Json::array();
-  const std::vector<EngineExecutable> found = find_engines();
-  for (const EngineExecutable& executable : found) {
-    Json entry{{"engine", executable.engine}, {"precision", executable.precision}};
-    try {
-      const EngineInfo info = RemoteEngine(executable.path).info();
-      entry["version"] = info.version;
-      entry["profiles"] = info.profiles;
-      entry["status"] = "ok";
-    } catch (const WorkerFailure& failure) {
-      entry["status"] = "crashed";
-      entry["reason"] = failure.what();
-    }
-    list.push_back(std::move(entry));
-  }
-  for (const std::string& engine : known_engines())
-    if (std::none_of(found.begin(), found.end(),
-                     [&](const EngineExecutable& e) { return e.engine == engine; }))
-      list.push_back(Json{{"engine", engine}, {"status", "skipped"}, {"reason", "not installed"}});
-  return list;
-}
 
 /// Bundled scenes lie beside the program, in its share folder, or in the source tree.
 fs::path scenario_directory() {
@@ -176,25 +151,26 @@ void print_table(const Json& list) {
 }  // namespace
 
 void add_list_command(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("list", "List the engines, scenarios, observables or models there are");
+  static const std::map<std::string, Json (*)()> lists = {
+      {"engines", list_engines},   {"models", list_models},       {"observables", list_observables},
+      {"profiles", list_profiles}, {"scenarios", list_scenarios}, {"settings", list_settings}};
+  CLI::App* command = app.add_subcommand(
+      "list", "List the engines, their profiles and settings, scenarios, observables or models");
   auto what = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
-  command->add_option("WHAT", *what, "engines, scenarios, observables or models")
+  command
+      ->add_option("WHAT", *what, "engines, profiles, settings, scenarios, observables or models")
       ->required()
-      ->check(CLI::IsMember({"engines", "scenarios", "observables", "models"}));
+      ->check(CLI::IsMember(lists));
   command->add_flag("--json", *as_json, "As JSON");
   accept_quiet(*command);
   command->footer("Example:\n  slipcheck list observables --json");
   command->callback([what, as_json, &exit_code] {
-    const Json list = *what == "engines"       ? list_engines()
-                      : *what == "scenarios"   ? list_scenarios()
-                      : *what == "observables" ? list_observables()
-                                               : list_models();
+    const Json list = lists.at(*what)();
     if (*as_json)
       fmt::print("{}\n", list.dump(2));
     else
-      print_table(list);
+      print_table(*what == "settings" ? settings_in_words(list) : list);
     exit_code = kWithinTolerance;
   });
 }

@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   add_figures_command(app, exit_code);
   add_list_command(app, exit_code);
   add_schema_command(app, exit_code);
+  add_tune_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

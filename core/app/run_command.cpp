@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -11,6 +10,7 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/load_files.h"
+#include "app/output.h"
 #include "app/progress_bar.h"
 #include "harness/scene_run.h"
 #include "report/brief.h"
@@ -32,30 +32,6 @@ struct RunArguments {
   std::size_t memory_limit = 2048;  // MiB
   bool all = false, summary = false, quiet = false;
 };
-
-/// What cannot be written in the end is refused before anything runs.
-void check_output(const std::string& option, const fs::path& path, bool is_directory) {
-  std::error_code ignored;
-  if (is_directory) {
-    if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
-      throw BadOption(fmt::format("{}: must be a directory, got {}", option, path.string()));
-    return;
-  }
-  const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(parent, ignored))
-    throw BadOption(fmt::format("{}: its directory must exist, got {}", option, path.string()));
-  if (access(parent.c_str(), W_OK) != 0)
-    throw BadOption(
-        fmt::format("{}: its directory must be writable, got {}", option, path.string()));
-  if (fs::is_directory(path, ignored))
-    throw BadOption(fmt::format("{}: must be a file, got {}", option, path.string()));
-}
-
-int terminal_width() {
-  winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
-  return 100;
-}
 
 int exit_code_of(const std::vector<SceneRecord>& scenes) {
   if (interrupted()) return kInterrupted;
@@ -87,7 +63,7 @@ void write_results(const RunArguments& arguments, const std::vector<SceneRecord>
 void print_warnings(const std::vector<SceneRecord>& scenes) {
   for (const SceneRecord& scene : scenes)
     for (const EngineRecord& run : scene.runs)
-      if (run.status != EngineRecord::Status::ok)
+      if (run.status != EngineRecord::Status::ok && run.verdict() != Verdict::within)
         fmt::print(stderr, "{}: {} {} {} at {:g} Hz {}: {}\n", scene.scenario.name, run.engine,
                    run.precision, run.profile, run.rate, name_of(run.status), run.reason);
 }

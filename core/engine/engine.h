@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -13,12 +15,36 @@
 
 namespace slipcheck {
 
-/// A setting as the engine applied it.
+/// A setting's value: a flag, a number or a word.
 using Setting = std::variant<bool, double, std::string>;
+
+/// Settings by name.
+using Settings = std::map<std::string, Setting>;
+
+/// A setting that an engine takes: what a profile may choose, and what tuning may try.
+struct SettingInfo {
+  std::string name;   ///< words of small letters and digits, joined by '_'
+  std::string about;  ///< one line
+  std::string unit;   ///< of a number, "m/s"; empty where it has none
+  Setting shipped;    ///< the engine's own value; it tells the type too
+  double low = -std::numeric_limits<double>::infinity();  ///< a number's limits, inclusive
+  double high = std::numeric_limits<double>::infinity();
+  bool whole = false;                ///< a number without fraction
+  std::vector<std::string> choices;  ///< the words that there are
+
+  /// Values worth trying one by one, in any order; none where tuning leaves the setting alone.
+  std::vector<Setting> candidates;
+  /// A range worth searching in; of logarithms where both ends are > 0 and `logarithmic` is set.
+  struct Range {
+    double low = 0, high = 0;
+    bool logarithmic = false;
+  };
+  std::optional<Range> range;
+};
 
 /// What an engine made of a scene.
 struct Applied {
-  std::map<std::string, Setting> settings;   ///< by name; SI
+  Settings settings;                         ///< SI
   std::vector<std::string> not_represented;  ///< what of the scene the engine cannot express
 };
 
@@ -27,10 +53,10 @@ struct EngineInfo {
   std::string engine;                 ///< "bullet"
   std::string version;                ///< "3.24"
   std::string precision;              ///< "single" or "double"
-  std::vector<std::string> profiles;  ///< known by name
+  std::vector<SettingInfo> settings;  ///< in an order that puts what belongs together side by side
 };
 
-/// The engine cannot run this scene or profile; the message is the reason.
+/// The engine cannot run this scene with these settings; the message is the reason.
 class Refused : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -44,10 +70,10 @@ class Engine {
 
   virtual EngineInfo info() const = 0;
 
-  /// Prepares for a scene under a named profile with steps of `time_step` [s], > 0. May be called
-  /// again for another scene. Throws Refused.
-  virtual Applied configure(const HardScene& scene, const std::string& profile,
-                            double time_step) = 0;
+  /// Prepares for a scene with steps of `time_step` [s], > 0. Settings that are not named have the
+  /// engine's own values; those that are have been checked against info(). May be called again for
+  /// another scene. Throws Refused.
+  virtual Applied configure(const HardScene& scene, const Settings& settings, double time_step) = 0;
 
   /// A fresh world, nothing left of an earlier one, with the bodies in these states at `time` [s],
   /// >= 0, of the scene's clock, by which the substrate or the box moves.
@@ -58,6 +84,10 @@ class Engine {
 
   /// The state after the last step, into `frame` (its storage is reused).
   virtual void read(Frame& frame) const = 0;
+
+  /// The instants inside the last step at which the engine ended steps of its own, in order, each
+  /// with its `part` < 1. None unless overridden.
+  virtual std::span<const Frame> parts() const { return {}; }
 };
 
 }  // namespace slipcheck

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "engine/cbor.h"
 #include "engine/scene_json.h"
+#include "engine/setting_json.h"
 
 namespace slipcheck::protocol {
 
@@ -34,7 +36,7 @@ Bytes pack(const json& message) {
 json to_json(const Frames& reply) {
   const std::size_t count = reply.frames.size();
   const std::size_t bodies = count == 0 ? 0 : reply.frames.front().bodies.size();
-  Bytes states, touch_counts, touches;
+  Bytes states, touch_counts, touches, parts;
   states.reserve(count * bodies * kStateBytes);
   touch_counts.reserve(4 * count);
   for (const Frame& frame : reply.frames) {
@@ -46,14 +48,35 @@ json to_json(const Frames& reply) {
                                                      : static_cast<std::uint32_t>(touch.second));
       append_f64(touches, touch.normal_impulse);
     }
+    append_f64(parts, frame.part);
   }
-  return {{"type", "frames"},
-          {"count", count},
-          {"bodies", bodies},
-          {"cpu_seconds", reply.cpu_seconds},
-          {"states", json::binary(std::move(states))},
-          {"touch_counts", json::binary(std::move(touch_counts))},
-          {"touches", json::binary(std::move(touches))}};
+  json message = {{"type", "frames"},
+                  {"count", count},
+                  {"bodies", bodies},
+                  {"cpu_seconds", reply.cpu_seconds},
+                  {"states", json::binary(std::move(states))},
+                  {"touch_counts", json::binary(std::move(touch_counts))},
+                  {"touches", json::binary(std::move(touches))}};
+  const auto is_part = [](const Frame& frame) { return frame.part != 1; };
+  if (std::ranges::any_of(reply.frames, is_part))
+    message.emplace("parts", json::binary(std::move(parts)));
+  return message;
+}
+
+/// Where in its step each frame is: all at the end unless the message says otherwise.
+void read_parts(const Fields& fields, std::vector<Frame>& frames) {
+  if (!fields.has("parts")) return;
+  const Bytes& parts = fields.bytes("parts");
+  if (parts.size() != 8 * frames.size()) throw Rubbish("parts is not 8 bytes for each frame");
+  double before = 0;
+  for (std::size_t n = 0; n < frames.size(); ++n) {
+    const double part = read_f64(parts.data() + 8 * n);
+    if (!(part > before && part <= 1))
+      throw Rubbish(fmt::format("a part of a step is {}, not in ({}, 1]", part, before));
+    frames[n].part = part;
+    before = part < 1 ? part : 0;
+  }
+  if (before != 0) throw Rubbish("the last step has no end");
 }
 
 Touch read_touch(const std::uint8_t* at, std::size_t bodies) {
@@ -102,6 +125,7 @@ Frames frames_from_json(const Fields& fields) {
     }
   }
   if (touch != touches.size()) throw Rubbish("more touches than touch_counts says");
+  read_parts(fields, reply.frames);
   return reply;
 }
 
@@ -111,7 +135,7 @@ json to_json(const Hello& request) { return {{"type", "hello"}, {"protocol", req
 json to_json(const Configure& request) {
   return {{"type", "configure"},
           {"scene", scene_to_json(request.scene)},
-          {"profile", request.profile},
+          {"settings", settings_to_json(request.settings)},
           {"time_step", request.time_step}};
 }
 json to_json(const Start& request) {
@@ -128,39 +152,16 @@ json to_json(const Welcome& reply) {
           {"engine", reply.info.engine},
           {"version", reply.info.version},
           {"precision", reply.info.precision},
-          {"profiles", reply.info.profiles}};
+          {"settings", setting_infos_to_json(reply.info.settings)}};
 }
 json to_json(const Configured& reply) {
-  json settings = json::object();
-  for (const auto& [name, setting] : reply.applied.settings) {
-    std::visit([&, &key = name](const auto& value) { settings[key] = value; }, setting);
-  }
   return {{"type", "configured"},
-          {"settings", std::move(settings)},
+          {"settings", settings_to_json(reply.applied.settings)},
           {"not_represented", reply.applied.not_represented}};
 }
 json to_json(const Refusal& reply) { return {{"type", "refused"}, {"reason", reply.reason}}; }
 json to_json(const Started&) { return {{"type", "started"}}; }
 json to_json(const Failed& reply) { return {{"type", "failed"}, {"reason", reply.reason}}; }
-
-Applied applied_from_json(const Fields& fields) {
-  Applied applied;
-  for (const auto& [name, value] : fields.object("settings").items()) {
-    require_utf8(name, "the name of a setting");
-    if (value.is_boolean()) {
-      applied.settings[name] = value.get<bool>();
-    } else if (value.is_number()) {
-      applied.settings[name] = value.get<double>();
-    } else if (value.is_string()) {
-      require_utf8(value.get_ref<const std::string&>(), "a setting");
-      applied.settings[name] = value.get<std::string>();
-    } else {
-      throw Rubbish(fmt::format("the setting {} is no number, text, true or false", name));
-    }
-  }
-  applied.not_represented = fields.texts("not_represented");
-  return applied;
-}
 
 }  // namespace
 
@@ -186,7 +187,8 @@ Request decode_request(std::span<const std::uint8_t> body) {
   const std::string type = fields.text("type");
   if (type == "hello") return Hello{fields.count("protocol", 1000)};
   if (type == "configure") {
-    return Configure{scene_from_json(fields.object("scene")), fields.text("profile"),
+    return Configure{scene_from_json(fields.object("scene")),
+                     settings_from_json(fields.object("settings")),
                      fields.number("time_step", std::numeric_limits<double>::min())};
   }
   if (type == "start") {
@@ -209,9 +211,12 @@ Reply decode_reply(std::span<const std::uint8_t> body) {
   if (type == "welcome") {
     return Welcome{fields.count("protocol", 1000),
                    {fields.text("engine"), fields.text("version"), fields.text("precision"),
-                    fields.texts("profiles")}};
+                    setting_infos_from_json(fields.list("settings"))}};
   }
-  if (type == "configured") return Configured{applied_from_json(fields)};
+  if (type == "configured") {
+    return Configured{
+        {settings_from_json(fields.object("settings")), fields.texts("not_represented")}};
+  }
   if (type == "refused") return Refusal{fields.text("reason")};
   if (type == "started") return Started{};
   if (type == "failed") return Failed{fields.text("reason")};

@@ -14,7 +14,7 @@
 /// one request, one reply. docs/engine-protocol.md words it for other languages.
 namespace slipcheck::protocol {
 
-inline constexpr std::size_t kVersion = 3;
+inline constexpr std::size_t kVersion = 4;
 inline constexpr std::size_t kMaxMessage = std::size_t{64} << 20;  ///< of a message's body [bytes]
 inline constexpr std::size_t kPrefix = 4;  ///< the body's length before it, u32 little-endian
 
@@ -25,7 +25,7 @@ struct Hello {
 };
 struct Configure {
   HardScene scene;
-  std::string profile;
+  Settings settings;     ///< those that are chosen
   double time_step = 0;  ///< [s], > 0
 };
 struct Start {

@@ -56,10 +56,10 @@ Expected RemoteEngine::ask(const protocol::Request& request) {
   return std::move(*expected);
 }
 
-Applied RemoteEngine::configure(const HardScene& scene, const std::string& profile,
+Applied RemoteEngine::configure(const HardScene& scene, const Settings& settings,
                                 double time_step) {
   deadline_ = Clock::time_point::max();
-  auto reply = ask<protocol::Configured>(protocol::Configure{scene, profile, time_step});
+  auto reply = ask<protocol::Configured>(protocol::Configure{scene, settings, time_step});
   bodies_ = scene.bodies.size();
   return std::move(reply.applied);
 }
@@ -79,7 +79,8 @@ double RemoteEngine::advance(std::size_t steps, const std::function<void(const F
   while (steps > 0) {
     const std::size_t count = std::min(steps, most);
     const auto reply = ask<protocol::Frames>(protocol::Step{count});
-    if (reply.frames.size() != count || reply.frames.front().bodies.size() != bodies_) {
+    const auto ends = std::ranges::count(reply.frames, 1.0, &Frame::part);
+    if (static_cast<std::size_t>(ends) != count || reply.frames.front().bodies.size() != bodies_) {
       process_.fail(Status::crashed, "spoke rubbish: not the frames asked for");
     }
     cpu_seconds += reply.cpu_seconds;

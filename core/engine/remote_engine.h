@@ -24,13 +24,14 @@ class RemoteEngine {
   const EngineInfo& info() const { return info_; }
 
   /// Engine::configure over there; throws Refused with the engine's reason, and the worker lives.
-  Applied configure(const HardScene& scene, const std::string& profile, double time_step);
+  Applied configure(const HardScene& scene, const Settings& settings, double time_step);
 
   /// A fresh world with one state for each body of the configured scene at `time` [s], >= 0. The
   /// time limit of the run counts from here.
   void start(std::span<const BodyState> states, double time = 0);
 
-  /// Takes `steps` steps and hands over the frame after each, in order and on this thread. A
+  /// Takes `steps` steps and hands over the frame after each, and before it those inside the step
+  /// where the engine shows such, in order and on this thread. A
   /// callback that throws leaves the worker alive, further on by up to a MiB of frames.
   /// Returns the CPU time that the engine took for its steps [s].
   double advance(std::size_t steps, const std::function<void(const Frame&)>& callback);

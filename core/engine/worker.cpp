@@ -12,10 +12,12 @@
 #include <new>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/protocol.h"
+#include "engine/settings.h"
 
 namespace slipcheck {
 namespace {
@@ -100,7 +102,8 @@ class Worker {
   protocol::Reply handle(const protocol::Configure& request) {
     bodies_ = 0;
     started_ = false;
-    Applied applied = engine_.configure(request.scene, request.profile, request.time_step);
+    refuse_bad_settings(request.settings);
+    Applied applied = engine_.configure(request.scene, request.settings, request.time_step);
     bodies_ = request.scene.bodies.size();
     return protocol::Configured{std::move(applied)};
   }
@@ -116,12 +119,13 @@ class Worker {
   protocol::Reply handle(const protocol::Step& request) {
     if (!started_) return protocol::Failed{"step before start"};
     protocol::Frames reply;
-    reply.frames.resize(request.count);
-    for (Frame& frame : reply.frames) frame.bodies.reserve(bodies_);
+    reply.frames.reserve(request.count);
     const double before = cpu_seconds();
-    for (Frame& frame : reply.frames) {
+    for (std::size_t k = 0; k < request.count; ++k) {
       engine_.step();
-      engine_.read(frame);
+      const std::span<const Frame> parts = engine_.parts();
+      reply.frames.insert(reply.frames.end(), parts.begin(), parts.end());
+      engine_.read(reply.frames.emplace_back());
     }
     reply.cpu_seconds = cpu_seconds() - before;
     return reply;
@@ -130,6 +134,18 @@ class Worker {
   protocol::Reply handle(const protocol::Quit&) {
     return protocol::Started{};
   }  // run_worker returns
+
+  void refuse_bad_settings(const Settings& settings) const {
+    const std::vector<SettingFault> faults = check_settings(engine_.info().settings, settings);
+    if (faults.empty()) return;
+    std::string reason;
+    for (const SettingFault& fault : faults) {
+      if (!reason.empty()) reason += "; ";
+      reason += fault.name + ' ' + fault.rule;
+      if (!fault.value.empty()) reason += ", got " + fault.value;
+    }
+    throw Refused(reason);
+  }
 
   Engine& engine_;
   std::size_t bodies_ = 0;  // 0: not configured

@@ -108,7 +108,7 @@ void run_box_ensemble(RemoteEngine& engine, const BoxEnsembleTask& task, EngineR
   const double step = 1 / record.rate;
   const HardScene& scene = task.solver->scene().hard;
   record.version = engine.info().version;
-  record.applied = engine.configure(scene, record.profile, step);
+  record.applied = engine.configure(scene, record.settings, step);
 
   const double end = run_end(*task.scenario).time;
   const double scale = planar_speed_scale(scene, scene.initial);
@@ -125,7 +125,8 @@ void run_box_ensemble(RemoteEngine& engine, const BoxEnsembleTask& task, EngineR
     double time = start;
     while (time < end && fault.empty()) {
       record.cpu_seconds += engine.advance(chunk, [&](const Frame& frame) {
-        time = start + static_cast<double>(++steps) * step;
+        time = start + (static_cast<double>(steps) + frame.part) * step;
+        if (frame.part == 1) ++steps;
         if (!fault.empty()) return;
         // Falling adds to what the bodies bring with them.
         fault = fault_of_state(frame, time, scale + scene.gravity * time);

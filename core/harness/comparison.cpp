@@ -81,6 +81,11 @@ Differences vector_differences(const Scenario& scenario, const ReferenceResult& 
   return differences;
 }
 
+std::string missing_phases(const EnsembleValue& value) {
+  return std::to_string(value.missing) + " of " + std::to_string(value.values.size()) +
+         " phases do not show it";
+}
+
 Deviation deviation(const Scenario& scenario, const ReferenceResult& reference,
                     const Ensemble& ensemble, const std::string& name) {
   Deviation result;
@@ -120,12 +125,40 @@ Deviation deviation(const Scenario& scenario, const ReferenceResult& reference,
       result.median /= scale;
       result.max /= scale;
     }
-    if (found->second.missing > 0)
-      result.reason = std::to_string(found->second.missing) + " of " +
-                      std::to_string(found->second.values.size()) + " phases do not show it";
+    if (found->second.missing > 0) result.reason = missing_phases(found->second);
   }
   result.within = !result.tolerance || (result.reason.empty() && result.max <= *result.tolerance);
   return result;
+}
+
+/// One statistic of the ensemble's value of an observable, which is null if no phase shows it.
+ExpectationResult range_result(const std::string& name, ExpectationResult::Statistic statistic,
+                               const ExpectedRange& range, const EnsembleValue* seen) {
+  using Statistic = ExpectationResult::Statistic;
+  ExpectationResult result{.observable = name,
+                           .statistic = statistic,
+                           .low = range.low,
+                           .high = range.high,
+                           .value = kNotObserved,
+                           .reason = ""};
+  if (!seen) {
+    result.reason = "no phase shows it";
+    return result;
+  }
+  result.value = statistic == Statistic::min   ? seen->min
+                 : statistic == Statistic::max ? seen->max
+                                               : seen->median;
+  if (seen->missing > 0) result.reason = missing_phases(*seen);
+  result.met = seen->missing == 0 && range.low <= result.value && result.value <= range.high;
+  return result;
+}
+
+ExpectationResult none_result(const std::string& name, const EnsembleValue* seen) {
+  return {.observable = name,
+          .value = seen ? seen->median : kNotObserved,
+          .met = !seen,
+          .reason = seen ? (seen->missing > 0 ? missing_phases(*seen) : "every phase shows it")
+                         : "no phase shows it"};
 }
 
 }  // namespace
@@ -170,6 +203,22 @@ std::map<std::string, Deviation> deviations(const Scenario& scenario,
                     .reason = "it does not occur in the reference"};
   }
   return result;
+}
+
+std::vector<ExpectationResult> expectation_results(const Expectation& expectation,
+                                                   const Ensemble& ensemble) {
+  using Statistic = ExpectationResult::Statistic;
+  std::vector<ExpectationResult> results;
+  for (const auto& [name, expected] : expectation.observables) {
+    const auto found = ensemble.find(name);
+    const EnsembleValue* seen = found == ensemble.end() ? nullptr : &found->second;
+    if (expected.none) results.push_back(none_result(name, seen));
+    if (expected.min) results.push_back(range_result(name, Statistic::min, *expected.min, seen));
+    if (expected.median)
+      results.push_back(range_result(name, Statistic::median, *expected.median, seen));
+    if (expected.max) results.push_back(range_result(name, Statistic::max, *expected.max, seen));
+  }
+  return results;
 }
 
 }  // namespace slipcheck

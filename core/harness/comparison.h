@@ -18,4 +18,10 @@ std::map<std::string, Deviation> deviations(const Scenario& scenario,
                                             const ReferenceResult& reference,
                                             const std::map<std::string, EnsembleValue>& ensemble);
 
+/// Holds an ensemble against what is expected of it, in the order of names, then min, median, max.
+/// A range is met if its statistic lies in it, limits included, and every phase shows the
+/// observable; `none` if no phase does.
+std::vector<ExpectationResult> expectation_results(
+    const Expectation& expectation, const std::map<std::string, EnsembleValue>& ensemble);
+
 }  // namespace slipcheck

@@ -43,11 +43,11 @@ class PhaseRun {
     }
   }
 
-  /// The end of one more step.
+  /// The end of one more step, or an instant inside it.
   void take(const Frame& frame) {
     if (ended_) return;
-    ++steps_;
-    time_ = start_ + static_cast<double>(steps_) * step_;
+    time_ = start_ + (static_cast<double>(steps_) + frame.part) * step_;
+    if (frame.part == 1) ++steps_;
     check(frame);
     observer_.take(time_, frame);
     ended_ = has_ended(frame);
@@ -123,7 +123,7 @@ std::size_t steps_at_once(double expected_time, double step) {
 void run_ensemble(RemoteEngine& engine, const EnsembleTask& task, EngineRecord& record) {
   const double step = 1 / record.rate;
   record.version = engine.info().version;
-  record.applied = engine.configure(task.solver->scene().hard, record.profile, step);
+  record.applied = engine.configure(task.solver->scene().hard, record.settings, step);
 
   const auto names = body_names(*task.scenario);
   const auto starts = phase_starts(task.reference->first_contact, step, task.phases);

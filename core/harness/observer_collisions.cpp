@@ -158,11 +158,15 @@ void Observer::settle_effective_restitution(double t0, double t1, const Frame& f
     const double both = std::max(a.slide_end, b.slide_end);
     const auto velocity_then = [&](int k) -> Vector3 {
       const std::size_t i = index(k);
+      const Body& body = bodies_[i];
       const Vector3& now = frame.bodies[i].velocity;
-      // A slide's end is a kink; after it the body keeps its velocity for now.
-      if (bodies_[i].slide_end == both) return bodies_[i].rolling_velocity;
+      // A slide's end is a kink; after it the body goes on as it rolls.
+      if (body.slide_end == both) return body.rolling_velocity;
       if (t1 <= t0 || both <= t0 || both >= t1) return now;
-      return last_.bodies[i].velocity + (both - t0) / (t1 - t0) * (now - last_.bodies[i].velocity);
+      const bool kink = body.slide_end > t0;
+      const double begin = kink ? body.slide_end : t0;
+      const Vector3& before = kink ? body.rolling_velocity : last_.bodies[i].velocity;
+      return before + (both - begin) / (t1 - begin) * (now - before);
     };
     const Vector3 dv = velocity_then(pair.first) - velocity_then(pair.second);
     pair.effective = pair.n.dot(dv) / pair.approach;

@@ -2,22 +2,46 @@
 
 #include <algorithm>
 
+#include "harness/comparison.h"
+#include "harness/observables.h"
+
 namespace slipcheck {
 
+std::vector<ExpectationResult> EngineRecord::expectations() const {
+  if (!expect) return {};
+  std::vector<ExpectationResult> results = expectation_results(*expect, observables);
+  if (status == Status::ok) return results;
+  for (ExpectationResult& result : results) {
+    result.met = false;
+    result.value = kNotObserved;
+    result.reason = std::string("the run is ") + name_of(status);
+  }
+  return results;
+}
+
 bool EngineRecord::within() const {
+  if (expect && expect->status) return status == *expect->status;
+  if (expect) {
+    const std::vector<ExpectationResult> results = expectations();
+    return std::all_of(results.begin(), results.end(),
+                       [](const ExpectationResult& result) { return result.met; });
+  }
   return std::all_of(errors.begin(), errors.end(),
                      [](const auto& error) { return error.second.within; });
 }
 
+std::optional<Verdict> EngineRecord::verdict() const {
+  const bool any_status = expect && expect->status;
+  if (!any_status && status == Status::skipped) return std::nullopt;
+  if (!any_status && status != Status::ok) return Verdict::failed;
+  return within() ? Verdict::within : Verdict::deviates;
+}
+
 Verdict SceneRecord::verdict() const {
-  using Status = EngineRecord::Status;
-  Verdict verdict = Verdict::within;
-  for (const EngineRecord& run : runs) {
-    if (run.status == Status::skipped) continue;
-    if (run.status != Status::ok) return Verdict::failed;
-    if (!run.within()) verdict = Verdict::deviates;
-  }
-  return verdict;
+  Verdict worst = Verdict::within;
+  for (const EngineRecord& run : runs)
+    worst = std::max(worst, run.verdict().value_or(Verdict::within));
+  return worst;
 }
 
 const char* name_of(EngineRecord::Status status) {
@@ -32,6 +56,20 @@ const char* name_of(EngineRecord::Status status) {
       return "timed_out";
     case EngineRecord::Status::skipped:
       return "skipped";
+  }
+  return "";
+}
+
+const char* name_of(ExpectationResult::Statistic statistic) {
+  switch (statistic) {
+    case ExpectationResult::Statistic::min:
+      return "min";
+    case ExpectationResult::Statistic::median:
+      return "median";
+    case ExpectationResult::Statistic::max:
+      return "max";
+    case ExpectationResult::Statistic::none:
+      return "none";
   }
   return "";
 }

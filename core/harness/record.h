@@ -31,12 +31,28 @@ struct Deviation {
   std::string reason;
 };
 
+/// How a statistic of an ensemble stands to what is expected of it.
+struct ExpectationResult {
+  enum class Statistic { min, median, max, none };
+
+  std::string observable;
+  Statistic statistic = Statistic::none;  ///< none: no phase is to show the observable
+  double low = 0, high = 0;               ///< where the value is expected [SI]; 0 of `none`
+  double value = 0;  ///< [SI], of `none` the median of the phases that show it; NaN if none does
+  bool met = false;
+  std::string reason;  ///< why there is no value, or which phases are missing
+};
+
+enum class Verdict { within, deviates, failed };
+
 /// One engine at one rate on one scene.
 struct EngineRecord {
-  enum class Status { ok, unstable, crashed, timed_out, skipped };
+  using Status = RunStatus;
 
-  std::string engine, version, precision, profile;
-  double rate = 0;  ///< [Hz]
+  std::string engine, version, precision;
+  std::string profile;  ///< as the scenario names it: a name or a path
+  Settings settings;    ///< that the profile chooses
+  double rate = 0;      ///< [Hz]
   Status status = Status::skipped;
   std::string reason;      ///< why not ok
   double cpu_seconds = 0;  ///< of the stepping alone, all phases
@@ -46,11 +62,15 @@ struct EngineRecord {
   std::map<std::string, Deviation> errors;
   Applied applied;
   std::vector<std::string> warnings;
+  std::optional<Expectation> expect;  ///< judges the run in place of the tolerances
 
+  /// Of each statistic that is expected, in the order of names, then min, median, max.
+  std::vector<ExpectationResult> expectations() const;
+  /// Whether the run does what is expected or, where nothing is, no error is beyond its tolerance.
   bool within() const;
+  /// Nothing for a run that was skipped and does not count.
+  std::optional<Verdict> verdict() const;
 };
-
-enum class Verdict { within, deviates, failed };
 
 /// A scene with all that was found out about it.
 struct SceneRecord {
@@ -62,6 +82,7 @@ struct SceneRecord {
 };
 
 const char* name_of(EngineRecord::Status status);
+const char* name_of(ExpectationResult::Statistic statistic);
 const char* name_of(Verdict verdict);
 
 }  // namespace slipcheck

@@ -1,60 +1,19 @@
 #include "harness/scene_run.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <set>
+#include <utility>
 #include <variant>
 
 #include "engine/engine_registry.h"
 #include "engine/worker_pool.h"
 #include "harness/box_run.h"
 #include "harness/engine_run.h"
-#include "scenario/fault.h"
+#include "harness/requested_runs.h"
 
 namespace slipcheck {
 namespace {
-
-std::string precision_name(EngineRequest::Precision precision) {
-  return precision == EngineRequest::Precision::single_ ? "single" : "double";
-}
-
-/// Every engine that the project or this machine knows of.
-std::vector<std::string> engine_names() {
-  std::set<std::string> names(known_engines().begin(), known_engines().end());
-  for (const EngineExecutable& found : find_engines()) names.insert(found.engine);
-  return {names.begin(), names.end()};
-}
-
-void refuse_unknown_engines(const std::vector<Scenario>& scenarios) {
-  const std::vector<std::string> known = engine_names();
-  std::vector<Fault> faults;
-  for (const Scenario& scenario : scenarios)
-    for (std::size_t k = 0; k < scenario.compare.engines.size(); ++k) {
-      const std::string& engine = scenario.compare.engines[k].engine;
-      if (std::find(known.begin(), known.end(), engine) != known.end()) continue;
-      const std::string key = fmt::format("compare.engines[{}].engine", k);
-      const auto place = scenario.locations.find(key);
-      faults.push_back(
-          {scenario.file, place == scenario.locations.end() ? Location{} : place->second, key,
-           fmt::format("must be one of the engines {}", fmt::join(known, ", ")), engine});
-    }
-  if (!faults.empty()) throw BadScenario(std::move(faults));
-}
-
-std::vector<EngineRecord> requested_runs(const Scenario& scenario) {
-  std::vector<EngineRecord> records;
-  for (const EngineRequest& request : scenario.compare.engines)
-    for (double rate : request.rates) {
-      EngineRecord& record = records.emplace_back();
-      record.engine = request.engine;
-      record.precision = precision_name(request.precision);
-      record.profile = request.profile;
-      record.rate = rate;
-    }
-  return records;
-}
 
 EngineRecord::Status status_of(JobResult::Status status) {
   switch (status) {
@@ -71,67 +30,40 @@ EngineRecord::Status status_of(JobResult::Status status) {
   return EngineRecord::Status::crashed;
 }
 
-std::variant<ReferenceSolver, BoxSolver> solver_of(const Scenario& scenario,
-                                                   const ContactScene& scene) {
-  if (scene.hard.box) return BoxSolver(scene, scenario.compare.reference, scenario.run.most_events);
-  return ReferenceSolver(scene, scenario.compare.reference, scenario.run.most_events);
+void run_task(const ReferenceSolver& solver, RemoteEngine& engine, const EngineTask& task,
+              std::size_t phases) {
+  run_ensemble(engine, {&solver, &task.scene->reference, &task.scene->scenario, phases},
+               *task.record);
 }
-
-ReferenceResult reference_of(const ReferenceSolver& solver, const Scenario& scenario) {
-  return run_reference(solver, run_end(scenario), body_names(scenario));
-}
-ReferenceResult reference_of(const BoxSolver& solver, const Scenario& scenario) {
-  return run_box_reference(solver, scenario);
-}
-
-void run_ensemble_of(const ReferenceSolver& solver, RemoteEngine& engine, const SceneRecord& scene,
-                     const RunOptions& options, EngineRecord& record) {
-  run_ensemble(engine, {&solver, &scene.reference, &scene.scenario, options.phases}, record);
-}
-void run_ensemble_of(const BoxSolver& solver, RemoteEngine& engine, const SceneRecord& scene,
-                     const RunOptions& options, EngineRecord& record) {
-  run_box_ensemble(engine, {&solver, &scene.reference, &scene.scenario, options.phases}, record);
+void run_task(const BoxSolver& solver, RemoteEngine& engine, const EngineTask& task,
+              std::size_t phases) {
+  run_box_ensemble(engine, {&solver, &task.scene->reference, &task.scene->scenario, phases},
+                   *task.record);
 }
 
 }  // namespace
 
-std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOptions& options) {
-  refuse_unknown_engines(scenarios);
-  std::vector<ContactScene> contact_scenes;
-  contact_scenes.reserve(scenarios.size());
-  for (const Scenario& scenario : scenarios) contact_scenes.push_back(make_contact_scene(scenario));
-  std::vector<std::variant<ReferenceSolver, BoxSolver>> solvers;
-  solvers.reserve(scenarios.size());
-  for (std::size_t s = 0; s < scenarios.size(); ++s)
-    solvers.push_back(solver_of(scenarios[s], contact_scenes[s]));
-
-  std::vector<SceneRecord> scenes(scenarios.size());
+void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
+  const std::vector<EngineExecutable> installed = find_engines();
   std::vector<EngineJob> jobs;
   std::vector<EngineRecord*> records;  // of each job
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
-    SceneRecord& scene = scenes[s];
-    scene.scenario = std::move(scenarios[s]);
-    scene.reference = std::visit(
-        [&](const auto& solver) { return reference_of(solver, scene.scenario); }, solvers[s]);
-    scene.runs = requested_runs(scene.scenario);
-    for (EngineRecord& record : scene.runs) {
-      const auto executable = find_engine(record.engine, record.precision);
-      if (!executable) {
-        record.reason =
-            fmt::format("slipcheck-engine-{}-{} is not installed", record.engine, record.precision);
-        continue;
-      }
-      jobs.push_back({executable->path,
-                      [&record, &scene, &options, &solver = solvers[s]](RemoteEngine& engine) {
-                        engine.limit_run(options.time_limit);
-                        std::visit(
-                            [&](const auto& chosen) {
-                              run_ensemble_of(chosen, engine, scene, options, record);
-                            },
-                            solver);
-                      }});
-      records.push_back(&record);
+  for (const EngineTask& task : tasks) {
+    EngineRecord& record = *task.record;
+    const auto executable = std::ranges::find_if(installed, [&](const EngineExecutable& each) {
+      return each.engine == record.engine && each.precision == record.precision;
+    });
+    if (executable == installed.end()) {
+      record.reason =
+          fmt::format("slipcheck-engine-{}-{} is not installed", record.engine, record.precision);
+      continue;
     }
+    jobs.push_back(
+        {executable->path, [&task, &options](RemoteEngine& engine) {
+           engine.limit_run(options.time_limit);
+           std::visit([&](const auto& solver) { run_task(solver, engine, task, options.phases); },
+                      task.scene->solver);
+         }});
+    records.push_back(&record);
   }
 
   const WorkerPool pool(options.workers, options.limits);
@@ -147,6 +79,22 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
       records[k]->reason +=
           fmt::format(" (in phase {} of {})", records[k]->phases + 1, options.phases);
   }
+}
+
+std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOptions& options) {
+  std::vector<std::vector<EngineRecord>> runs =
+      requested_runs(scenarios, options.limits, options.stop);
+  std::vector<PreparedScene> prepared = prepare_scenes(std::move(scenarios));
+  std::vector<EngineTask> tasks;
+  for (std::size_t s = 0; s < prepared.size(); ++s)
+    for (EngineRecord& record : runs[s])
+      if (record.reason.empty()) tasks.push_back({&prepared[s], &record});
+  run_engines(tasks, options);
+
+  std::vector<SceneRecord> scenes;
+  for (std::size_t s = 0; s < prepared.size(); ++s)
+    scenes.push_back(
+        {std::move(prepared[s].scenario), std::move(prepared[s].reference), std::move(runs[s])});
   return scenes;
 }
 

@@ -3,9 +3,11 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "engine/worker_process.h"
+#include "harness/prepared_scene.h"
 #include "harness/record.h"
 
 namespace slipcheck {
@@ -19,9 +21,21 @@ struct RunOptions {
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< of ensembles
 };
 
-/// Everything that is asked of these scenes: the reference, then every engine at every rate in
-/// worker processes. Before anything runs, throws BadScenario where a scene names an unknown engine
-/// and Unsupported where no solver knows a model. What engines do afterwards is in the records.
+/// One engine at one rate on one scene. The record says which: its engine, precision, settings and
+/// rate are given, the rest is filled in.
+struct EngineTask {
+  const PreparedScene* scene = nullptr;
+  EngineRecord* record = nullptr;
+};
+
+/// Runs the ensembles of these tasks in worker processes, several at once. What becomes of each is
+/// in its record; only a fault of the harness itself is thrown.
+void run_engines(std::span<const EngineTask> tasks, const RunOptions& options);
+
+/// Everything that is asked of these scenes: the reference, then every engine at every rate under
+/// its profile. Before anything runs, throws BadScenario where a scene names an unknown engine or a
+/// profile that cannot be used, and Unsupported where no solver knows a model. What engines do
+/// afterwards is in the records.
 std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOptions& options);
 
 }  // namespace slipcheck

@@ -16,10 +16,12 @@ struct Touch {
   double normal_impulse = 0;  ///< summed over the pair's contact points [N s], > 0
 };
 
-/// The world at one instant: at the end of an engine's step, or at an event of the reference.
+/// The world at one instant: at the end of an engine's step, or inside it where the engine ends
+/// steps of its own there, or at an event of the reference.
 struct Frame {
   std::vector<BodyState> bodies;
-  std::vector<Touch> touches;
+  std::vector<Touch> touches;  ///< since the frame before
+  double part = 1;             ///< of an engine's step that has passed, in (0, 1]
 };
 
 /// Takes the frames of a run one after the other.

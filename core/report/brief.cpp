@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/comparison_rows.h"
+#include "report/expectation_rows.h"
 #include "report/selection.h"
 
 namespace slipcheck {
@@ -31,6 +32,23 @@ Worst worst_of(const SceneRecord& scene) {
   return worst;
 }
 
+/// "bullet double tuned 240 Hz"
+std::string short_name(const EngineRecord& run) {
+  return fmt::format("{} {} {} {:g} Hz", run.engine, run.precision, run.profile, run.rate);
+}
+
+/// The worst deviation of a scene, else the first thing that is not as expected; may be empty.
+std::string worst_text(const SceneRecord& scene) {
+  if (const Worst worst = worst_of(scene); worst.run)
+    return fmt::format("{} {}, {}", worst.row.name,
+                       worst.row.worst == "–" ? "never shown" : worst.row.worst,
+                       short_name(*worst.run));
+  for (const EngineRecord& run : scene.runs)
+    if (const std::string unmet = unmet_expectation(run, false); !unmet.empty())
+      return unmet + ", " + short_name(run);
+  return {};
+}
+
 }  // namespace
 
 std::string brief_of(const std::vector<SceneRecord>& scenes, const TableStyle& style) {
@@ -38,22 +56,15 @@ std::string brief_of(const std::vector<SceneRecord>& scenes, const TableStyle& s
   for (const SceneRecord& scene : scenes) {
     std::size_t within = 0, counted = 0;
     for (const EngineRecord& run : scene.runs) {
-      if (run.status == EngineRecord::Status::skipped) continue;
+      if (!run.verdict()) continue;
       ++counted;
-      within += run.status == EngineRecord::Status::ok && run.within();
+      within += run.verdict() == Verdict::within;
     }
     const bool good = scene.verdict() == Verdict::within;
-    const Worst worst = worst_of(scene);
-    rows.push_back(
-        {{scene.scenario.name, Ink::plain},
-         {good ? "✓" : "✗", good ? Ink::good : Ink::bad},
-         {fmt::format("{}/{}", within, counted), Ink::plain},
-         {worst.run ? fmt::format("{} {}, {} {} {} {:g} Hz", worst.row.name,
-                                  worst.row.worst == "–" ? "never shown" : worst.row.worst,
-                                  worst.run->engine, worst.run->precision, worst.run->profile,
-                                  worst.run->rate)
-                    : "",
-          Ink::faint}});
+    rows.push_back({{scene.scenario.name, Ink::plain},
+                    {good ? "✓" : "✗", good ? Ink::good : Ink::bad},
+                    {fmt::format("{}/{}", within, counted), Ink::plain},
+                    {worst_text(scene), Ink::faint}});
   }
   return aligned({{"scene"}, {""}, {"runs within", true}, {"worst deviation", false, 1}},
                  std::move(rows), style, 0);

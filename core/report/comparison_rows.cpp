@@ -24,10 +24,12 @@ std::string spread_text(const EnsembleValue& ensemble, const QuantityFormat& for
   return low == high ? low : low + " … " + high;
 }
 
-void add_error(const Deviation& deviation, const Dimension& dimension, ComparisonRow& row) {
+/// `counts`: the tolerance judges the run.
+void add_error(const Deviation& deviation, const Dimension& dimension, bool counts,
+               ComparisonRow& row) {
   row.worst = error_text(deviation.max, deviation.absolute, dimension);
   row.note = printable(deviation.reason);
-  if (!deviation.tolerance) return;
+  if (!deviation.tolerance || !counts) return;
   const double tolerance = *deviation.tolerance;
   row.tolerance = tolerance_text(tolerance, deviation.absolute, dimension);
   row.mark = deviation.within ? Mark::within : Mark::deviates;
@@ -125,7 +127,7 @@ std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const Engin
     row.worst = row.tolerance = "–";
     row.severity = std::numeric_limits<double>::quiet_NaN();
     if (const Deviation* deviation = find(run.errors, name)) {
-      add_error(*deviation, dimension_of(name), row);
+      add_error(*deviation, dimension_of(name), !run.expect, row);
     } else if (!in_reference) {
       row.note = "the reference does not show it";
     }

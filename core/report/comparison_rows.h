@@ -48,7 +48,8 @@ std::string closed_form_text(const ReferenceResult& reference, const std::string
 std::string reference_text(const SceneRecord& scene, const std::string& name,
                            const QuantityFormat& format);
 
-/// One row for each of these observables that the reference or the engine shows.
+/// One row for each of these observables that the reference or the engine shows. Where the scene
+/// says what it expects of the run, tolerances do not count and are not in the rows.
 std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const EngineRecord& run,
                                            const std::vector<std::string>& names);
 

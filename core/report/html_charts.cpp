@@ -9,6 +9,7 @@
 #include "report/comparison_rows.h"
 #include "report/html_text.h"
 #include "report/phase_spread.h"
+#include "report/selection.h"
 #include "report/strip_chart.h"
 
 namespace slipcheck {
@@ -25,14 +26,12 @@ std::vector<std::string> charted(const SceneRecord& scene, const std::vector<std
   };
   std::vector<Candidate> candidates;
   for (const std::string& name : names) {
+    if (!has_tolerance(scene.scenario, name)) continue;
     Candidate candidate{name, name.ends_with(".effective_restitution"), 0};
-    bool has_tolerance = false;
     for (const EngineRecord& run : scene.runs)
-      for (const ComparisonRow& row : comparison_rows(scene, run, {name})) {
-        has_tolerance |= row.mark != Mark::no_tolerance;
+      for (const ComparisonRow& row : comparison_rows(scene, run, {name}))
         candidate.severity = std::fmax(candidate.severity, row.severity);
-      }
-    if (has_tolerance) candidates.push_back(std::move(candidate));
+    candidates.push_back(std::move(candidate));
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
     return a.is_first != b.is_first ? a.is_first : a.severity > b.severity;

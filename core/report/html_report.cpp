@@ -10,6 +10,7 @@
 
 #include "report/comparison_rows.h"
 #include "report/context.h"
+#include "report/expectation_rows.h"
 #include "report/html_scene.h"
 #include "report/html_text.h"
 #include "report/page_css.h"
@@ -131,6 +132,15 @@ std::string filter_part() {
   return html + "</fieldset>\n";
 }
 
+/// What a line of the contents says of a scene without findings: the first of its runs that does
+/// not do what is expected of it, else the title.
+std::string contents_text(const SceneRecord& scene) {
+  for (const EngineRecord& run : scene.runs)
+    if (const std::string unmet = unmet_expectation(run, true); !unmet.empty())
+      return unmet + ", " + run_name(run);
+  return scene.scenario.title;
+}
+
 std::string contents_part(const std::vector<SceneRecord>& scenes,
                           const std::vector<Finding>& all_findings) {
   std::string html = "<nav aria-label=\"Scenes\"><ul class=\"contents\">\n";
@@ -141,8 +151,7 @@ std::string contents_part(const std::vector<SceneRecord>& scenes,
         "<li class=\"scene {}\">{} <a href=\"#{}\">{}</a> <span class=\"faint\">{}</span></li>\n",
         verdict_class(scenes[k]), verdict_label(scenes[k]), scene_id(k),
         escaped(scenes[k].scenario.name),
-        worst == all_findings.end() ? escaped(scenes[k].scenario.title)
-                                    : escaped(finding_text(*worst)));
+        escaped(worst == all_findings.end() ? contents_text(scenes[k]) : finding_text(*worst)));
   }
   return html + "</ul></nav>\n";
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "report/comparison_rows.h"
+#include "report/expectation_rows.h"
 #include "report/html_charts.h"
 #include "report/html_text.h"
 #include "report/scene_drawing.h"
@@ -110,22 +111,46 @@ std::string run_table(const SceneRecord& scene, const EngineRecord& run,
          list("Notes", notes, "faint");
 }
 
+std::string expectations_table(const EngineRecord& run) {
+  std::vector<std::vector<HtmlCell>> rows;
+  std::vector<std::string> notes;
+  for (const ExpectationRow& row : expectation_rows(run)) {
+    const char* css_class = row.met ? "good" : "bad";
+    rows.push_back({{row.name, ""},
+                    {row.statistic, ""},
+                    {row.value, row.met ? "number" : "number bad"},
+                    {row.limits, "number"},
+                    {std::string(symbol_of(row.met ? Mark::within : Mark::deviates)) + " " +
+                         expectation_word(row.met),
+                     css_class}});
+    if (!row.note.empty()) notes.push_back(row.name + ": " + row.note);
+  }
+  if (rows.empty()) return {};
+  return html_table("What is expected of " + run_name(run),
+                    {{"of this engine", ""},
+                     {"", ""},
+                     {"value", "number"},
+                     {"expected", "number"},
+                     {"verdict", ""}},
+                    rows) +
+         list("Notes", notes, "faint");
+}
+
 std::string run_part(const SceneRecord& scene, const EngineRecord& run,
                      const std::vector<std::string>& names) {
-  using Status = EngineRecord::Status;
-  const bool ok = run.status == Status::ok;
-  const Mark mark = ok && run.within()              ? Mark::within
-                    : run.status == Status::skipped ? Mark::no_tolerance
-                                                    : Mark::deviates;
+  const bool ok = run.status == RunStatus::ok;
+  const Mark mark = run.verdict() == Verdict::within ? Mark::within
+                    : run.verdict()                  ? Mark::deviates
+                                                     : Mark::no_tolerance;
   const char* css_class = mark == Mark::within ? "good" : mark == Mark::deviates ? "bad" : "faint";
-  const std::string word = ok ? word_of(mark) : status_text(run.status);
   std::string html =
       fmt::format("<section class=\"run\"><h4>{} <span class=\"{}\">{} {}</span></h4>\n",
-                  escaped(run_name(run)), css_class, symbol_of(mark), escaped(word));
+                  escaped(run_name(run)), css_class, symbol_of(mark), escaped(outcome_text(run)));
   if (ok) {
     std::string cost = fmt::format("{} phase{}", run.phases, run.phases == 1 ? "" : "s");
     if (const std::string each = step_cost(run); !each.empty()) cost += ", " + each;
-    html += html_paragraph("faint", "", cost) + run_table(scene, run, names);
+    html +=
+        html_paragraph("faint", "", cost) + run_table(scene, run, names) + expectations_table(run);
   } else {
     html += html_paragraph("reason", status_text(run.status) + ":",
                            run.reason.empty() ? "not known why" : run.reason);
@@ -145,7 +170,10 @@ std::string verdict_label(const SceneRecord& scene) {
   const char* symbol = scene.verdict() == Verdict::within     ? "✓"
                        : scene.verdict() == Verdict::deviates ? "✗"
                                                               : "⚠";
-  return fmt::format("<span class=\"verdict {0}\">{1} {0}</span>", verdict_class(scene), symbol);
+  const std::string word = is_judged_by_expectations(scene) && scene.verdict() != Verdict::failed
+                               ? expectation_word(scene.verdict() == Verdict::within)
+                               : name_of(scene.verdict());
+  return fmt::format("<span class=\"verdict {}\">{} {}</span>", verdict_class(scene), symbol, word);
 }
 
 std::string html_scene(const SceneRecord& scene, const std::string& id) {

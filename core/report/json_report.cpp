@@ -148,12 +148,35 @@ void put_setting(Json& settings, const std::string& name, const Setting& setting
   }
 }
 
+Json settings_json(const Settings& settings) {
+  Json json = Json::object();
+  for (const auto& [name, setting] : settings) put_setting(json, valid_utf8(name), setting);
+  return json;
+}
+
+Json expectation_json(const ExpectationResult& expected) {
+  Json json;
+  json["observable"] = valid_utf8(expected.observable);
+  json["statistic"] = name_of(expected.statistic);
+  if (expected.statistic != ExpectationResult::Statistic::none) {
+    put(json, "low", expected.low);
+    put(json, "high", expected.high);
+  }
+  json["value"] = number_or_null(expected.value);
+  json["met"] = expected.met;
+  add_reason(json, expected.reason);
+  if (expected.reason.empty() && !std::isfinite(expected.value))
+    add_reason(json, std::string("the value ") + kind_of(expected.value));
+  return json;
+}
+
 Json run_json(const Scenario& scenario, const EngineRecord& run) {
   Json json;
   json["engine"] = valid_utf8(run.engine);
   json["version"] = valid_utf8(run.version);
   json["precision"] = run.precision;
   json["profile"] = valid_utf8(run.profile);
+  json["settings"] = settings_json(run.settings);
   put(json, "rate", run.rate);
   json["status"] = name_of(run.status);
   if (run.status != EngineRecord::Status::ok)
@@ -166,10 +189,14 @@ Json run_json(const Scenario& scenario, const EngineRecord& run) {
     json["observables"][name] = ensemble_json(ensemble, has_tolerance(scenario, name));
   json["errors"] = Json::object();
   for (const auto& [name, deviation] : run.errors) json["errors"][name] = deviation_json(deviation);
+  if (run.expect && run.expect->status) json["expected_status"] = name_of(*run.expect->status);
+  if (run.expect && !run.expect->status) {
+    json["expected"] = Json::array();
+    for (const ExpectationResult& expected : run.expectations())
+      json["expected"].push_back(expectation_json(expected));
+  }
   json["not_represented"] = strings(run.applied.not_represented);
-  json["applied"] = Json::object();
-  for (const auto& [name, setting] : run.applied.settings)
-    put_setting(json["applied"], valid_utf8(name), setting);
+  json["applied"] = settings_json(run.applied.settings);
   json["warnings"] = strings(run.warnings);
   return json;
 }

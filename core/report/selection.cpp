@@ -77,6 +77,10 @@ std::map<std::string, std::string> absent_observables(const SceneRecord& scene) 
 std::vector<std::string> shown_observables(const SceneRecord& scene, bool all) {
   std::set<std::string> names;
   for (const auto& [name, reason] : absent_observables(scene)) names.insert(name);
+  for (const EngineRecord& run : scene.runs)
+    if (run.expect)
+      for (const auto& [name, expected] : run.expect->observables)
+        if (scene.reference.observables.count(name)) names.insert(name);
   const bool has_engines = !scene.runs.empty();
   for (const auto& [name, value] : scene.reference.observables) {
     const ObservableName* observable = observable_of(name);

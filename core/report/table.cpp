@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "report/comparison_rows.h"
+#include "report/expectation_rows.h"
 #include "report/selection.h"
 #include "report/text.h"
 
@@ -101,10 +102,43 @@ std::string rows_text(const std::vector<ComparisonRow>& comparison, const TableS
          notes;
 }
 
+std::string expectations_text(const std::vector<ExpectationRow>& expectations,
+                              const TableStyle& style) {
+  if (expectations.empty()) return {};
+  std::vector<std::vector<Cell>> rows;
+  std::string notes;
+  for (const ExpectationRow& row : expectations) {
+    const Ink ink = row.met ? Ink::good : Ink::bad;
+    rows.push_back({{row.name},
+                    {row.statistic},
+                    {row.value, row.met ? Ink::plain : Ink::bad},
+                    {row.limits},
+                    {symbol_of(row.met ? Mark::within : Mark::deviates), ink},
+                    {expectation_word(row.met), ink}});
+    if (!row.note.empty()) notes += paragraph("  " + row.name + ": ", row.note, Ink::faint, style);
+  }
+  return aligned({{"of this engine"}, {""}, {"value", true}, {"expected"}, {""}, {"", false, 1}},
+                 std::move(rows), style, 2 * kIndent) +
+         notes;
+}
+
+/// Why a run is not ok, or that it is although it should not be.
+std::string status_block(const EngineRecord& run, const TableStyle& style) {
+  const bool skipped = run.verdict() == std::nullopt;
+  const bool good = run.verdict() == Verdict::within;
+  const Ink ink = skipped ? Ink::faint : good ? Ink::good : Ink::bad;
+  const char* symbol = skipped ? "– " : good ? "✓ " : "✗ ";
+  const bool ok = run.status == RunStatus::ok;
+  return paragraph("  " + std::string(symbol) + outcome_text(run) + (ok ? "" : ": "),
+                   ok                   ? " "
+                   : run.reason.empty() ? "not known why"
+                                        : run.reason,
+                   ink, style);
+}
+
 std::string run_block(const SceneRecord& scene, const EngineRecord& run,
                       const std::vector<std::string>& names, const TableStyle& style) {
-  using Status = EngineRecord::Status;
-  const bool ok = run.status == Status::ok;
+  const bool ok = run.status == RunStatus::ok;
   std::string head = run_name(run);
   if (ok) head += fmt::format(", {} phase{}", run.phases, run.phases == 1 ? "" : "s");
   if (const std::string cost = step_cost(run); ok && !cost.empty()) head += ", " + cost;
@@ -113,18 +147,15 @@ std::string run_block(const SceneRecord& scene, const EngineRecord& run,
   const auto width = static_cast<std::size_t>(std::max(style.width, 1));
   for (const std::string& line : wrapped(head, width > kIndent ? width - kIndent : 1))
     result += std::string(kIndent, ' ') + inked(line, Ink::strong, style) + '\n';
-  if (!ok) {
-    const Ink ink = run.status == Status::skipped ? Ink::faint : Ink::bad;
-    const char* symbol = run.status == Status::skipped ? "– " : "✗ ";
-    result += paragraph("  " + std::string(symbol) + status_text(run.status) + ": ",
-                        run.reason.empty() ? "not known why" : run.reason, ink, style);
-  } else {
+  if (!ok || (run.expect && run.expect->status)) result += status_block(run, style);
+  if (ok) {
     std::vector<ComparisonRow> rows = comparison_rows(scene, run, names);
     const std::size_t count = rows.size();
     if (!style.all_observables) rows = most_severe(std::move(rows), kMostRows);
     const std::size_t left_out = count - rows.size();
     if (!rows.empty()) result += rows_text(rows, style);
     if (left_out > 0) result += paragraph("  … ", more_rows(left_out), Ink::faint, style);
+    result += expectations_text(expectation_rows(run), style);
   }
   if (!run.applied.not_represented.empty())
     result += paragraph(
@@ -135,11 +166,16 @@ std::string run_block(const SceneRecord& scene, const EngineRecord& run,
 
 std::string verdict_text(const SceneRecord& scene, const TableStyle& style) {
   if (scene.runs.empty()) return inked("reference only", Ink::faint, style);
+  const bool by_expectations = is_judged_by_expectations(scene);
+  const auto word = [&](Mark mark) {
+    return std::string(symbol_of(mark)) + " " +
+           (by_expectations ? expectation_word(mark == Mark::within) : word_of(mark));
+  };
   switch (scene.verdict()) {
     case Verdict::within:
-      return inked("✓ within", Ink::good, style);
+      return inked(word(Mark::within), Ink::good, style);
     case Verdict::deviates:
-      return inked("✗ DEVIATES", Ink::bad, style);
+      return inked(word(Mark::deviates), Ink::bad, style);
     case Verdict::failed:
       break;
   }
@@ -166,32 +202,27 @@ std::string table_of(const SceneRecord& scene, const TableStyle& style) {
 }
 
 std::string summary_of(const std::vector<SceneRecord>& scenes, const TableStyle& style) {
-  using Status = EngineRecord::Status;
-  std::array<std::size_t, 3> verdicts{};
-  std::size_t runs = 0, deviating = 0, skipped = 0, failed = 0;
+  std::array<std::size_t, 3> verdicts{}, run_verdicts{};
+  std::size_t runs = 0, skipped = 0;
   for (const SceneRecord& scene : scenes) {
     ++verdicts[static_cast<std::size_t>(scene.verdict())];
     for (const EngineRecord& run : scene.runs) {
       ++runs;
-      if (run.status == Status::skipped) {
+      if (const auto verdict = run.verdict())
+        ++run_verdicts[static_cast<std::size_t>(*verdict)];
+      else
         ++skipped;
-      } else if (run.status != Status::ok) {
-        ++failed;
-      } else if (!run.within()) {
-        ++deviating;
-      }
     }
   }
   const auto count = [&](std::size_t number, const char* what, Ink ink) {
     return inked(fmt::format("{} {}", number, what), number > 0 ? ink : Ink::plain, style);
   };
-  return fmt::format("{}: {}, {}, {}; {}: {}, {}, {}, {}\n", plural(scenes.size(), "scene"),
-                     count(verdicts[0], "within", Ink::good),
-                     count(verdicts[1], "deviate", Ink::bad),
-                     count(verdicts[2], "failed", Ink::bad), plural(runs, "engine run"),
-                     count(runs - deviating - failed - skipped, "within", Ink::good),
-                     count(deviating, "deviate", Ink::bad), count(failed, "failed", Ink::bad),
-                     count(skipped, "skipped", Ink::faint));
+  return fmt::format(
+      "{}: {}, {}, {}; {}: {}, {}, {}, {}\n", plural(scenes.size(), "scene"),
+      count(verdicts[0], "within", Ink::good), count(verdicts[1], "deviate", Ink::bad),
+      count(verdicts[2], "failed", Ink::bad), plural(runs, "engine run"),
+      count(run_verdicts[0], "within", Ink::good), count(run_verdicts[1], "deviate", Ink::bad),
+      count(run_verdicts[2], "failed", Ink::bad), count(skipped, "skipped", Ink::faint));
 }
 
 }  // namespace slipcheck

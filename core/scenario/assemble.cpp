@@ -210,6 +210,7 @@ Scenario assemble(const WrittenScene& written, Reading& reading) {
   check_contacts(written, reading);
   check_surroundings(written, reading);
   check_run(written, reading);
+  check_expectations(written, reading);
 
   Scenario scenario;
   scenario.name = written.name;

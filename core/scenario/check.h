@@ -22,4 +22,7 @@ void check_surroundings(const WrittenScene& written, Reading& reading);
 
 void check_run(const WrittenScene& written, Reading& reading);
 
+/// What is expected of engines is of bodies and pairs that there are (expectation_check.cpp).
+void check_expectations(const WrittenScene& written, Reading& reading);
+
 }  // namespace slipcheck

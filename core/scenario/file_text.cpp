@@ -94,7 +94,8 @@ std::string read_file(const std::filesystem::path& path) {
   }
 }
 
-std::string_view checked_text(std::string_view bytes, const std::string& file) {
+std::string_view checked_text(std::string_view bytes, const std::string& file,
+                              const char* content) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (bytes.starts_with(kByteOrderMark)) bytes.remove_prefix(kByteOrderMark.size());
   if (bytes.size() > kMostBytes)
@@ -116,7 +117,7 @@ std::string_view checked_text(std::string_view bytes, const std::string& file) {
     }
     rest.remove_prefix(length);
   }
-  if (bytes.empty()) refuse(file, "must hold a scene, but is empty");
+  if (bytes.empty()) refuse(file, fmt::format("must hold a {}, but is empty", content));
   return bytes;
 }
 

@@ -74,7 +74,9 @@ Rule<EngineRequest> engine_rule() {
                "must be a frequency or a list of them",
                {{[](const YamlNode& node) { return is_list(node); }, list(rate, 1)},
                 {is_scalar, made_from<Rates>(rate, [](double value) { return Rates{value}; })}}),
-           required, "steps per second, one or several");
+           required, "steps per second, one or several")
+      .key("expect", &EngineRequest::expect, expectation_rule(), optional,
+           "what it is known to do; judged by this in place of the tolerances");
   return engine.rule();
 }
 

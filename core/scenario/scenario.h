@@ -226,12 +226,33 @@ struct Tolerance {
   bool absolute = false;
 };
 
+/// How a run of an engine ended.
+enum class RunStatus { ok, unstable, crashed, timed_out, skipped };
+
+/// Where a statistic of an engine's ensemble is expected [SI].
+struct ExpectedRange {
+  double low = 0;
+  double high = 0;  ///< >= low
+};
+/// What an engine is expected to show of an observable: at least one of the ranges, or `none`.
+struct ExpectedObservable {
+  std::optional<ExpectedRange> min, median, max;  ///< over the phases
+  bool none = false;                              ///< it does not occur in any phase
+};
+/// What an engine is known to do in this scene, right or wrong; its runs are judged by this in place
+/// of the tolerances. An extension.
+struct Expectation {
+  std::optional<RunStatus> status;  ///< none or one that is not `ok`; then nothing else is expected
+  std::map<std::string, ExpectedObservable> observables;  ///< by full name, "i-j.restitution"
+};
+
 struct EngineRequest {
   enum class Precision { single_, double_ };
   std::string engine;
   Precision precision = Precision::double_;
   std::string profile = "default";
   std::vector<double> rates;  ///< steps per second [Hz], > 0
+  std::optional<Expectation> expect;
 };
 
 struct Compare {

@@ -18,5 +18,7 @@ Rule<std::vector<std::variant<WrittenBody, Fill>>> bodies_rule();
 Rule<std::vector<Fill>> fill_rule();
 Rule<WrittenRun> run_rule();
 Rule<Compare> compare_rule();
+/// `expect` of an engine in `compare`.
+Rule<Expectation> expectation_rule();
 
 }  // namespace slipcheck

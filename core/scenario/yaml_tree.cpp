@@ -1,5 +1,6 @@
 #include "scenario/yaml_tree.h"
 
+#include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
@@ -29,10 +30,13 @@ struct Refusal {
 /// what an alias stands for without writing it out.
 class TreeBuilder : public YAML::EventHandler {
  public:
+  explicit TreeBuilder(std::string_view content) : content_(content) {}
+
   YamlPointer root() const { return root_; }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (started_) throw Refusal{location_of(mark), "a file holds one scene, one YAML document"};
+    if (started_)
+      throw Refusal{location_of(mark), "a file holds one " + content_ + ", one YAML document"};
     started_ = true;
   }
   void OnDocumentEnd() override {}
@@ -120,7 +124,7 @@ class TreeBuilder : public YAML::EventHandler {
     parent.size += node->size;
     parent.depth = std::max(parent.depth, node->depth + 1);
     if (parent.size > kMostNodes) {
-      throw Refusal{location, "a scene must have at most " + std::to_string(kMostNodes) +
+      throw Refusal{location, "a " + content_ + " must have at most " + std::to_string(kMostNodes) +
                                   " YAML nodes with its aliases written out"};
     }
     if (parent.depth > kMostLevels) throw too_deep(location);
@@ -138,11 +142,12 @@ class TreeBuilder : public YAML::EventHandler {
     }
   }
 
-  static Refusal too_deep(Location location) {
-    return {location,
-            "a scene must be nested at most " + std::to_string(kMostLevels) + " levels deep"};
+  Refusal too_deep(Location location) const {
+    return {location, "a " + content_ + " must be nested at most " + std::to_string(kMostLevels) +
+                          " levels deep"};
   }
 
+  std::string content_;
   bool started_ = false;
   YamlPointer root_;
   std::vector<Level> levels_;
@@ -158,8 +163,8 @@ const YamlNode* YamlNode::find(std::string_view key) const {
   return nullptr;
 }
 
-YamlPointer parse_yaml(std::string_view text, const std::string& file) {
-  TreeBuilder builder;
+YamlPointer parse_yaml(std::string_view text, const std::string& file, const char* content) {
+  TreeBuilder builder(content);
   try {
     std::istringstream stream{std::string(text)};
     YAML::Parser parser(stream);
@@ -171,7 +176,7 @@ YamlPointer parse_yaml(std::string_view text, const std::string& file) {
     throw BadScenario({{file, location_of(error.mark), "", "must be YAML: " + error.msg, ""}});
   }
   if (!builder.root() || builder.root()->kind == YamlNode::Kind::null) {
-    throw BadScenario({{file, {}, "", "must hold a scene, but is empty", ""}});
+    throw BadScenario({{file, {}, "", fmt::format("must hold a {}, but is empty", content), ""}});
   }
   return builder.root();
 }

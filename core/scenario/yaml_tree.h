@@ -37,8 +37,10 @@ struct YamlNode {
 
 /// Parses a text that holds one YAML document. Throws BadScenario for what no later rule could look
 /// at: wrong syntax, several documents, tags, aliases that contain themselves or that would write
-/// out to more than kMostNodes, more than kMostLevels.
-YamlPointer parse_yaml(std::string_view text, const std::string& file);
+/// out to more than kMostNodes, more than kMostLevels. `content` says in messages what the file
+/// holds.
+YamlPointer parse_yaml(std::string_view text, const std::string& file,
+                       const char* content = "scene");
 
 inline constexpr std::size_t kMostNodes = 300'000;
 inline constexpr int kMostLevels = 64;

@@ -152,6 +152,32 @@ class CommandLine(unittest.TestCase):
         self.assertRegex(result.stderr, r"pair\.yaml:8:\d+: contacts\[0\]\.normal\.restitution: .*"
                                         r"materials\.steel\.dissipation_time")
 
+    def test_profiles_are_files_and_faulty_ones_are_exit_2(self):
+        profile = self.path / "mine.yaml"
+        profile.write_text((SOURCE / "bullet_backend/profiles/naive.yaml").read_text())
+        file = self.scene("{engine: bullet, rate: 240, profile: ./mine.yaml},"
+                          "{engine: bullet, rate: 240, profile: naive}")
+        mine, naive = json.loads(run("run", file, "--json", "-", "--phases", "4").stdout)["runs"]
+        self.assertEqual((mine["status"], mine["profile"]), ("ok", "./mine.yaml"))
+        self.assertEqual(mine["settings"]["coefficients"], "fields")
+        for key in ("settings", "observables", "applied"):
+            self.assertEqual(mine[key], naive[key])
+        self.assertIn("the profile sets coefficients", run("explain", file).stdout)
+
+        profile.write_text(profile.read_text().replace("coefficients:", "coeficients:"))
+        out = self.path / "out.json"
+        for arguments in (["run", file, "--json", out], ["explain", file]):
+            result = run(*arguments)
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+            self.assertRegex(result.stderr, r"mine\.yaml:\d+:3: settings\.coeficients: is no setting "
+                                            r"of this engine \(did you mean coefficients\?\)")
+        profile.unlink()
+        result = run("run", file, "--json", out)
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"pair\.yaml:16:\d+: compare\.engines\[0\]\.profile: .*"
+                                        r"No such file or directory, got \./mine\.yaml")
+        self.assertFalse(out.exists())
+
     def test_killed_worker_leaves_every_other_run_intact_and_exit_3(self):
         bullet = "{engine: bullet, precision: double, rate: [240, 1000]}"
         file = self.scene("{engine: faulty, precision: double, profile: slow, rate: 1000}, " + bullet)
@@ -160,13 +186,13 @@ class CommandLine(unittest.TestCase):
         process = subprocess.Popen([SLIPCHECK, "run", file, "--json", out],
                                    env=dict(os.environ, SLIPCHECK_ENGINE_PATH=path),
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        victim = None
+        victim, before = None, -1
         deadline = time.time() + 30
-        while victim is None and time.time() < deadline:
-            time.sleep(0.05)
-            victim = child_of(process.pid, "engine-faulty")
+        # The first one may only have been asked what settings there are; 0.3 s is inside the run.
+        while (victim is None or victim != before) and time.time() < deadline:
+            time.sleep(0.3)
+            victim, before = child_of(process.pid, "engine-faulty"), victim
         self.assertIsNotNone(victim)
-        time.sleep(0.3)  # well inside the run
         os.kill(victim, signal.SIGKILL)
         _, stderr = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 3, stderr)
@@ -233,7 +259,26 @@ class CommandLine(unittest.TestCase):
     def test_lists(self):
         engines = json.loads(run("list", "engines", "--json").stdout)
         self.assertIn(("bullet", "double"), [(e["engine"], e.get("precision")) for e in engines])
-        self.assertEqual(engines[0]["profiles"], ["default", "naive"])
+        shipped = sorted(f.stem for f in (SOURCE / "bullet_backend/profiles").glob("*.yaml"))
+        self.assertLessEqual({"default", "naive"}, set(shipped))
+        self.assertEqual(engines[0]["profiles"], shipped)
+        profiles = json.loads(run("list", "profiles", "--json").stdout)
+        self.assertEqual([(p["engine"], p["profile"]) for p in profiles],
+                         [("bullet", name) for name in shipped])
+        self.assertTrue(all(p["about"] for p in profiles))
+        settings = json.loads(run("list", "settings", "--json").stdout)
+        self.assertEqual({s["engine"] for s in settings}, {"bullet"})
+        coefficients = [s for s in settings if s["name"] == "coefficients"]
+        self.assertEqual(len(coefficients), 1)
+        self.assertEqual(coefficients[0]["precision"], ["double", "single"])
+        self.assertIn("fields", coefficients[0]["takes"])
+        for setting in settings:
+            if setting["takes"] in ("number", "whole number"):
+                self.assertGreaterEqual(setting["shipped"], setting["low"] or -math.inf)
+        # As a profile has to write them.
+        table = run("list", "settings").stdout
+        self.assertRegex(table, r"split_impulse +true +true, false ")
+        self.assertRegex(table, r"substeps +1 +whole number, 1 … \d+ ")
         scenarios = json.loads(run("list", "scenarios", "--json").stdout)
         self.assertEqual(len(scenarios), len(list(SCENES.glob("*.yaml"))))
         observables = [o["name"] for o in json.loads(run("list", "observables", "--json").stdout)]

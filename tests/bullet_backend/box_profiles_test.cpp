@@ -45,7 +45,7 @@ bool lists(const Applied& applied, const std::string& start) {
 
 TEST(BulletBoxProfiles, DefaultAppliesTheNumbersOfEverySurface) {
   RemoteEngine engine(bullet_executable("double"));
-  const Applied applied = engine.configure(everything(), "default", 1e-3);
+  const Applied applied = engine.configure(everything(), kDefault, 1e-3);
   EXPECT_EQ(number(applied, "restitution[0-1]"), 0.9);
   EXPECT_EQ(number(applied, "restitution[0-2]"), 0.8);
   EXPECT_EQ(number(applied, "pair_friction[0-2]"), 0.4);
@@ -57,7 +57,7 @@ TEST(BulletBoxProfiles, DefaultAppliesTheNumbersOfEverySurface) {
   EXPECT_EQ(number(applied, "lid_restitution"), 0.3);
   EXPECT_EQ(number(applied, "lid_friction[0]"), 0.15);
   EXPECT_EQ(number(applied, "lid_friction[2]"), 0);  // β0 = -1: the slip is kept
-  EXPECT_EQ(std::get<std::string>(applied.settings.at("floor_velocity")), "backward difference");
+  EXPECT_EQ(std::get<std::string>(applied.settings.at("surface_velocity")), "step_before");
   EXPECT_EQ(std::get<bool>(applied.settings.at("walls_move")), false);
   EXPECT_DOUBLE_EQ(number(applied, "aabb_margin"), 0.02 * 0.01);
   EXPECT_DOUBLE_EQ(number(applied, "broadphase_tree_margin"), 0.05 * 0.01);
@@ -67,7 +67,7 @@ TEST(BulletBoxProfiles, DefaultAppliesTheNumbersOfEverySurface) {
 
 TEST(BulletBoxProfiles, NaiveGetsBulletsProducts) {
   RemoteEngine engine(bullet_executable("double"));
-  const Applied applied = engine.configure(everything(), "naive", 1e-3);
+  const Applied applied = engine.configure(everything(), kNaive, 1e-3);
   // Balls have their contact with the first other ball, surfaces theirs with the first ball.
   EXPECT_DOUBLE_EQ(number(applied, "restitution[0-1]"), 0.9 * 0.9);
   EXPECT_DOUBLE_EQ(number(applied, "restitution[0-2]"), 0.9 * 0.8);
@@ -82,25 +82,25 @@ TEST(BulletBoxProfiles, WhatIsNotRepresentedIsSaid) {
   RemoteEngine engine(bullet_executable("double"));
   HardScene scene = everything();
   // From 0.1 m balls come down with 1.4 m/s, 1.4 mm in a step of 1 ms, 6 mm in one at 240 Hz.
-  Applied applied = engine.configure(scene, "default", 1e-3);
+  Applied applied = engine.configure(scene, kDefault, 1e-3);
   EXPECT_EQ(applied.not_represented,
             (std::vector<std::string>{
                 "restitution below 0.2 m/s of approach",
                 "the floor's velocity at the contact (it is the mean over the step before)"}));
-  applied = engine.configure(scene, "default", 1.0 / 240);
+  applied = engine.configure(scene, kDefault, 1.0 / 240);
   EXPECT_TRUE(lists(applied, "collisions of bodies that pass each other within a step"));
   for (auto* contacts : {&scene.box->on_floor, &scene.box->on_wall, &scene.box->on_lid}) {
     const PairContact saved = contacts->back();
     contacts->back() = {0.5, 0.1, 0.4};
-    EXPECT_TRUE(lists(engine.configure(scene, "default", 1e-3), "tangential restitution"));
+    EXPECT_TRUE(lists(engine.configure(scene, kDefault, 1e-3), "tangential restitution"));
     contacts->back() = saved;
   }
   scene.box->floor = {};
-  EXPECT_FALSE(lists(engine.configure(scene, "default", 1e-3), "the floor's velocity"));
+  EXPECT_FALSE(lists(engine.configure(scene, kDefault, 1e-3), "the floor's velocity"));
   // What the materials would do on a substrate is of no account.
   scene.substrate[0].static_friction = 1;
   scene.substrate[0].rolling = RollingFriction(0.01);
-  EXPECT_EQ(engine.configure(scene, "default", 1e-3).not_represented.size(), 1u);
+  EXPECT_EQ(engine.configure(scene, kDefault, 1e-3).not_represented.size(), 1u);
 }
 
 TEST(BulletBoxProfiles, ARepeatedPlaneIsRefused) {
@@ -108,7 +108,7 @@ TEST(BulletBoxProfiles, ARepeatedPlaneIsRefused) {
   HardScene scene = scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 1)}, {});
   scene.periodic = {0.5, 0};
   try {
-    engine.configure(scene, "default", 1e-3);
+    engine.configure(scene, kDefault, 1e-3);
     ADD_FAILURE() << "accepted";
   } catch (const Refused& refused) {
     EXPECT_STREQ(refused.what(),
@@ -124,9 +124,9 @@ TEST(BulletBoxProfiles, ASubstrateAfterABoxHasBulletsOwnMargins) {
       scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 0.3), rolling_along_x(0.01, 0.03, 0)},
                ground_with_friction(0.1));
   RemoteEngine engine(bullet_executable("double"));
-  const auto before = run(engine, scene, "default", 240, 100);
-  run(engine, everything(), "default", 240, 10);
-  const auto after = run(engine, scene, "default", 240, 100);
+  const auto before = run(engine, scene, kDefault, 240, 100);
+  run(engine, everything(), kDefault, 240, 10);
+  const auto after = run(engine, scene, kDefault, 240, 100);
   EXPECT_EQ(before.back().bodies[1].position, after.back().bodies[1].position);
   EXPECT_EQ(before.back().bodies[1].angular_velocity, after.back().bodies[1].angular_velocity);
 }

@@ -63,7 +63,7 @@ class BulletBox : public ::testing::TestWithParam<const char*> {
  protected:
   RemoteEngine engine_{bullet_executable("double")};
   BodyState after(const HardScene& scene, double rate = kRate, std::size_t steps = 8) {
-    return run(engine_, scene, GetParam(), rate, steps).back().bodies[0];
+    return run(engine_, scene, shipped(GetParam()), rate, steps).back().bodies[0];
   }
   bool is_default() const { return GetParam() == std::string("default"); }
   double applied(double coefficient) const {  // Bullet's product of two equal bodies' coefficients
@@ -132,7 +132,7 @@ TEST_P(BulletBox, AMovingFloorPassesItsVelocityOn) {
     HardScene scene = box_of(steel_ball(kRadius), {in_plane(0.1, height, 0, -0.5)});
     scene.box->floor = {0.002, 25};  // V = 0.31 m/s
     scene.box->on_floor[0].restitution = e;
-    engine_.configure(scene, GetParam(), 1 / kRate);
+    engine_.configure(scene, shipped(GetParam()), 1 / kRate);
     engine_.start(scene.initial, start);
     double t = start;
     BodyState before = scene.initial[0];
@@ -199,7 +199,7 @@ TEST_P(BulletBox, BallsMeetAsTheyDoOnASubstrate) {
       HardScene scene = box_of(steel_ball(radius),
                                {in_plane(0.1 - x, 0.1, 0.5, 0), in_plane(0.1 + x, 0.1, -0.5, 0)});
       scene.pairs[0].restitution = e;
-      const Frame last = run(engine_, scene, GetParam(), rate, 8).back();
+      const Frame last = run(engine_, scene, shipped(GetParam()), rate, 8).back();
       const double out = last.bodies[1].velocity.x() - last.bodies[0].velocity.x();
       EXPECT_NEAR(out, applied(e) + 0.2 * (1 - phase), kRoundOff) << rate << " Hz, " << phase;
     }
@@ -216,7 +216,7 @@ TEST_P(BulletBox, ABallBouncesUnderGravity) {
       HardScene scene = box_of(steel_ball(kRadius), {in_plane(0.1, kRadius + height, 0, 0)});
       scene.gravity = kGravity;
       scene.box->on_floor[0].restitution = e;
-      const auto frames = run(engine_, scene, GetParam(), rate, 60);
+      const auto frames = run(engine_, scene, shipped(GetParam()), rate, 60);
       const auto hit =
           std::ranges::find_if(frames, [](const Frame& frame) { return !frame.touches.empty(); });
       ASSERT_NE(hit, frames.end());

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "engine/profile.h"
 #include "engine/remote_engine.h"
 #include "scenario/hard_scene.h"
 
@@ -14,6 +16,23 @@ inline constexpr double kGravity = 9.81;  // [m/s²]
 
 inline std::string bullet_executable(const std::string& precision) {
   return std::string(SLIPCHECK_BINARY_DIR) + "/slipcheck-engine-bullet-" + precision;
+}
+
+/// The settings of a profile that is shipped.
+inline Settings shipped(const std::string& profile) {
+  return load_profile(std::string(SLIPCHECK_SOURCE_DIR) + "/bullet_backend/profiles/" + profile +
+                      ".yaml")
+      .settings;
+}
+
+/// What the profiles of these names come down to.
+inline const Settings kDefault = {};
+inline const Settings kNaive = {{"coefficients", "fields"}};
+
+/// `base` with other settings over it.
+inline Settings with(Settings base, const Settings& others) {
+  for (const auto& [name, value] : others) base[name] = value;
+  return base;
 }
 
 /// A steel sphere.
@@ -26,6 +45,21 @@ inline BodyState rolling_along_x(double radius, double x, double v) {
   BodyState state;
   state.position = Vector3(x, 0, radius);
   state.velocity = Vector3(v, 0, 0);
+  state.angular_velocity = rolling_angular_velocity(state.velocity, radius);
+  return state;
+}
+
+/// The horizontal direction so many degrees from x.
+inline Vector3 direction(double degrees) {
+  const double angle = degrees * std::numbers::pi / 180;
+  return {std::cos(angle), std::sin(angle), 0};
+}
+
+/// Rolling at the speed v in a direction [degrees from x], `place` along it.
+inline BodyState rolling_towards(double radius, double v, double degrees, double place = 0) {
+  BodyState state;
+  state.position = place * direction(degrees) + Vector3(0, 0, radius);
+  state.velocity = v * direction(degrees);
   state.angular_velocity = rolling_angular_velocity(state.velocity, radius);
   return state;
 }
@@ -50,14 +84,20 @@ inline SubstrateContact ground_with_friction(double mu) {
   return ground;
 }
 
-/// The frames of a run from the scene's initial states.
+/// The frames of a run from the scene's initial states, with those inside steps.
 inline std::vector<Frame> run(RemoteEngine& engine, const HardScene& scene,
-                              const std::string& profile, double rate, std::size_t steps) {
-  engine.configure(scene, profile, 1 / rate);
+                              const Settings& settings, double rate, std::size_t steps) {
+  engine.configure(scene, settings, 1 / rate);
   engine.start(scene.initial);
   std::vector<Frame> frames;
   engine.advance(steps, [&](const Frame& frame) { frames.push_back(frame); });
   return frames;
+}
+
+/// Whether two balls touched.
+inline bool touch_each_other(const Frame& frame) {
+  return std::ranges::any_of(frame.touches,
+                             [](const Touch& touch) { return touch.second != kSubstrate; });
 }
 
 }  // namespace slipcheck

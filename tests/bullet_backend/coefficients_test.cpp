@@ -18,11 +18,11 @@ TEST(BulletCoefficients, RollingLengthTurnsIntoTheDecelerationOfTheScene) {
   SubstrateContact ground = ground_with_friction(0.2);
   ground.rolling = RollingFriction({{0, 0.01}, {1, 0.03}});
   const Sphere shell = {0.05, 0.1, 2.0 / 3};
-  const PairCoefficients map(two_balls(shell, ground, {}), 1e-3);
+  const PairCoefficients map(two_balls(shell, ground, {}), {}, 1e-3);
   // A torque ρ m g on a rolling sphere: (1 + q) m a R = ρ m g, so ρ = (1 + q) R a/g, a/g = μ_r.
-  EXPECT_DOUBLE_EQ(map.rolling_friction(0, kSubstrate, 0), (5.0 / 3) * 0.05 * 0.01);
-  EXPECT_DOUBLE_EQ(map.rolling_friction(0, kSubstrate, 0.5), (5.0 / 3) * 0.05 * 0.02);
-  EXPECT_EQ(map.rolling_friction(0, 1, 0.5), 0);
+  EXPECT_DOUBLE_EQ(map.rolling_friction(0, kSubstrate, 0, false), (5.0 / 3) * 0.05 * 0.01);
+  EXPECT_DOUBLE_EQ(map.rolling_friction(0, kSubstrate, 0.5, false), (5.0 / 3) * 0.05 * 0.02);
+  EXPECT_EQ(map.rolling_friction(0, 1, 0.5, false), 0);
   EXPECT_FALSE(map.is_cut(0));
 }
 
@@ -31,21 +31,21 @@ TEST(BulletCoefficients, ImpulsesAboveOneRaiseTheTorques) {
   ground.rolling = RollingFriction(0.01);
   ground.drilling_length = 0.003;
   const Sphere heavy = {0.5, 100, 0.4};
-  const PairCoefficients map(two_balls(heavy, ground, {}), 1e-2);
+  const PairCoefficients map(two_balls(heavy, ground, {}), {}, 1e-2);
   const double impulse = 100 * kGravity * 1e-2;  // 9.81 N s, of which the solver counts 1
   EXPECT_TRUE(map.is_cut(0));
-  EXPECT_DOUBLE_EQ(map.rolling_friction(0, kSubstrate, 1), 1.4 * 0.5 * 0.01 * impulse);
+  EXPECT_DOUBLE_EQ(map.rolling_friction(0, kSubstrate, 1, false), 1.4 * 0.5 * 0.01 * impulse);
   EXPECT_DOUBLE_EQ(map.spinning_friction(0, kSubstrate), 0.003 * impulse);
 }
 
 TEST(BulletCoefficients, DrillingOpensTheGateOfRolling) {
   SubstrateContact ground = ground_with_friction(0.2);
   ground.drilling_length = 1e-4;
-  const PairCoefficients map(two_balls(steel_ball(0.01), ground, {}), 1e-3);
-  EXPECT_GT(map.rolling_friction(0, kSubstrate, 1), 0);
-  EXPECT_LE(map.rolling_friction(0, kSubstrate, 1), 1e-12);
-  const PairCoefficients none(two_balls(steel_ball(0.01), ground_with_friction(0.2), {}), 1e-3);
-  EXPECT_EQ(none.rolling_friction(0, kSubstrate, 1), 0);
+  const PairCoefficients map(two_balls(steel_ball(0.01), ground, {}), {}, 1e-3);
+  EXPECT_GT(map.rolling_friction(0, kSubstrate, 1, false), 0);
+  EXPECT_LE(map.rolling_friction(0, kSubstrate, 1, false), 1e-12);
+  const PairCoefficients none(two_balls(steel_ball(0.01), ground_with_friction(0.2), {}), {}, 1e-3);
+  EXPECT_EQ(none.rolling_friction(0, kSubstrate, 1, false), 0);
 }
 
 TEST(BulletCoefficients, APairThatKeepsItsSlipHasNoFriction) {
@@ -54,9 +54,9 @@ TEST(BulletCoefficients, APairThatKeepsItsSlipHasNoFriction) {
   pair.tangential_restitution = 0;
   const SubstrateContact ground;
   const Sphere ball = steel_ball(0.01);
-  EXPECT_EQ(PairCoefficients(two_balls(ball, ground, pair), 1e-3).friction(0, 1), 0.3);
+  EXPECT_EQ(PairCoefficients(two_balls(ball, ground, pair), {}, 1e-3).friction(0, 1, true), 0.3);
   pair.tangential_restitution = -1;
-  EXPECT_EQ(PairCoefficients(two_balls(ball, ground, pair), 1e-3).friction(0, 1), 0);
+  EXPECT_EQ(PairCoefficients(two_balls(ball, ground, pair), {}, 1e-3).friction(0, 1, true), 0);
 }
 
 TEST(BulletCoefficients, ATableOfRestitutionsIsFollowed) {
@@ -65,7 +65,7 @@ TEST(BulletCoefficients, ATableOfRestitutionsIsFollowed) {
   PairContact pair;
   pair.restitution = table;
   const HardScene scene = two_balls(steel_ball(0.01), {}, pair);
-  const PairCoefficients map(scene, 1e-3);
+  const PairCoefficients map(scene, {}, 1e-3);
   for (const double g : {1.0, 2.0, std::exp(1.0)}) {
     EXPECT_NEAR(map.restitution(0, 1, g), 1 / (1 + std::exp(-2 + 0.2 * std::log(g))), 1e-15);
   }
@@ -74,6 +74,69 @@ TEST(BulletCoefficients, ATableOfRestitutionsIsFollowed) {
   EXPECT_NEAR(map.restitution(0, 1, 0.01), 1 - (1 - e) * std::pow(0.01, 0.2 * e), 1e-15);
   // What people type: the value at the speed at which the two start, here 1 m/s.
   EXPECT_NEAR(naive_ball(scene, 1).restitution, 1 / (1 + std::exp(-2)), 1e-15);
+}
+
+TEST(BulletCoefficients, WhetherAContactSlipsDecidesWhereAsked) {
+  SubstrateContact ground;
+  ground.static_friction = 0.5;
+  ground.kinetic_friction = 0.2;
+  ground.rolling = RollingFriction(0.01);
+  const HardScene scene = two_balls(steel_ball(0.05), ground, {1.0, 0.3, 0});
+  BulletSettings settings;
+  const PairCoefficients one(scene, settings, 1e-3);
+  settings.coefficients = CoefficientMap::pair_and_slip;
+  const PairCoefficients map(scene, settings, 1e-3);
+  EXPECT_EQ(one.friction(0, kSubstrate, false), 0.2);
+  EXPECT_EQ(map.friction(0, kSubstrate, false), 0.5);
+  EXPECT_EQ(map.friction(0, kSubstrate, true), 0.2);
+  EXPECT_EQ(map.friction(0, 1, false), 0.3);
+  EXPECT_EQ(one.rolling_friction(0, kSubstrate, 1, true), 1.4 * 0.01 * 0.05);
+  EXPECT_EQ(map.rolling_friction(0, kSubstrate, 1, false), 1.4 * 0.01 * 0.05);
+  EXPECT_EQ(map.rolling_friction(0, kSubstrate, 1, true), 0);
+  ground.rolling_while_sliding = true;
+  const PairCoefficients both(two_balls(steel_ball(0.05), ground, {}), settings, 1e-3);
+  EXPECT_EQ(both.rolling_friction(0, kSubstrate, 1, true), 1.4 * 0.01 * 0.05);
+  // u̇ = −(1 + 1/q) μ_k g: a step of friction takes (7/2)·0.2·g·1 ms from the slip.
+  const double in_a_step = 3.5 * 0.2 * kGravity * 1e-3;
+  EXPECT_FALSE(map.slips(0, 0.999 * in_a_step));
+  EXPECT_TRUE(map.slips(0, 1.001 * in_a_step));
+}
+
+TEST(BulletCoefficients, AMultibodysRestitutionMakesUpForTheStepsGravity) {
+  SubstrateContact ground;
+  ground.restitution = 0.8;
+  const HardScene scene = two_balls(steel_ball(0.05), ground, {0.9, 0, 0});
+  BulletSettings settings;
+  settings.body = BodyKind::multibody;
+  PairCoefficients map(scene, settings, 1e-2);
+  // Bullet sees v + g dt and sends back e' (v + g dt), which is to be e v.
+  const double v = 0.3;
+  EXPECT_NEAR(map.restitution(0, kSubstrate, v) * (v + kGravity * 1e-2), 0.8 * v, 1e-15);
+  map.set_time_step(1e-4);
+  EXPECT_NEAR(map.restitution(0, kSubstrate, v) * (v + kGravity * 1e-4), 0.8 * v, 1e-15);
+  EXPECT_EQ(map.restitution(0, kSubstrate, 0), 0);  // at rest it stays at rest
+  EXPECT_EQ(map.restitution(0, 1, v), 0.9);
+  EXPECT_EQ(PairCoefficients(scene, {}, 1e-2).restitution(0, kSubstrate, v), 0.8);
+}
+
+TEST(BulletCoefficients, FactorsMultiplyWhatTheMapsGive) {
+  SubstrateContact ground = ground_with_friction(0.2);
+  ground.rolling = RollingFriction(0.01);
+  ground.drilling_length = 1e-3;
+  ground.restitution = 0.5;
+  const HardScene scene = two_balls(steel_ball(0.05), ground, {0.6, 0.3, 0});
+  BulletSettings settings;
+  settings.friction_factor = 2;
+  settings.restitution_factor = 0.5;
+  settings.rolling_friction_factor = 3;
+  settings.spinning_friction_factor = 4;
+  const PairCoefficients map(scene, settings, 1e-3);
+  EXPECT_DOUBLE_EQ(map.friction(0, kSubstrate, true), 0.4);
+  EXPECT_DOUBLE_EQ(map.friction(0, 1, true), 0.6);
+  EXPECT_DOUBLE_EQ(map.restitution(0, kSubstrate, 1), 0.25);
+  EXPECT_DOUBLE_EQ(map.restitution(0, 1, 1), 0.3);
+  EXPECT_DOUBLE_EQ(map.rolling_friction(0, kSubstrate, 1, false), 3 * 1.4 * 0.01 * 0.05);
+  EXPECT_DOUBLE_EQ(map.spinning_friction(0, kSubstrate), 4e-3);
 }
 
 TEST(BulletCoefficients, NaiveTakesTheNumbersStraight) {

@@ -36,11 +36,6 @@ struct Restitution {
   Range normal, effective;
 };
 
-bool touch_each_other(const Frame& frame) {
-  return std::any_of(frame.touches.begin(), frame.touches.end(),
-                     [](const Touch& touch) { return touch.second != kSubstrate; });
-}
-
 double separation_speed(const Frame& frame) {
   return frame.bodies[1].velocity.x() - frame.bodies[0].velocity.x();
 }
@@ -64,7 +59,7 @@ Restitution meet(double speed, double rate) {
                  {rolling_along_x(kRadius, -x, speed / 2), rolling_along_x(kRadius, x, -speed / 2)},
                  ground_with_friction(0.1), pair);
     // Slip ends after 2 (1 + e_n) (speed/2)/(7 μ g) < 0.1 s.
-    const auto frames = run(engine, scene, "default", rate, static_cast<std::size_t>(0.12 * rate));
+    const auto frames = run(engine, scene, kDefault, rate, static_cast<std::size_t>(0.12 * rate));
     const auto hit = std::find_if(frames.begin(), frames.end(), touch_each_other);
     if (hit == frames.end()) {
       ADD_FAILURE() << "no collision";
@@ -120,7 +115,7 @@ TEST(BulletCollision, ARestitutionLawIsTakenAtTheApproachSpeed) {
     right.velocity = -left.velocity;
     HardScene scene = scene_of(steel_ball(0.01), {left, right}, {}, pair);
     scene.gravity = 0;
-    const auto frames = run(engine, scene, "default", rate, 10);
+    const auto frames = run(engine, scene, kDefault, rate, 10);
     const double e = 0.32 * std::pow(speed / 0.01, -0.234);
     EXPECT_NEAR(separation_speed(frames.back()) / speed, e + 0.2 * (1 - phase), 1e-9);
   }

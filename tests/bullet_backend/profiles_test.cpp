@@ -42,35 +42,19 @@ TEST(BulletProfiles, BothPrecisionsSayWhoTheyAre) {
     EXPECT_EQ(engine.info().engine, "bullet");
     EXPECT_EQ(engine.info().version, "3.24");
     EXPECT_EQ(engine.info().precision, precision);
-    EXPECT_EQ(engine.info().profiles, (std::vector<std::string>{"default", "naive"}));
   }
-}
-
-TEST(BulletProfiles, UnknownOnesAreRefusedWithTheList) {
-  RemoteEngine engine(bullet_executable("double"));
-  const auto reason = [&](const std::string& profile) -> std::string {
-    try {
-      engine.configure(everything(), profile, 1e-3);
-    } catch (const Refused& refused) {
-      return refused.what();
-    }
-    return "accepted";
-  };
-  EXPECT_EQ(reason("tuned"), "bullet has no profile 'tuned' yet; it has: default, naive");
-  EXPECT_EQ(reason("x"), "bullet has no profile 'x'; it has: default, naive");
-  EXPECT_TRUE(engine.alive());
 }
 
 TEST(BulletProfiles, AStepBelowItsEpsilonIsRefused) {
   RemoteEngine single(bullet_executable("single"));
-  EXPECT_THROW(single.configure(everything(), "default", 1e-7), Refused);
+  EXPECT_THROW(single.configure(everything(), kDefault, 1e-7), Refused);
   RemoteEngine as_double(bullet_executable("double"));
-  EXPECT_NO_THROW(as_double.configure(everything(), "default", 1e-7));
+  EXPECT_NO_THROW(as_double.configure(everything(), kDefault, 1e-7));
 }
 
 TEST(BulletProfiles, DefaultAppliesThePairsOwnNumbers) {
   RemoteEngine engine(bullet_executable("double"));
-  const Applied applied = engine.configure(everything(), "default", 1e-3);
+  const Applied applied = engine.configure(everything(), kDefault, 1e-3);
   EXPECT_EQ(number(applied, "friction"), 0.1);
   EXPECT_EQ(number(applied, "substrate_restitution"), 0.4);
   EXPECT_EQ(number(applied, "restitution"), 0.9);
@@ -83,7 +67,7 @@ TEST(BulletProfiles, DefaultAppliesThePairsOwnNumbers) {
 
 TEST(BulletProfiles, SettingsAreBulletsOwn) {
   RemoteEngine engine(bullet_executable("double"));
-  const Applied applied = engine.configure(everything(), "default", 1e-3);
+  const Applied applied = engine.configure(everything(), kDefault, 1e-3);
   // As printed in Bullet's manual and headers of 3.24; the threshold is stored as a float.
   EXPECT_EQ(number(applied, "erp"), 0.2);
   EXPECT_EQ(number(applied, "erp2"), 0.2);
@@ -99,7 +83,7 @@ TEST(BulletProfiles, SettingsAreBulletsOwn) {
 
 TEST(BulletProfiles, NaiveGetsBulletsProducts) {
   RemoteEngine engine(bullet_executable("double"));
-  const Applied applied = engine.configure(everything(), "naive", 1e-3);
+  const Applied applied = engine.configure(everything(), kNaive, 1e-3);
   EXPECT_DOUBLE_EQ(number(applied, "friction"), 0.1 * 0.1);
   EXPECT_DOUBLE_EQ(number(applied, "pair_friction"), 0.1 * 0.1);
   EXPECT_DOUBLE_EQ(number(applied, "restitution"), 0.9 * 0.9);
@@ -114,17 +98,17 @@ TEST(BulletProfiles, NaiveSlidesWithTheSquareOfTheFriction) {
   state.velocity = Vector3(2, 0, 0);
   const HardScene scene = scene_of(steel_ball(0.01), {state}, ground_with_friction(0.4));
   RemoteEngine engine(bullet_executable("double"));
-  const auto frames = run(engine, scene, "naive", 1000, 20);
+  const auto frames = run(engine, scene, kNaive, 1000, 20);
   // As in BulletSliding.ItIsBrakedByTheFrictionOfTheScene, with μ².
   EXPECT_NEAR((2 - frames.back().bodies[0].velocity.x()) / (0.16 * kGravity * 0.02), 1, 1e-3);
 }
 
 TEST(BulletProfiles, ChangingTheProfileLeavesNothingBehind) {
   RemoteEngine engine(bullet_executable("double"));
-  engine.configure(everything(), "default", 1e-3);
-  const Applied naive = engine.configure(everything(), "naive", 1e-3);
+  engine.configure(everything(), kDefault, 1e-3);
+  const Applied naive = engine.configure(everything(), kNaive, 1e-3);
   EXPECT_DOUBLE_EQ(number(naive, "friction"), 0.01);
-  const Applied back = engine.configure(everything(), "default", 1e-3);
+  const Applied back = engine.configure(everything(), kDefault, 1e-3);
   EXPECT_EQ(number(back, "friction"), 0.1);
 }
 
@@ -140,7 +124,7 @@ TEST(BulletProfiles, WhatDiffersIsNamedByBodyAndPair) {
   soft.restitution = 0.5;
   scene.pairs = {scene.pairs[0], soft, soft, soft};
   RemoteEngine engine(bullet_executable("double"));
-  const Applied applied = engine.configure(scene, "default", 1e-3);
+  const Applied applied = engine.configure(scene, kDefault, 1e-3);
   EXPECT_EQ(number(applied, "friction[1]"), 0.1);
   EXPECT_EQ(number(applied, "friction[2]"), 0.2);
   EXPECT_DOUBLE_EQ(number(applied, "rolling_friction[0]"), 1.4 * 0.01 * 0.01);
@@ -153,7 +137,7 @@ TEST(BulletProfiles, WhatDiffersIsNamedByBodyAndPair) {
 
 TEST(BulletProfiles, WhatIsNotRepresentedIsSaid) {
   RemoteEngine engine(bullet_executable("double"));
-  const Applied rich = engine.configure(everything(), "default", 1e-3);
+  const Applied rich = engine.configure(everything(), kDefault, 1e-3);
   for (const char* what :
        {"static friction", "rolling friction only while rolling", "rolling friction alike",
         "restitution below 0.2 m/s", "tangential restitution", "confinement"}) {
@@ -164,13 +148,13 @@ TEST(BulletProfiles, WhatIsNotRepresentedIsSaid) {
   HardScene scene = everything();
   scene.substrate[0].coupled_radius = 1e-3;
   scene.substrate[0].rolling_while_sliding = true;
-  const Applied coupled = engine.configure(scene, "default", 1e-3);
+  const Applied coupled = engine.configure(scene, kDefault, 1e-3);
   EXPECT_TRUE(lists(coupled, "coupled drilling"));
   EXPECT_EQ(number(coupled, "spinning_friction"), 2e-5);
   // Bullet's rolling friction acts on what slides too.
   EXPECT_FALSE(lists(coupled, "rolling friction only while rolling"));
   EXPECT_TRUE(lists(coupled, "rolling friction alike"));
-  const Applied naive = engine.configure(everything(), "naive", 1e-3);
+  const Applied naive = engine.configure(everything(), kNaive, 1e-3);
   EXPECT_TRUE(lists(naive, "rolling friction that depends on the speed"));
 
   PairContact dead;
@@ -178,12 +162,12 @@ TEST(BulletProfiles, WhatIsNotRepresentedIsSaid) {
   const HardScene plain =
       scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 0), rolling_along_x(0.01, 1, 0)},
                ground_with_friction(0.1), dead);
-  EXPECT_TRUE(engine.configure(plain, "default", 1e-3).not_represented.empty());
+  EXPECT_TRUE(engine.configure(plain, kDefault, 1e-3).not_represented.empty());
 
   HardScene heavy = everything();
   heavy.bodies[0].mass = 1000;
-  EXPECT_TRUE(lists(engine.configure(heavy, "default", 1e-2), "rolling and drilling torque"));
-  EXPECT_FALSE(lists(engine.configure(everything(), "default", 1e-2), "rolling and drilling"));
+  EXPECT_TRUE(lists(engine.configure(heavy, kDefault, 1e-2), "rolling and drilling torque"));
+  EXPECT_FALSE(lists(engine.configure(everything(), kDefault, 1e-2), "rolling and drilling"));
 }
 
 }  // namespace

@@ -12,19 +12,9 @@
 namespace slipcheck {
 namespace {
 
-/// Rolling at speed v in a direction [degrees from x].
-BodyState rolling_towards(double radius, double v, double degrees) {
-  const double angle = degrees * std::numbers::pi / 180;
-  BodyState state;
-  state.position = Vector3(0, 0, radius);
-  state.velocity = v * Vector3(std::cos(angle), std::sin(angle), 0);
-  state.angular_velocity = rolling_angular_velocity(state.velocity, radius);
-  return state;
-}
-
 /// Deceleration over a second, in μ_r g.
 double deceleration_ratio(RemoteEngine& engine, const HardScene& scene, double mu_r, double rate) {
-  const auto frames = run(engine, scene, "default", rate, static_cast<std::size_t>(rate));
+  const auto frames = run(engine, scene, kDefault, rate, static_cast<std::size_t>(rate));
   const double before = scene.initial[0].velocity.norm();
   const double after = frames.back().bodies[0].velocity.norm();
   return (before - after) / (mu_r * scene.gravity);
@@ -72,7 +62,7 @@ TEST_P(BulletRolling, SpinsDownByItsDrillingLength) {
     state.position = Vector3(0, 0, radius);
     state.angular_velocity = Vector3(0, 0, 100);
     const Sphere ball = steel_ball(radius);
-    const auto frames = run(engine_, scene_of(ball, {state}, ground), "default", 1000, 200);
+    const auto frames = run(engine_, scene_of(ball, {state}, ground), kDefault, 1000, 200);
     // I dω/dt = −L m g.
     const double rate = ground.drilling_length * ball.mass * kGravity / ball.moment_of_inertia();
     const double lost = 100 - frames.back().bodies[0].angular_velocity.z();
@@ -89,7 +79,7 @@ TEST(BulletRollingFacts, ATableOverTheSpeedIsFollowed) {
   ground.rolling = RollingFriction({{0, 0.01}, {1, 0.02}});
   RemoteEngine engine(bullet_executable("double"));
   const HardScene scene = scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 0.8)}, ground);
-  const auto frames = run(engine, scene, "default", 1000, 2000);
+  const auto frames = run(engine, scene, kDefault, 1000, 2000);
   // dv/dt = −g (a + b v) with a = 0.01, b = 0.01 s/m: v + a/b decays with b g.
   const double exact = (0.8 + 1) * std::exp(-0.01 * kGravity * 2.0) - 1;
   // Each of the points that a sphere keeps has the coefficient of the time it was made, up to 0.2
@@ -113,7 +103,7 @@ TEST(BulletRollingFacts, BetweenTwoSpeedsRollingIsUnsteady) {
       const HardScene scene =
           scene_of(steel_ball(radius), {rolling_along_x(radius, 0, v)}, ground_with_friction(0.1));
       double largest = 0;
-      for (const Frame& frame : run(engine, scene, "default", rate, 240)) {
+      for (const Frame& frame : run(engine, scene, kDefault, rate, 240)) {
         largest = std::max(largest, slip_velocity(frame.bodies[0], radius).norm());
       }
       return largest;

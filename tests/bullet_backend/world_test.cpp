@@ -44,17 +44,17 @@ class BulletWorldTest : public ::testing::TestWithParam<const char*> {};
 TEST_P(BulletWorldTest, AFreshStartIsTheSameBitForBit) {
   const HardScene scene = crowd();
   RemoteEngine engine(bullet_executable(GetParam()));
-  const auto first = run(engine, scene, "default", 500, 300);
+  const auto first = run(engine, scene, kDefault, 500, 300);
 
   // Another scene in between, then the same again without configuring anew, then a new process.
-  run(engine, scene_of(steel_ball(0.1), {rolling_along_x(0.1, 0, 3)}, {}), "naive", 60, 50);
-  expect_same_bits(run(engine, scene, "default", 500, 300), first);
+  run(engine, scene_of(steel_ball(0.1), {rolling_along_x(0.1, 0, 3)}, {}), kNaive, 60, 50);
+  expect_same_bits(run(engine, scene, kDefault, 500, 300), first);
   engine.start(scene.initial);
   std::vector<Frame> again;
   engine.advance(300, [&](const Frame& frame) { again.push_back(frame); });
   expect_same_bits(again, first);
   RemoteEngine other(bullet_executable(GetParam()));
-  expect_same_bits(run(other, scene, "default", 500, 300), first);
+  expect_same_bits(run(other, scene, kDefault, 500, 300), first);
 }
 
 TEST_P(BulletWorldTest, APlaneCarriesARollingBallsWeightHoweverManyPointsItHas) {
@@ -62,7 +62,7 @@ TEST_P(BulletWorldTest, APlaneCarriesARollingBallsWeightHoweverManyPointsItHas) 
   const HardScene scene =
       scene_of(ball, {rolling_along_x(0.002, 0, 0.3)}, ground_with_friction(0.1));
   RemoteEngine engine(bullet_executable(GetParam()));
-  const auto frames = run(engine, scene, "default", 1000, 500);
+  const auto frames = run(engine, scene, kDefault, 1000, 500);
   double sum = 0;
   for (const Frame& frame : frames) {
     ASSERT_EQ(frame.touches.size(), 1u);
@@ -83,7 +83,7 @@ TEST_P(BulletWorldTest, ACollisionsImpulseIsTheChangeOfMomentum) {
       scene_of(ball, {rolling_along_x(0.002, 0, 0.3), rolling_along_x(0.002, 0.005, 0)}, {}, pair);
   RemoteEngine engine(bullet_executable(GetParam()));
   double impulse = 0;
-  const auto frames = run(engine, scene, "default", 1000, 50);
+  const auto frames = run(engine, scene, kDefault, 1000, 50);
   for (const Frame& frame : frames) {
     for (const Touch& touch : frame.touches) {
       if (touch.second == kSubstrate) continue;
@@ -104,7 +104,7 @@ TEST_P(BulletWorldTest, ASlowBallFallsAsleepAndTouchesNothingThen) {
   const HardScene scene =
       scene_of(steel_ball(0.005), {rolling_along_x(0.005, 0, 0.004)}, ground_with_friction(0.1));
   RemoteEngine engine(bullet_executable(GetParam()));
-  const auto frames = run(engine, scene, "default", 240, 600);
+  const auto frames = run(engine, scene, kDefault, 240, 600);
   EXPECT_NEAR(frames[470].bodies[0].velocity.x(), 0.004, 1e-5);  // after 1.96 s
   EXPECT_FALSE(frames[470].touches.empty());
   EXPECT_EQ(frames[490].bodies[0].velocity.x(), 0);  // after 2.05 s
@@ -118,7 +118,7 @@ TEST_P(BulletWorldTest, ABallInTheAirTouchesNothing) {
   state.position = Vector3(0, 0, 1);
   const HardScene scene = scene_of(steel_ball(0.01), {state}, ground_with_friction(0.1));
   RemoteEngine engine(bullet_executable(GetParam()));
-  for (const Frame& frame : run(engine, scene, "default", 240, 60)) {
+  for (const Frame& frame : run(engine, scene, kDefault, 240, 60)) {
     EXPECT_TRUE(frame.touches.empty());
   }
 }

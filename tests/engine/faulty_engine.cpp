@@ -1,5 +1,5 @@
-// An engine whose profile says how it fails, at the tenth step unless the profile says otherwise.
-// "ok": bodies fly on straight; the rest is in kFaults below.
+// An engine whose setting `fault` says how it fails, at the tenth step unless its value says
+// otherwise. "ok": bodies fly on straight; the rest is in kFaults below.
 
 #include <signal.h>
 #include <unistd.h>
@@ -77,7 +77,6 @@ const std::map<std::string, std::function<void()>> kFaults = {
      [] {
        write_raw({4, 0, 0, 0, 'w', 'h', 'a', 't'}), sleep_for_ever();
      }},
-    {"slow", [] { usleep(30'000); }},
     {"throw", [] { throw std::runtime_error("the engine is unwell"); }},
     {"wrong-reply",
      [] { write_raw(protocol::encode(protocol::Reply(protocol::Started{}))), sleep_for_ever(); }},
@@ -85,15 +84,29 @@ const std::map<std::string, std::function<void()>> kFaults = {
 
 class FaultyEngine final : public Engine {
  public:
-  EngineInfo info() const override { return {"faulty", "1.0", "double", {"ok"}}; }
+  EngineInfo info() const override {
+    SettingInfo fault, pause;
+    fault.name = "fault";
+    fault.about = "how it fails";
+    fault.shipped = std::string("ok");
+    pause.name = "pause";
+    pause.about = "before each step where the fault is slow";
+    pause.unit = "ms";
+    pause.shipped = 30.0;
+    pause.low = 0;
+    pause.high = 1000;
+    pause.whole = true;
+    return {"faulty", "1.0", "double", {fault, pause}};
+  }
 
-  Applied configure(const HardScene&, const std::string& profile, double time_step) override {
-    if (profile == "refuse") throw Refused("does not like the scene");
-    profile_ = profile;
+  Applied configure(const HardScene&, const Settings& settings, double time_step) override {
+    fault_ = settings.contains("fault") ? std::get<std::string>(settings.at("fault")) : "ok";
+    if (fault_ == "refuse") throw Refused("does not like the scene");
+    pause_ = settings.contains("pause") ? std::get<double>(settings.at("pause")) : 30;
     time_step_ = time_step;
     kill_at_ = std::numeric_limits<long>::max();
-    if (const std::string prefix = "kill-at-step-"; profile.starts_with(prefix)) {
-      kill_at_ = std::stol(profile.substr(prefix.size()));
+    if (const std::string prefix = "kill-at-step-"; fault_.starts_with(prefix)) {
+      kill_at_ = std::stol(fault_.substr(prefix.size()));
     }
     return {{{"time_step", time_step}, {"strict", true}, {"pid", double(getpid())}}, {"physics"}};
   }
@@ -106,10 +119,11 @@ class FaultyEngine final : public Engine {
   void step() override {
     ++steps_;
     if (steps_ == kill_at_) kill(getpid(), SIGKILL);
-    const auto fault = kFaults.find(profile_);
-    if (fault != kFaults.end() && (steps_ == 10 || profile_ == "slow")) fault->second();
+    const auto fault = kFaults.find(fault_);
+    if (fault != kFaults.end() && steps_ == 10) fault->second();
+    if (fault_ == "slow") usleep(static_cast<useconds_t>(1000 * pause_));
     for (BodyState& state : states_) state.position += time_step_ * state.velocity;
-    if (profile_ == "nan" && steps_ == 10) {
+    if (fault_ == "nan" && steps_ == 10) {
       states_[0].velocity.setConstant(std::numeric_limits<double>::quiet_NaN());
     }
   }
@@ -120,7 +134,8 @@ class FaultyEngine final : public Engine {
   }
 
  private:
-  std::string profile_;
+  std::string fault_;
+  double pause_ = 0;  // [ms]
   double time_step_ = 0;
   long steps_ = 0;
   long kill_at_ = 0;

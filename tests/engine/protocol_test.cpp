@@ -106,11 +106,14 @@ TEST(Protocol, TheOtherMessagesComeThrough) {
   EXPECT_EQ(start.time, 0.125);
   request_through<Quit>(Quit{});
 
-  const auto welcome = through<Welcome>(Welcome{1, {"bullet", "3.24", "single", {"a", "b"}}});
+  const auto welcome = through<Welcome>(Welcome{1, {"bullet", "3.24", "single", some_settings()}});
   EXPECT_EQ(welcome.info.engine, "bullet");
-  EXPECT_EQ(welcome.info.profiles, (std::vector<std::string>{"a", "b"}));
-  const std::map<std::string, Setting> settings = {
+  EXPECT_EQ(welcome.info.precision, "single");
+  const Settings settings = {
       {"erp", 0.2}, {"iterations", 10.0}, {"law", std::string("by speed")}, {"warm", true}};
+  const auto configure = request_through<Configure>(Configure{some_scene(), settings, 0.01});
+  EXPECT_EQ(configure.settings, settings);
+  EXPECT_EQ(configure.time_step, 0.01);
   const auto configured = through<Configured>(Configured{{settings, {"static friction"}}});
   EXPECT_EQ(configured.applied.settings, settings);
   EXPECT_EQ(configured.applied.not_represented, std::vector<std::string>{"static friction"});

@@ -18,7 +18,7 @@ Request decode(const Request& request) {
 }
 
 HardScene through(const HardScene& scene) {
-  return std::get<Configure>(decode(Configure{scene, "default", 1e-3})).scene;
+  return std::get<Configure>(decode(Configure{scene, {{"erp", 0.2}}, 1e-3})).scene;
 }
 
 void expect_rubbish(const HardScene& scene, const std::function<void(json&)>& spoil,
@@ -35,8 +35,8 @@ void expect_rubbish(const HardScene& scene, const std::function<void(json&)>& sp
 
 TEST(SceneJson, TheSceneComesThroughWhole) {
   const HardScene scene = some_scene(3);
-  const auto request = std::get<Configure>(decode(Configure{scene, "default", 1e-3}));
-  EXPECT_EQ(request.profile, "default");
+  const auto request = std::get<Configure>(decode(Configure{scene, {{"erp", 0.2}}, 1e-3}));
+  EXPECT_EQ(request.settings, (Settings{{"erp", 0.2}}));
   EXPECT_EQ(request.time_step, 1e-3);
   // The encoding is a function of every field, so equal encodings are equal scenes.
   EXPECT_EQ(scene_to_json(request.scene), scene_to_json(scene));

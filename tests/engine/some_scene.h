@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
+#include "engine/engine.h"
 #include "scenario/hard_scene.h"
 
 namespace slipcheck {
@@ -55,6 +57,34 @@ inline HardScene some_box(std::size_t count = 2) {
   box.on_lid = {{0.7, 0.2, 0.5}, {0.6, 0.1, 1}};
   scene.box = box;
   return scene;
+}
+
+/// A setting of each kind.
+inline std::vector<SettingInfo> some_settings() {
+  SettingInfo on, erp, iterations, body, label;
+  on.name = "warm_starting";
+  on.about = "begins with the last step's impulses";
+  on.shipped = true;
+  on.candidates = {true, false};
+  erp.name = "erp";
+  erp.about = "share of an overlap that is resolved in a step";
+  erp.unit = "1/step";
+  erp.shipped = 0.2;
+  erp.low = 0;
+  erp.high = 1;
+  erp.candidates = {0.0, 0.2};
+  erp.range = SettingInfo::Range{0.01, 1, true};
+  iterations.name = "iterations";
+  iterations.shipped = 10.0;
+  iterations.low = 1;
+  iterations.whole = true;
+  body.name = "body";
+  body.shipped = std::string("rigid");
+  body.choices = {"rigid", "multibody"};
+  body.candidates = {std::string("multibody")};
+  label.name = "label_2";
+  label.shipped = std::string();
+  return {on, erp, iterations, body, label};
 }
 
 inline std::string faulty_engine() {

@@ -29,10 +29,10 @@ std::size_t open_descriptors() {
 
 bool has_children() { return waitpid(-1, nullptr, WNOHANG) != -1; }
 
-/// 20 steps under a profile of the faulty engine.
-void run(RemoteEngine& engine, const std::string& profile) {
+/// 20 steps with a fault of the faulty engine.
+void run(RemoteEngine& engine, const std::string& fault) {
   const HardScene scene = some_scene();
-  engine.configure(scene, profile, 1e-3);
+  engine.configure(scene, {{"fault", fault}}, 1e-3);
   engine.start(scene.initial);
   engine.advance(20, [](const Frame&) {});
 }
@@ -46,18 +46,18 @@ class WorkerFailureTest : public ::testing::Test {
   }
 
   /// `within` [s] is when the failure must have been noticed, with the start of the process.
-  void expect_failure(const std::string& profile, Status status, const std::string& reason,
+  void expect_failure(const std::string& fault, Status status, const std::string& reason,
                       double within, WorkerLimits limits = {}) {
     const auto begin = Clock::now();
     try {
       RemoteEngine engine(faulty_engine(), limits);
-      run(engine, profile);
-      ADD_FAILURE() << profile << " went well";
+      run(engine, fault);
+      ADD_FAILURE() << fault << " went well";
     } catch (const WorkerFailure& failure) {
-      EXPECT_EQ(failure.status(), status) << profile;
+      EXPECT_EQ(failure.status(), status) << fault;
       EXPECT_EQ(failure.what(), reason);
     }
-    EXPECT_LT(std::chrono::duration<double>(Clock::now() - begin).count(), within) << profile;
+    EXPECT_LT(std::chrono::duration<double>(Clock::now() - begin).count(), within) << fault;
   }
 
  private:
@@ -192,7 +192,7 @@ TEST_F(WorkerFailureTest, AnEngineThatWorksIsUnhurtByItsPrinting) {
 TEST_F(WorkerFailureTest, FramesComeInOrderOverManyRequests) {
   RemoteEngine engine(faulty_engine());
   const HardScene scene = some_scene();
-  engine.configure(scene, "ok", 1e-3);
+  engine.configure(scene, {{"fault", "ok"}}, 1e-3);
   engine.start(scene.initial);
   double x = 0;
   std::size_t count = 0;
@@ -210,7 +210,7 @@ TEST_F(WorkerFailureTest, FramesComeInOrderOverManyRequests) {
 TEST_F(WorkerFailureTest, NanStatesAreDataNotRubbish) {
   RemoteEngine engine(faulty_engine());
   const HardScene scene = some_scene();
-  engine.configure(scene, "nan", 1e-3);
+  engine.configure(scene, {{"fault", "nan"}}, 1e-3);
   engine.start(scene.initial);
   int nans = 0;
   engine.advance(20, [&](const Frame& frame) { nans += std::isnan(frame.bodies[0].velocity.x()); });
@@ -222,13 +222,31 @@ TEST_F(WorkerFailureTest, ARefusalLeavesTheWorkerAlive) {
   EXPECT_THROW(
       {
         try {
-          engine.configure(some_scene(), "refuse", 1e-3);
+          engine.configure(some_scene(), {{"fault", "refuse"}}, 1e-3);
         } catch (const Refused& refused) {
           EXPECT_STREQ(refused.what(), "does not like the scene");
           throw;
         }
       },
       Refused);
+  run(engine, "ok");
+}
+
+TEST_F(WorkerFailureTest, SettingsThatTheEngineDoesNotTakeAreRefused) {
+  RemoteEngine engine(faulty_engine());
+  const auto reason = [&](const Settings& settings) -> std::string {
+    try {
+      engine.configure(some_scene(), settings, 1e-3);
+      return "";
+    } catch (const Refused& refused) {
+      return refused.what();
+    }
+  };
+  EXPECT_EQ(reason({}), "");
+  EXPECT_EQ(reason({{"pause", 5.0}}), "");
+  EXPECT_EQ(reason({{"pause", -1.0}, {"fault", true}, {"erp", 0.2}}),
+            "erp is no setting of this engine; fault must be a word, got true; "
+            "pause must be a whole number >= 0 and <= 1000 ms, got -1");
   run(engine, "ok");
 }
 
@@ -259,7 +277,7 @@ TEST_F(WorkerFailureTest, ALargeSceneGoesBothWays) {
   // 1 MB each way: more than any pipe holds, so that one side has to read while it writes.
   RemoteEngine engine(faulty_engine());
   const HardScene scene = some_scene(10'000);
-  engine.configure(scene, "ok", 1e-3);
+  engine.configure(scene, {{"fault", "ok"}}, 1e-3);
   engine.start(scene.initial);
   std::size_t bodies = 0;
   engine.advance(5, [&](const Frame& frame) { bodies += frame.bodies.size(); });

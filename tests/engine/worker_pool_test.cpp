@@ -17,8 +17,8 @@ namespace {
 
 using Status = JobResult::Status;
 
-/// Runs `steps` steps under a profile and records which process served it.
-EngineJob job(const std::string& profile, std::size_t steps = 20,
+/// Runs `steps` steps with a fault and records which process served it.
+EngineJob job(const std::string& fault, std::size_t steps = 20,
               std::set<pid_t>* served_by = nullptr) {
   return {faulty_engine(), [=](RemoteEngine& engine) {
             static std::mutex mutex;
@@ -27,7 +27,7 @@ EngineJob job(const std::string& profile, std::size_t steps = 20,
               served_by->insert(engine.pid());
             }
             const HardScene scene = some_scene();
-            engine.configure(scene, profile, 1e-3);
+            engine.configure(scene, {{"fault", fault}}, 1e-3);
             engine.start(scene.initial);
             engine.advance(steps, [](const Frame&) {});
           }};
@@ -35,9 +35,9 @@ EngineJob job(const std::string& profile, std::size_t steps = 20,
 
 TEST(WorkerPool, OneThatFailsLeavesTheOthersAlone) {
   std::vector<EngineJob> jobs;
-  for (const char* profile : {"ok", "crash", "ok", "rubbish", "hang", "ok", "refuse", "exit-code",
-                              "ok", "kill-at-step-3", "ok", "ok"}) {
-    jobs.push_back(job(profile));
+  for (const char* fault : {"ok", "crash", "ok", "rubbish", "hang", "ok", "refuse", "exit-code",
+                            "ok", "kill-at-step-3", "ok", "ok"}) {
+    jobs.push_back(job(fault));
   }
   std::vector<std::size_t> reported;
   const WorkerPool pool(3, {.memory = std::size_t{2} << 30, .reply = 4});
@@ -74,7 +74,7 @@ TEST(WorkerPool, AWorkerKilledFromOutsideTakesOnlyItsOwnJob) {
     jobs.push_back({faulty_engine(), [&, k](RemoteEngine& engine) {
                       if (k == 0) victim = engine.pid();
                       const HardScene scene = some_scene();
-                      engine.configure(scene, "slow", 1e-3);
+                      engine.configure(scene, {{"fault", "slow"}}, 1e-3);
                       engine.start(scene.initial);
                       engine.advance(15, [](const Frame&) {});
                     }});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace slipcheck {
 namespace {
@@ -126,6 +127,134 @@ TEST(Deviations, OfAFinalPositionRelateToTheWayFromTheStart) {
   const auto found =
       deviations(scenario, reference(truth), ensemble_values({vector_values(name, 101.1, 0)}));
   EXPECT_NEAR(found.at(name).max, 0.1, 1e-12);
+}
+
+Expectation expecting(std::map<std::string, ExpectedObservable> observables) {
+  return {std::nullopt, std::move(observables)};
+}
+
+ExpectedObservable max_in(double low, double high) {
+  ExpectedObservable expected;
+  expected.max = {low, high};
+  return expected;
+}
+
+ExpectedObservable nothing() {
+  ExpectedObservable expected;
+  expected.none = true;
+  return expected;
+}
+
+TEST(Expectations, HoldEachStatisticOfTheEnsembleAgainstItsLimits) {
+  const auto ensemble = ensemble_values(
+      {{{"a-b.restitution", 0.9}}, {{"a-b.restitution", 1.1}}, {{"a-b.restitution", 0.95}}});
+  ExpectedObservable expected;
+  expected.min = {0.89, 0.91};
+  expected.median = {0.96, 1};  // it is 0.95
+  expected.max = {1.1, 1.2};    // a limit itself is in
+  const auto results = expectation_results(expecting({{"a-b.restitution", expected}}), ensemble);
+  using Statistic = ExpectationResult::Statistic;
+  ASSERT_EQ(results.size(), 3u);
+  const Statistic statistics[] = {Statistic::min, Statistic::median, Statistic::max};
+  const double values[] = {0.9, 0.95, 1.1}, lows[] = {0.89, 0.96, 1.1}, highs[] = {0.91, 1, 1.2};
+  const bool met[] = {true, false, true};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(results[k].observable, "a-b.restitution");
+    EXPECT_EQ(results[k].statistic, statistics[k]);
+    EXPECT_EQ(results[k].value, values[k]);
+    EXPECT_EQ(results[k].low, lows[k]);
+    EXPECT_EQ(results[k].high, highs[k]);
+    EXPECT_EQ(results[k].met, met[k]) << k;
+    EXPECT_EQ(results[k].reason, "");
+  }
+}
+
+TEST(Expectations, AreNotMetWhereAPhaseShowsNothing) {
+  const auto some =
+      expectation_results(expecting({{"a.sliding_time", max_in(0, 2)}}),
+                          ensemble_values({{{"a.sliding_time", 1}}, {}, {{"a.sliding_time", 1}}}));
+  EXPECT_FALSE(some.at(0).met);
+  EXPECT_EQ(some.at(0).value, 1);
+  EXPECT_EQ(some.at(0).reason, "1 of 3 phases do not show it");
+  const auto none = expectation_results(expecting({{"a.sliding_time", max_in(0, 2)}}), {});
+  EXPECT_FALSE(none.at(0).met);
+  EXPECT_TRUE(std::isnan(none.at(0).value));
+  EXPECT_EQ(none.at(0).reason, "no phase shows it");
+}
+
+TEST(Expectations, OfNothingAreMetIfNoPhaseShowsIt) {
+  const Expectation expectation = expecting({{"a.stopping_time", nothing()}});
+  const auto never = expectation_results(expectation, {});
+  ASSERT_EQ(never.size(), 1u);
+  EXPECT_EQ(never[0].statistic, ExpectationResult::Statistic::none);
+  EXPECT_TRUE(never[0].met);
+  EXPECT_TRUE(std::isnan(never[0].value));
+  const auto once =
+      expectation_results(expectation, ensemble_values({{{"a.stopping_time", 3}}, {}}));
+  EXPECT_FALSE(once.at(0).met);
+  EXPECT_EQ(once.at(0).value, 3);
+  EXPECT_EQ(once.at(0).reason, "1 of 2 phases do not show it");
+}
+
+TEST(Expectations, AreNotMetByWhatIsNotFinite) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto results = expectation_results(expecting({{"a.sliding_time", max_in(0, 2)}}),
+                                           ensemble_values({{{"a.sliding_time", infinity}}}));
+  EXPECT_FALSE(results.at(0).met);
+}
+
+/// A run that is beyond its tolerance, with a sliding time of 1 s.
+EngineRecord deviating_run(RunStatus status = RunStatus::ok) {
+  EngineRecord run;
+  run.status = status;
+  if (status != RunStatus::ok) return run;
+  run.observables = ensemble_values({{{"a.sliding_time", 1}}});
+  run.errors["a.sliding_time"] = {0.5, 0.5, 0.01, false, false, ""};
+  return run;
+}
+
+Verdict verdict_of(const EngineRecord& run) { return SceneRecord{{}, {}, {run}}.verdict(); }
+
+TEST(Expectations, JudgeARunInPlaceOfItsTolerances) {
+  EngineRecord run = deviating_run();
+  EXPECT_EQ(verdict_of(run), Verdict::deviates);
+  run.expect = expecting({{"a.sliding_time", max_in(0.9, 1.1)}});
+  EXPECT_EQ(verdict_of(run), Verdict::within);
+  run.errors.at("a.sliding_time").within = true;
+  run.expect = expecting({{"a.sliding_time", max_in(1.1, 1.2)}});
+  EXPECT_EQ(verdict_of(run), Verdict::deviates);
+  // All of them are to be met.
+  run.expect = expecting({{"a.sliding_time", max_in(0.9, 1.1)}, {"a.stopping_time", max_in(0, 1)}});
+  EXPECT_EQ(verdict_of(run), Verdict::deviates);
+}
+
+TEST(Expectations, OfValuesLeaveARunThatFailedFailed) {
+  const Expectation never = expecting({{"a.stopping_time", nothing()}});
+  for (const RunStatus status : {RunStatus::unstable, RunStatus::crashed, RunStatus::timed_out}) {
+    EngineRecord run = deviating_run(status);
+    run.expect = never;
+    EXPECT_EQ(verdict_of(run), Verdict::failed);
+    EXPECT_FALSE(run.expectations().at(0).met);
+    EXPECT_EQ(run.expectations().at(0).reason, std::string("the run is ") + name_of(status));
+  }
+  EngineRecord skipped = deviating_run(RunStatus::skipped);
+  skipped.expect = never;
+  EXPECT_FALSE(skipped.verdict());
+  EXPECT_EQ(verdict_of(skipped), Verdict::within);
+}
+
+TEST(Expectations, OfAStatusAreMetByThatStatusAlone) {
+  const std::vector<RunStatus> all = {RunStatus::ok, RunStatus::unstable, RunStatus::crashed,
+                                      RunStatus::timed_out, RunStatus::skipped};
+  for (const RunStatus expected : all) {
+    if (expected == RunStatus::ok) continue;
+    for (const RunStatus status : all) {
+      EngineRecord run = deviating_run(status);
+      run.expect = Expectation{expected, {}};
+      EXPECT_EQ(verdict_of(run), status == expected ? Verdict::within : Verdict::deviates)
+          << name_of(expected) << ", " << name_of(status);
+    }
+  }
 }
 
 }  // namespace

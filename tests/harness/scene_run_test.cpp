@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "engine/profile.h"
 #include "scenario/fault.h"
 #include "scenario/hard_scene.h"
 #include "scenario/load.h"
@@ -37,10 +38,14 @@ compare:
 )";
 }
 
-std::vector<SceneRecord> run(const std::string& text, std::size_t phases = 8) {
-  // Both workers: the program's directory holds Bullet's, its folder `faulty` the one that fails.
+/// Both workers: the program's directory holds Bullet's, its folder `faulty` the one that fails.
+void use_test_engines() {
   setenv("SLIPCHECK_ENGINE_PATH",
          (std::string(SLIPCHECK_BINARY_DIR) + ":" + SLIPCHECK_BINARY_DIR + "/faulty").c_str(), 1);
+}
+
+std::vector<SceneRecord> run(const std::string& text, std::size_t phases = 8) {
+  use_test_engines();
   RunOptions options;
   options.phases = phases;
   options.time_limit = 20;
@@ -114,15 +119,62 @@ TEST(SceneRun, NanStatesAreUnstable) {
   EXPECT_NE(scenes[0].runs[0].reason.find("not finite"), std::string::npos);
 }
 
+TEST(SceneRun, WhatAnEngineIsKnownToDoIsWithin) {
+  // The lottery's e_eff goes up to 0.498; the last of 8 strata ends there and is 0.143/8 wide.
+  const auto known = run(pair_scene(
+      "{engine: bullet, precision: double, rate: 240, expect: "
+      "{i-j.effective_restitution: {max: [0.475, 0.505]}}},"
+      "{engine: faulty, precision: double, profile: nan, rate: 240, expect: {status: unstable}}"));
+  ASSERT_EQ(known[0].runs.size(), 2u);
+  EXPECT_FALSE(known[0].runs[0].errors.at("i-j.effective_restitution").within);
+  EXPECT_EQ(known[0].verdict(), Verdict::within);
+  const auto wrong =
+      run(pair_scene("{engine: bullet, precision: double, rate: [240, 1000], expect: "
+                     "{i-j.effective_restitution: {max: [0.352, 0.362]}}}"));
+  for (const EngineRecord& record : wrong[0].runs)
+    EXPECT_EQ(record.verdict(), Verdict::deviates) << record.rate;
+}
+
 TEST(SceneRun, WhatIsNotThereIsSkippedWithAReason) {
   const auto scenes =
       run(pair_scene("{engine: faulty, precision: single, rate: 240},"
-                     "{engine: bullet, precision: double, profile: tuned, rate: 240}"));
+                     "{engine: bullet, precision: double, profile: none-such, rate: 240}"));
   EXPECT_EQ(scenes[0].runs[0].status, EngineRecord::Status::skipped);
   EXPECT_EQ(scenes[0].runs[0].reason, "slipcheck-engine-faulty-single is not installed");
   EXPECT_EQ(scenes[0].runs[1].status, EngineRecord::Status::skipped);
-  EXPECT_NE(scenes[0].runs[1].reason.find("no profile 'tuned'"), std::string::npos);
+  EXPECT_TRUE(
+      scenes[0].runs[1].reason.starts_with("bullet has no profile 'none-such'; it has default, "))
+      << scenes[0].runs[1].reason;
   EXPECT_EQ(scenes[0].verdict(), Verdict::within);
+}
+
+TEST(SceneRun, APreparedSceneServesAnySettings) {
+  use_test_engines();
+  const auto scenes = prepare_scenes({parse_scenario(pair_scene(""), "scene.yaml")});
+  ASSERT_EQ(scenes.size(), 1u);
+  EngineRecord naive, missing;
+  naive.engine = missing.engine = "bullet";
+  naive.precision = "double";
+  missing.precision = "half";
+  naive.settings =
+      load_profile(SLIPCHECK_SOURCE_DIR "/bullet_backend/profiles/naive.yaml").settings;
+  ASSERT_FALSE(naive.settings.empty());
+  naive.rate = missing.rate = 240;
+  const std::vector<EngineTask> tasks = {{&scenes[0], &naive}, {&scenes[0], &missing}};
+  RunOptions options;
+  options.phases = 8;
+  run_engines(tasks, options);
+  EXPECT_EQ(missing.status, EngineRecord::Status::skipped);
+  EXPECT_EQ(missing.reason, "slipcheck-engine-bullet-half is not installed");
+
+  const auto whole =
+      run(pair_scene("{engine: bullet, precision: double, profile: naive, rate: 240}"));
+  const EngineRecord& same = whole[0].runs[0];
+  ASSERT_EQ(naive.status, EngineRecord::Status::ok) << naive.reason;
+  EXPECT_EQ(same.settings, naive.settings);
+  ASSERT_EQ(naive.observables.size(), same.observables.size());
+  for (const auto& [name, value] : same.observables)
+    EXPECT_EQ(naive.observables.at(name).median, value.median) << name;
 }
 
 TEST(SceneRun, AnUnknownEngineIsRefusedAtItsPlace) {

@@ -75,6 +75,30 @@ TEST(Html, KeepsOutliersFromSqueezingTheRest) {
   EXPECT_EQ(count(html_of({scene}, ""), "href=\"#r\""), 2u);
 }
 
+TEST(Html, ShowsWhatAnEngineIsExpectedToDo) {
+  SceneRecord scene = expected_lottery();
+  std::string html = html_of({scene}, "");
+  EXPECT_TRUE(contains(html, "<span class=\"verdict within\">✓ as expected</span>"));
+  EXPECT_TRUE(contains(html, "240 Hz <span class=\"good\">✓ as expected</span></h4>"));
+  EXPECT_TRUE(contains(html,
+                       "<td>max</td><td class=\"number\">0.4980</td><td class=\"number\">0.4900 … "
+                       "0.5000</td><td class=\"good\">✓ as expected</td>"));
+  EXPECT_FALSE(contains(html, "Worst deviations"));
+  // What the tolerance would say is still drawn.
+  EXPECT_EQ(count(html, "href=\"#o\""), 62u);
+
+  scene.runs[0].expect->observables["i-j.effective_restitution"] = expected_max(0.4, 0.45);
+  html = html_of({scene}, "");
+  EXPECT_TRUE(contains(html, "<span class=\"verdict deviates\">✗ NOT AS EXPECTED</span>"));
+  EXPECT_TRUE(contains(html, "i-j.effective_restitution max 0.4980, expected 0.4000 … 0.4500"));
+
+  scene.runs[0] = failed_run(EngineRecord::Status::crashed, "signal 11");
+  scene.runs[0].expect = Expectation{RunStatus::crashed, {}};
+  html = html_of({scene}, "");
+  EXPECT_TRUE(contains(html, "<span class=\"good\">✓ crashed, as expected</span>"));
+  EXPECT_TRUE(contains(html, "signal 11"));
+}
+
 TEST(Html, SaysInWordsWhatTheChartShows) {
   const SceneRecord scene = lottery_scene(64);
   const auto spread = phase_spread(scene, "i-j.effective_restitution");

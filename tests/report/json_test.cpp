@@ -36,6 +36,7 @@ TEST(JsonReport, HasTheKeysOfTheContract) {
   EXPECT_EQ(run["version"], "3.24");
   EXPECT_EQ(run["precision"], "double");
   EXPECT_EQ(run["profile"], "default");
+  EXPECT_EQ(run["settings"], nlohmann::json({{"body", "multibody"}, {"erp", 0.25}}));
   EXPECT_EQ(run["rate"], 240);
   EXPECT_EQ(run["status"], "ok");
   EXPECT_FALSE(run.contains("reason"));
@@ -200,6 +201,37 @@ TEST(JsonReport, TellsTheStatusAndItsReason) {
     EXPECT_TRUE(json["runs"][k]["not_represented"].is_array());
   }
   EXPECT_EQ(json["verdict"], "failed");
+}
+
+TEST(JsonReport, SetsWhatIsExpectedBesideWhatIs) {
+  SceneRecord scene = expected_lottery();
+  Json json = read_back(scene);
+  const Json& run = json["runs"][0];
+  EXPECT_FALSE(run.contains("expected_status"));
+  ASSERT_EQ(run["expected"].size(), 2u);
+  EXPECT_EQ(keys(run["expected"][0]),
+            (std::vector<std::string>{"observable", "statistic", "low", "high", "value", "met"}));
+  EXPECT_EQ(run["expected"][0]["observable"], "i-j.effective_restitution");
+  EXPECT_EQ(run["expected"][0]["statistic"], "max");
+  EXPECT_EQ(run["expected"][0]["low"], 0.49);
+  EXPECT_EQ(run["expected"][0]["high"], 0.5);
+  EXPECT_EQ(run["expected"][0]["value"], 0.358 + 0.14);
+  EXPECT_EQ(run["expected"][0]["met"], true);
+  EXPECT_EQ(run["expected"][1], Json({{"observable", "j.jump_height"},
+                                      {"statistic", "none"},
+                                      {"value", nullptr},
+                                      {"met", true},
+                                      {"reason", "no phase shows it"}}));
+  // Errors are as ever, but the verdict is not theirs.
+  EXPECT_EQ(run["errors"]["i-j.effective_restitution"]["within"], false);
+  EXPECT_EQ(json["verdict"], "within");
+
+  scene.runs[0].expect = Expectation{RunStatus::timed_out, {}};
+  json = read_back(scene);
+  EXPECT_EQ(json["runs"][0]["expected_status"], "timed_out");
+  EXPECT_FALSE(json["runs"][0].contains("expected"));
+  EXPECT_EQ(json["verdict"], "deviates");
+  EXPECT_FALSE(read_back(lottery_scene())["runs"][0].contains("expected"));
 }
 
 TEST(JsonReport, SurvivesTextThatIsNotUtf8) {

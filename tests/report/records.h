@@ -18,6 +18,7 @@ inline EngineRecord lottery_run(double rate, std::size_t phases) {
   run.version = "3.24";
   run.precision = "double";
   run.profile = "default";
+  run.settings = {{"body", std::string("multibody")}, {"erp", 0.25}};
   run.rate = rate;
   run.status = EngineRecord::Status::ok;
   run.cpu_seconds = 3.1e-6 * 100;
@@ -101,6 +102,25 @@ inline SceneRecord box_scene(std::size_t samples = 250) {
     box.series.rotational_energy.push_back(0);
     box.series.collision_rate.push_back(5414 + 500 * std::sin(3 * t));
   }
+  return scene;
+}
+
+/// The limits of what an engine is expected to show.
+inline ExpectedObservable expected_max(double low, double high) {
+  ExpectedObservable expected;
+  expected.max = {low, high};
+  return expected;
+}
+
+/// The first run of the lottery alone, of which it is known that it is one.
+inline SceneRecord expected_lottery() {
+  SceneRecord scene = lottery_scene();
+  scene.runs.resize(1);
+  ExpectedObservable none;
+  none.none = true;
+  Expectation& expect = scene.runs[0].expect.emplace();
+  expect.observables = {{"i-j.effective_restitution", expected_max(0.49, 0.5)},
+                        {"j.jump_height", none}};
   return scene;
 }
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "records.h"
+#include "report/brief.h"
 #include "report/text.h"
 
 namespace slipcheck::testing {
@@ -140,6 +141,62 @@ TEST(Table, SaysWhyARunIsNotThere) {
   EXPECT_TRUE(contains(table, "✗ timed out: no end after 60 s"));
   EXPECT_TRUE(contains(table, "– skipped: not installed"));
   EXPECT_EQ(lines(table)[0], "symmetric-steel  ✗ FAILED");
+}
+
+TEST(Table, ShowsWhatAnEngineIsExpectedToDo) {
+  SceneRecord scene = expected_lottery();
+  std::string table = table_of(scene, kWide);
+  EXPECT_EQ(lines(table)[0], "symmetric-steel  ✓ as expected");
+  std::string run = table.substr(table.find("240 Hz"));
+  // The error is there, but no tolerance judges it.
+  EXPECT_TRUE(contains(line_with(run, "0.3571"), "0.141          –  –"));
+  EXPECT_FALSE(contains(run, "DEVIATES"));
+  const std::string expected = run.substr(run.find("of this engine"));
+  EXPECT_EQ(line_with(expected, "restitution"),
+            "    i-j.effective_restitution  max  0.4980  0.4900 … 0.5000  ✓  as expected");
+  EXPECT_EQ(line_with(expected, "jump_height"),
+            "    j.jump_height                        –  not seen         ✓  as expected");
+
+  scene.runs[0].expect->observables["i-j.effective_restitution"] = expected_max(0.4, 0.45);
+  scene.runs[0].observables["j.jump_height"] = {1e-3, 1e-3, 1e-3, {1e-3, kNaN}, 1};
+  table = table_of(scene, kWide);
+  EXPECT_EQ(lines(table)[0], "symmetric-steel  ✗ NOT AS EXPECTED");
+  run = table.substr(table.find("of this engine"));
+  EXPECT_TRUE(contains(line_with(run, "restitution"),
+                       "max    0.4980  0.4000 … 0.4500  ✗  NOT AS EXPECTED"));
+  EXPECT_TRUE(
+      contains(line_with(run, "j.jump_height"), "1.000 mm  not seen         ✗  NOT AS EXPECTED"));
+  EXPECT_TRUE(contains(run, "j.jump_height: 1 of 2 phases do not show it"));
+}
+
+TEST(Table, ShowsHowARunWasExpectedToEnd) {
+  SceneRecord scene = lottery_scene();
+  scene.runs = {failed_run(EngineRecord::Status::unstable, "not finite"),
+                failed_run(EngineRecord::Status::timed_out, "60 s"), lottery_run(240, 64)};
+  for (EngineRecord& run : scene.runs) run.expect = Expectation{RunStatus::unstable, {}};
+  const std::string table = table_of(scene, kWide);
+  EXPECT_TRUE(contains(table, "✓ unstable, as expected: not finite"));
+  EXPECT_TRUE(contains(table, "✗ timed out, NOT AS EXPECTED (unstable): 60 s"));
+  EXPECT_TRUE(contains(table, "✗ ran to its end, NOT AS EXPECTED (unstable)"));
+  EXPECT_EQ(lines(table)[0], "symmetric-steel  ✗ NOT AS EXPECTED");
+  EXPECT_EQ(summary_of({scene}, kWide),
+            "1 scene: 0 within, 1 deviate, 0 failed; 3 engine runs: 1 within, 2 deviate, 0 failed, "
+            "0 skipped\n");
+}
+
+TEST(Table, KeepsItsWordsWhereOnlySomeRunsHaveExpectations) {
+  SceneRecord scene = expected_lottery();
+  scene.runs.push_back(lottery_run(240, 64));
+  EXPECT_EQ(lines(table_of(scene, kWide))[0], "symmetric-steel  ✗ DEVIATES");
+}
+
+TEST(Brief, NamesTheFirstThingThatIsNotAsExpected) {
+  SceneRecord scene = expected_lottery();
+  EXPECT_TRUE(contains(brief_of({scene}, kWide), "symmetric-steel  ✓          1/1\n"));
+  scene.runs[0].expect->observables["i-j.effective_restitution"] = expected_max(0.4, 0.45);
+  EXPECT_TRUE(contains(brief_of({scene}, kWide),
+                       "✗          0/1  i-j.effective_restitution max 0.4980, bullet double "
+                       "default 240 Hz"));
 }
 
 TEST(Table, ShortensASceneOfManyBodies) {

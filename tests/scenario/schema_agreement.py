@@ -14,7 +14,7 @@ import jsonschema
 
 # What the table of keys refuses but a schema cannot say: an order, and the limits of a number that
 # is written as a text.
-BEYOND_A_SCHEMA = re.compile(r'must have the smaller radius first|must be (>|<)=? .*got "')
+BEYOND_A_SCHEMA = re.compile(r'must have the (smaller radius|lower limit) first|must be (>|<)=? .*got "')
 
 
 def main():

@@ -1,0 +1,104 @@
+#include "bullet_backend/world_units.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace slipcheck::bullet {
+namespace {
+
+RestitutionLaw scaled(const RestitutionLaw& law, double speed) {
+  return std::visit(
+      [&](auto copy) -> RestitutionLaw {
+        using Law = decltype(copy);
+        if constexpr (std::is_same_v<Law, PowerLawRestitution>) copy.speed *= speed;
+        if constexpr (std::is_same_v<Law, TabulatedRestitution>) copy.log_first += std::log(speed);
+        return copy;
+      },
+      law);
+}
+
+RollingFriction scaled(const RollingFriction& rolling, double speed) {
+  std::vector<RollingFriction::Point> points = rolling.points();
+  for (auto& point : points) point.speed *= speed;
+  return RollingFriction(std::move(points));
+}
+
+SubstrateMotion scaled(const SubstrateMotion& motion, const WorldUnits& units) {
+  switch (motion.kind()) {
+    case SubstrateMotion::Kind::still:
+      break;
+    case SubstrateMotion::Kind::constant:
+      return SubstrateMotion::constant(motion.vector() * units.speed());
+    case SubstrateMotion::Kind::oscillation:
+      return SubstrateMotion::oscillation(motion.vector() * units.length,
+                                          motion.frequency() / units.time, motion.phase());
+    case SubstrateMotion::Kind::table: {
+      std::vector<SubstrateMotion::Point> points = motion.points();
+      for (auto& point : points) {
+        point.time *= units.time;
+        point.position *= units.length;
+      }
+      return SubstrateMotion::table(std::move(points));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+WorldUnits world_units(const HardScene& scene, const BulletSettings& settings) {
+  WorldUnits units;
+  const auto& bodies = scene.bodies;
+  if (settings.scale_radius_to > 0)
+    units.length =
+        settings.scale_radius_to / std::ranges::min_element(bodies, {}, &Sphere::radius)->radius;
+  if (settings.scale_mass_to > 0)
+    units.mass = settings.scale_mass_to / std::ranges::max_element(bodies, {}, &Sphere::mass)->mass;
+  const Vector3 gravity(scene.downhill.x(), scene.downhill.y(), -scene.gravity);
+  if (settings.scale_gravity_to > 0 && gravity.norm() > 0)
+    units.time = std::sqrt(units.length * gravity.norm() / settings.scale_gravity_to);
+  if (settings.tilt == Tilt::plane && scene.downhill != Vector2::Zero())
+    units.turn = Eigen::Quaterniond::FromTwoVectors(gravity, -Vector3::UnitZ()).toRotationMatrix();
+  return units;
+}
+
+HardScene in_world_units(const HardScene& scene, const WorldUnits& units) {
+  HardScene scaled_scene = scene;
+  const double speed = units.speed();
+  for (Sphere& body : scaled_scene.bodies) {
+    body.radius *= units.length;
+    body.mass *= units.mass;
+  }
+  for (BodyState& state : scaled_scene.initial) {
+    state.position *= units.length;
+    state.velocity *= speed;
+    state.angular_velocity /= units.time;
+  }
+  for (SubstrateContact& ground : scaled_scene.substrate) {
+    ground.rolling = scaled(ground.rolling, speed);
+    ground.drilling_length *= units.length;
+    ground.coupled_radius *= units.length;
+  }
+  const auto scale_pairs = [&](std::vector<PairContact>& contacts) {
+    for (PairContact& contact : contacts) contact.restitution = scaled(contact.restitution, speed);
+  };
+  scale_pairs(scaled_scene.pairs);
+  const double acceleration = speed / units.time;
+  scaled_scene.gravity *= acceleration;
+  scaled_scene.downhill *= acceleration;
+  scaled_scene.motion = scaled(scene.motion, units);
+  scaled_scene.periodic *= units.length;
+  if (scaled_scene.box) {
+    Box& box = *scaled_scene.box;
+    box.width *= units.length;
+    box.floor.amplitude *= units.length;
+    box.floor.frequency /= units.time;
+    if (box.lid) *box.lid *= units.length;
+    for (auto* contacts : {&box.on_floor, &box.on_wall, &box.on_lid}) scale_pairs(*contacts);
+  }
+  return scaled_scene;
+}
+
+}  // namespace slipcheck::bullet

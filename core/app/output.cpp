@@ -1,0 +1,38 @@
+#include "app/output.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <system_error>
+
+#include "app/commands.h"
+
+namespace slipcheck {
+
+namespace fs = std::filesystem;
+
+void check_output(const std::string& option, const fs::path& path, bool is_directory) {
+  std::error_code ignored;
+  if (is_directory) {
+    if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
+      throw BadOption(fmt::format("{}: must be a directory, got {}", option, path.string()));
+    return;
+  }
+  const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(parent, ignored))
+    throw BadOption(fmt::format("{}: its directory must exist, got {}", option, path.string()));
+  if (access(parent.c_str(), W_OK) != 0)
+    throw BadOption(
+        fmt::format("{}: its directory must be writable, got {}", option, path.string()));
+  if (fs::is_directory(path, ignored))
+    throw BadOption(fmt::format("{}: must be a file, got {}", option, path.string()));
+}
+
+int terminal_width() {
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return 100;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,39 @@
+#include "harness/prepared_scene.h"
+
+#include <utility>
+
+#include "harness/box_run.h"
+
+namespace slipcheck {
+namespace {
+
+std::variant<ReferenceSolver, BoxSolver> solver_of(const Scenario& scenario,
+                                                   const ContactScene& scene) {
+  if (scene.hard.box) return BoxSolver(scene, scenario.compare.reference, scenario.run.most_events);
+  return ReferenceSolver(scene, scenario.compare.reference, scenario.run.most_events);
+}
+
+ReferenceResult reference_of(const ReferenceSolver& solver, const Scenario& scenario) {
+  return run_reference(solver, run_end(scenario), body_names(scenario));
+}
+ReferenceResult reference_of(const BoxSolver& solver, const Scenario& scenario) {
+  return run_box_reference(solver, scenario);
+}
+
+}  // namespace
+
+std::vector<PreparedScene> prepare_scenes(std::vector<Scenario> scenarios) {
+  std::vector<PreparedScene> scenes;
+  scenes.reserve(scenarios.size());
+  for (Scenario& scenario : scenarios) {
+    auto contact = std::make_unique<const ContactScene>(make_contact_scene(scenario));
+    auto solver = solver_of(scenario, *contact);
+    scenes.push_back({std::move(scenario), std::move(contact), std::move(solver), {}});
+  }
+  for (PreparedScene& scene : scenes)
+    scene.reference = std::visit(
+        [&](const auto& solver) { return reference_of(solver, scene.scenario); }, scene.solver);
+  return scenes;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,166 @@
+#include "harness/requested_runs.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "engine/engine_registry.h"
+#include "engine/profile.h"
+#include "engine/remote_engine.h"
+#include "scenario/fault.h"
+#include "scenario/file_text.h"
+
+namespace slipcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every engine that the project or this machine knows of.
+std::vector<std::string> engine_names() {
+  std::set<std::string> names(known_engines().begin(), known_engines().end());
+  for (const EngineExecutable& found : find_engines()) names.insert(found.engine);
+  return {names.begin(), names.end()};
+}
+
+std::string precision_name(EngineRequest::Precision precision) {
+  return precision == EngineRequest::Precision::single_ ? "single" : "double";
+}
+
+std::string no_profile(const EngineExecutable& executable, const std::string& asked) {
+  const std::vector<std::string> names = profile_names(executable);
+  return fmt::format("{} has no profile '{}'; it has {}", executable.engine, asked,
+                     names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
+}
+
+/// Finds, reads and checks the profiles of all scenes, each file and each engine once.
+class Profiles {
+ public:
+  Profiles(const WorkerLimits& limits, const std::atomic<bool>* stop)
+      : limits_(limits), stop_(stop) {}
+
+  /// Settings or a reason for the record of a request; a fault in it is noted.
+  void choose(const Scenario& scenario, const std::string& key, EngineRecord& record) {
+    if (std::ranges::find(engines_, record.engine) == engines_.end()) {
+      note(fault_at(scenario, key + ".engine",
+                    fmt::format("must be one of the engines {}", fmt::join(engines_, ", ")),
+                    record.engine));
+      return;
+    }
+    const auto executable = find_engine(record.engine, record.precision);
+    if (!executable && !is_profile_path(record.profile)) return;  // the run is skipped for that
+    const auto file =
+        find_profile(executable.value_or(EngineExecutable{}), record.profile, folder_of(scenario));
+    if (!file) {
+      if (record.profile != "default")  // which without a file is the engine's own settings
+        record.reason = no_profile(*executable, record.profile);
+      return;
+    }
+    const Profile* profile = load(*file, scenario, key + ".profile", record.profile);
+    if (profile == nullptr) return;
+    check(*profile, record, executable);
+    record.settings = profile->settings;
+  }
+
+  void throw_faults() const {
+    if (!faults_.empty()) throw BadScenario(faults_);
+  }
+
+ private:
+  static fs::path folder_of(const Scenario& scenario) {
+    return fs::path(scenario.file).parent_path();
+  }
+
+  static Fault fault_at(const Scenario& scenario, const std::string& key, std::string rule,
+                        std::string value) {
+    const auto place = scenario.locations.find(key);
+    return {scenario.file, place == scenario.locations.end() ? Location{} : place->second, key,
+            std::move(rule), std::move(value)};
+  }
+
+  /// The same file may be asked for at many places.
+  void note(Fault fault) {
+    if (noted_.insert(fault.message()).second) faults_.push_back(std::move(fault));
+  }
+
+  const Profile* load(const fs::path& file, const Scenario& scenario, const std::string& key,
+                      const std::string& written) {
+    const auto [found, is_new] = profiles_.try_emplace(file);
+    if (!is_new && found->second) return &*found->second;
+    std::string text;
+    try {
+      text = read_file(file);
+    } catch (const BadScenario& bad) {
+      const std::string rule = file.string() + ' ' + bad.faults().front().rule;
+      note(fault_at(scenario, key, rule, written));
+      return nullptr;
+    }
+    try {
+      return &found->second.emplace(parse_profile(text, file.string()));
+    } catch (const BadScenario& bad) {
+      for (const Fault& fault : bad.faults()) note(fault);
+      return nullptr;
+    }
+  }
+
+  void check(const Profile& profile, const EngineRecord& record,
+             const std::optional<EngineExecutable>& executable) {
+    EngineInfo info{record.engine, "", record.precision, {}};
+    if (!profile.settings.empty()) {
+      const EngineInfo* known = executable ? ask(executable->path) : nullptr;
+      if (known == nullptr) return;  // the run will tell why
+      info.settings = known->settings;
+    }
+    for (Fault& fault : check_profile(profile, info)) note(std::move(fault));
+  }
+
+  const EngineInfo* ask(const fs::path& executable) {
+    const auto [found, is_new] = infos_.try_emplace(executable);
+    try {
+      if (is_new) found->second = RemoteEngine(executable, limits_, stop_).info();
+    } catch (const WorkerFailure&) {
+    } catch (const Interrupted&) {
+    }
+    return found->second ? &*found->second : nullptr;
+  }
+
+  WorkerLimits limits_;
+  const std::atomic<bool>* stop_;
+  std::vector<std::string> engines_ = engine_names();
+  std::map<fs::path, std::optional<Profile>> profiles_;
+  std::map<fs::path, std::optional<EngineInfo>> infos_;  // by executable; none: it has failed
+  std::vector<Fault> faults_;
+  std::set<std::string> noted_;
+};
+
+}  // namespace
+
+std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario>& scenarios,
+                                                      const WorkerLimits& limits,
+                                                      const std::atomic<bool>* stop) {
+  Profiles profiles(limits, stop);
+  std::vector<std::vector<EngineRecord>> runs;
+  for (const Scenario& scenario : scenarios) {
+    std::vector<EngineRecord>& records = runs.emplace_back();
+    for (std::size_t k = 0; k < scenario.compare.engines.size(); ++k) {
+      const EngineRequest& request = scenario.compare.engines[k];
+      EngineRecord record;
+      record.engine = request.engine;
+      record.precision = precision_name(request.precision);
+      record.profile = request.profile;
+      record.expect = request.expect;
+      record.expect = request.expect;
+      profiles.choose(scenario, fmt::format("compare.engines[{}]", k), record);
+      for (const double rate : request.rates) records.emplace_back(record).rate = rate;
+    }
+  }
+  profiles.throw_faults();
+  return runs;
+}
+
+}  // namespace slipcheck

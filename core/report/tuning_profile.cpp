@@ -1,0 +1,85 @@
+#include "report/tuning_profile.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "report/context.h"
+#include "report/quantity.h"
+#include "report/text.h"
+
+namespace slipcheck {
+namespace {
+
+/// A text as JSON writes it, which YAML reads.
+std::string quoted(const std::string& text) { return nlohmann::json(valid_utf8(text)).dump(); }
+
+void add_scenes(std::vector<std::string>& lines, const std::string& key, const TuningRecord& tuning,
+                bool held_out) {
+  std::vector<std::string> scenes;
+  for (const TuningTask& task : tuning.tasks) {
+    if (task.held_out != held_out) continue;
+    std::string scene = fmt::format("  - {{name: {}, sha256: {}}}", task.scene, task.sha256);
+    if (scenes.empty() || scenes.back() != scene) scenes.push_back(std::move(scene));
+  }
+  if (scenes.empty()) return;
+  lines.push_back(key + ":");
+  lines.insert(lines.end(), scenes.begin(), scenes.end());
+}
+
+std::string score_text(const Score& score) {
+  return score.failed > 0 ? quoted(percent(score.failed) + " of phases fail")
+                          : fmt::format("{:.4g}", score.worst);
+}
+
+std::string goal_text(const TuningRecord& tuning) {
+  if (!tuning.goal.within) return "least worst error";
+  return fmt::format("least CPU time within {}", percent(*tuning.goal.within));
+}
+
+std::vector<std::string> provenance(const TuningRecord& tuning) {
+  const TuningResult& result = tuning.result;
+  // A path would tell of the machine.
+  const std::string start = std::filesystem::path(tuning.start).filename().string();
+  std::vector<std::string> lines = {
+      fmt::format("slipcheck: {{version: {}, commit: {}}}", quoted(context().version),
+                  quoted(context().commit)),
+      fmt::format("engine: {{name: {}, version: {}, precision: {}}}", quoted(tuning.engine),
+                  quoted(tuning.version), tuning.precision),
+      fmt::format("start: {}", quoted(start)), fmt::format("goal: {}", quoted(goal_text(tuning)))};
+  add_scenes(lines, "scenes", tuning, false);
+  add_scenes(lines, "held_out", tuning, true);
+  if (!tuning.observables.named.empty())
+    lines.push_back(fmt::format("observables: [{}]", fmt::join(tuning.observables.named, ", ")));
+  lines.push_back(fmt::format("rates: [{:g}]  # Hz", fmt::join(tuning.rates, ", ")));
+  lines.push_back(
+      fmt::format("phases: {{search: {}, final: {}}}", tuning.phases, tuning.final_phases));
+  lines.push_back(fmt::format("seed: {}", tuning.seed));
+  lines.push_back(fmt::format("evaluations: {:.0f}", result.evaluations));
+  lines.push_back(fmt::format("converged: {}", result.converged));
+  lines.push_back("worst_error:  # in tolerances, or of what it must be within");
+  lines.push_back(fmt::format("  start: {}", score_text(result.start().training)));
+  lines.push_back(fmt::format("  profile: {}", score_text(result.best().training)));
+  if (result.best().held_out)
+    lines.push_back(fmt::format("  held_out: {}", score_text(*result.best().held_out)));
+  return lines;
+}
+
+}  // namespace
+
+Profile tuned_profile(const TuningRecord& tuning) {
+  Profile profile;
+  profile.engine = tuning.engine;
+  profile.name = tuning.profile;
+  profile.about = fmt::format("Fitted by slipcheck tune: {}", goal_text(tuning));
+  profile.settings = tuning.result.best().settings;
+  return profile;
+}
+
+std::string tuned_profile_yaml(const TuningRecord& tuning) {
+  return profile_yaml(tuned_profile(tuning), provenance(tuning));
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+#include "scenario/observable_names.h"
+#include "scenario/record.h"
+#include "scenario/scene_rules.h"
+
+namespace slipcheck {
+namespace {
+
+using nlohmann::json;
+
+/// [low, high]
+Rule<ExpectedRange> range_rule(const Dimension& dimension) {
+  const Rule<std::vector<double>> limits = numbers(dimension, kAnyNumber, {2});
+  return {[limits](const YamlNode& node, Reading& reading, ExpectedRange& target) {
+            std::vector<double> values;
+            if (!limits.read(node, reading, values)) return false;
+            target = {values[0], values[1]};
+            if (target.low <= target.high) return true;
+            reading.fault(node, "must have the lower limit first");
+            return false;
+          },
+          limits.schema};
+}
+
+Rule<ExpectedObservable> observable_rule(const ObservableName& observable) {
+  const Rule<ExpectedRange> range = range_rule(observable.dimension);
+  Record<ExpectedObservable> ranges;
+  ranges
+      .key("min", &ExpectedObservable::min, range, optional,
+           "where the least value over the phases lies")
+      .key("median", &ExpectedObservable::median, range, optional, "where the median lies")
+      .key("max", &ExpectedObservable::max, range, optional, "where the largest value lies")
+      .at_least_one_of({"min", "median", "max"});
+  const Rule<std::size_t> nothing = word({"none"});
+  const Rule<ExpectedObservable> none = {
+      [nothing](const YamlNode& node, Reading& reading, ExpectedObservable& target) {
+        std::size_t index = 0;
+        return target.none = nothing.read(node, reading, index);
+      },
+      nothing.schema};
+  return one_form_of<ExpectedObservable>(
+      "must be limits of min, median or max as in {max: [low, high]}, or none",
+      {{is_word("none"), none}, {is_mapping, ranges.rule()}});
+}
+
+/// What may stand before the observable's name, as a regular expression.
+const char* owner_pattern(ObservableScope scope) {
+  switch (scope) {
+    case ObservableScope::body:
+      return "[A-Za-z0-9_]+(-[A-Za-z0-9_]+)*";
+    case ObservableScope::pair:
+      return "[A-Za-z0-9_]+(-[A-Za-z0-9_]+)+";
+    case ObservableScope::all:
+      break;
+  }
+  return "all";
+}
+
+/// Whether the text may name an owner by its form alone: names of words that are joined by '-'.
+bool has_form_of_owner(const std::string& text, ObservableScope scope) {
+  if (scope == ObservableScope::all) return text == "all";
+  bool after_word = false, is_joined = false;
+  for (const char c : text) {
+    const bool of_word =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    if (!of_word && !(c == '-' && after_word)) return false;
+    is_joined |= c == '-';
+    after_word = of_word;
+  }
+  return after_word && (scope == ObservableScope::body || is_joined);
+}
+
+/// Why the key names no observable, "" if it does.
+std::string fault_of_name(const std::string& key) {
+  const std::size_t dot = key.find('.');
+  const std::string name = dot == std::string::npos ? key : key.substr(dot + 1);
+  const ObservableName* observable = find_observable(name);
+  if (!observable) {
+    std::vector<std::string> known;
+    for (const ObservableName& each : observable_names()) known.emplace_back(each.name);
+    const std::string near = nearest(name, known);
+    return near.empty() ? "must be an observable of a body, a pair or all, as in i.sliding_time"
+                        : fmt::format("must be an observable (did you mean {}?)", near);
+  }
+  const std::string owner = dot == std::string::npos ? "" : key.substr(0, dot);
+  if (has_form_of_owner(owner, observable->scope)) return "";
+  const char* example = observable->scope == ObservableScope::body   ? "a body, i."
+                        : observable->scope == ObservableScope::pair ? "a pair, i-j."
+                                                                     : "the scene, all.";
+  return fmt::format("must be of {}{}", example, name);
+}
+
+json expectation_schema(const Rule<std::size_t>& status) {
+  // Observables with the same form of owner and the same dimension share a pattern.
+  std::map<std::pair<ObservableScope, std::string>, std::vector<const ObservableName*>> alike;
+  for (const ObservableName& each : observable_names())
+    alike[{each.scope, each.dimension.name}].push_back(&each);
+  json observables = json::object();
+  for (const auto& [key, group] : alike) {
+    std::string names;
+    for (const ObservableName* each : group)
+      names += fmt::format("{}{}{}", names.empty() ? "" : "|", each->name,
+                           each->is_vector ? R"((\.[xyz])?)" : "");
+    const std::string pattern = fmt::format(R"(^{}\.({})$)", owner_pattern(group[0]->scope), names);
+    observables[pattern] = observable_rule(*group[0]).schema();
+  }
+  json statuses = status.schema();
+  statuses["description"] = "how the run ends";
+  return {{"type", "object"},
+          {"oneOf",
+           {{{"properties", {{"status", statuses}}},
+             {"required", {"status"}},
+             {"additionalProperties", false}},
+            {{"patternProperties", observables},
+             {"minProperties", 1},
+             {"additionalProperties", false}}}}};
+}
+
+}  // namespace
+
+Rule<Expectation> expectation_rule() {
+  const std::vector<std::pair<std::string, RunStatus>> statuses = {
+      {"unstable", RunStatus::unstable},
+      {"crashed", RunStatus::crashed},
+      {"timed_out", RunStatus::timed_out},
+      {"skipped", RunStatus::skipped}};
+  std::vector<std::string> words;
+  for (const auto& each : statuses) words.push_back(each.first);
+  const Rule<std::size_t> status = word(words);
+  std::map<std::string_view, Rule<ExpectedObservable>> observables;
+  for (const ObservableName& each : observable_names())
+    observables.emplace(each.name, observable_rule(each));
+
+  const auto read = [=](const YamlNode& node, Reading& reading, Expectation& target) {
+    if (!is_mapping(node) || node.entries.empty()) {
+      reading.fault(node,
+                    "must be a mapping {i-j.restitution: {max: [low, high]}, …} or "
+                    "{status: …}");
+      return false;
+    }
+    bool good = true;
+    for (const YamlNode::Entry& entry : node.entries) {
+      const auto step = reading.key(shown(entry.key), entry.location, *entry.value);
+      const auto refuse = [&](std::string rule) {
+        reading.fault(entry.location, reading.path(), std::move(rule));
+        good = false;
+      };
+      if (target.observables.contains(entry.key) || (entry.key == "status" && target.status)) {
+        refuse("must stand here once");
+      } else if (entry.key == "status") {
+        std::size_t index = 0;
+        good = status.read(*entry.value, reading, index) && good;
+        target.status = statuses[index].second;
+        if (node.entries.size() > 1)
+          refuse("must stand alone: a run that does not end well shows no observables");
+      } else if (std::string rule = fault_of_name(entry.key); !rule.empty()) {
+        refuse(std::move(rule));
+      } else {
+        const std::string name = entry.key.substr(entry.key.find('.') + 1);
+        const Rule<ExpectedObservable>& observable = observables.at(find_observable(name)->name);
+        good = observable.read(*entry.value, reading, target.observables[entry.key]) && good;
+      }
+    }
+    return good;
+  };
+  return {read, [status] { return expectation_schema(status); }};
+}
+
+}  // namespace slipcheck

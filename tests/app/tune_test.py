@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Runs `slipcheck tune` as a user does.
+
+usage: tune_test.py SLIPCHECK SOURCE_DIR
+"""
+import json
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+SLIPCHECK, SOURCE = sys.argv[1], Path(sys.argv[2])
+SCENES = SOURCE / "scenarios"
+SYMMETRIC = SCENES / "symmetric-30cms.yaml"
+QUICK = ["--engine", "bullet", "--rates", "240", "--phases", "4", "--final-phases", "8"]
+
+
+def run(*arguments, **options):
+    return subprocess.run([SLIPCHECK, "tune", *map(str, arguments)], capture_output=True, text=True,
+                          timeout=200, **options)
+
+
+class Tune(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = Path(self.folder.name)
+        self.profile = self.path / "fitted.yaml"
+
+    def tuning(self, *arguments):
+        result = run(*arguments, *QUICK, "-o", self.profile, "--json", self.path / "out.json")
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        return result, json.loads((self.path / "out.json").read_text())
+
+    def test_the_profile_is_better_than_the_start_and_runs(self):
+        result, report = self.tuning(SYMMETRIC, "--held-out", SCENES / "asymmetric.yaml",
+                                     "--budget", "60")
+        self.assertEqual(report["schema"], "slipcheck-tuning/1")
+        self.assertTrue(report["improved"])
+        self.assertLess(report["chosen"]["training"]["worst"],
+                        report["start"]["training"]["worst"])
+        self.assertIn("held out", result.stdout)
+        self.assertIn("Accuracy against time", result.stdout)
+        text = self.profile.read_text()
+        self.assertIn("name: fitted", text)
+        self.assertIn(report["scenes"][0]["sha256"], text)
+        self.assertNotIn(str(self.path), text)
+        # What tune found is what run shows: the same 8 phases at the same rate.
+        scene = self.path / "scene.yaml"
+        lines = SYMMETRIC.read_text().splitlines()
+        at = next(k for k, line in enumerate(lines) if line.strip() == "engines:")
+        rest = [line for line in lines[at + 1:] if "{engine:" not in line]
+        engine = "    - {engine: bullet, precision: double, profile: ./fitted.yaml, rate: 240}"
+        scene.write_text("\n".join(lines[:at + 1] + [engine] + rest) + "\n")
+        shown = subprocess.run([SLIPCHECK, "run", scene, "--phases", "8", "--json", "-"],
+                               capture_output=True, text=True, timeout=100)
+        errors = json.loads(shown.stdout)["runs"][0]["errors"]
+        worst = max(e["max"] / e["tolerance"] for e in errors.values() if e.get("tolerance"))
+        self.assertAlmostEqual(worst, report["chosen"]["training"]["worst"], delta=1e-9 * worst)
+
+    def test_goes_on_after_an_interruption_and_loses_nothing(self):
+        arguments = [SYMMETRIC, "--budget", "40"]
+        journal = self.path / "fitted.yaml.journal"
+        process = subprocess.Popen([SLIPCHECK, "tune", *map(str, arguments), *QUICK, "-o",
+                                    str(self.profile)], stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and (not journal.exists()
+                                          or journal.read_text().count("\n") < 10):
+            time.sleep(0.005)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn("goes on there", errors)
+        self.assertFalse(self.profile.exists())
+        before = journal.read_text()
+        self.assertGreaterEqual(before.count("\n"), 10)
+        _, first = self.tuning(*arguments)
+        lines = journal.read_text().splitlines(keepends=True)
+        self.assertTrue("".join(lines).startswith(before))
+        # No run twice, nor a third time when everything is there; CPU times included.
+        questions = [line.split('"answer"')[0] for line in lines]
+        self.assertEqual(len(questions), len(set(questions)))
+        _, again = self.tuning(*arguments)
+        self.assertEqual(again, first)
+        self.assertEqual(journal.read_text(), "".join(lines))
+
+    def test_only_the_named_settings_change(self):
+        listed = json.loads(subprocess.run([SLIPCHECK, "list", "settings", "--json"],
+                                           capture_output=True, text=True).stdout)
+        engine = next(e for e in listed if e["engine"] == "bullet" and e["precision"] == "double")
+        name = next(s["name"] for s in engine["settings"] if s["candidates"])
+        _, report = self.tuning(SYMMETRIC, "--settings", name)
+        self.assertLessEqual(set(report["chosen"]["settings"]), {name})
+
+    def test_quiet_says_nothing(self):
+        result = run(SYMMETRIC, *QUICK, "--budget", "0", "-o", self.profile, "--quiet")
+        self.assertEqual((result.stdout, result.stderr), ("", ""))
+        self.assertTrue(self.profile.exists())
+
+    def test_without_an_improvement_the_start_is_written_and_said_so(self):
+        result, report = self.tuning(SYMMETRIC, "--budget", "0")
+        self.assertIn("nothing that was tried is better", result.stderr)
+        self.assertFalse(report["improved"])
+        self.assertEqual(report["chosen"], report["start"])
+
+    def test_bad_options_are_exit_2_with_rule_and_value_and_write_nothing(self):
+        out = ["-o", self.profile]
+        bare = self.path / "bare.yaml"
+        lines = SYMMETRIC.read_text().splitlines()
+        bare.write_text("\n".join(line for line in lines if "tolerance:" not in line) + "\n")
+        other = self.path / "notes.txt"
+        other.write_text("something else\n")
+        for arguments, rule in (
+                ([SYMMETRIC, *out], "--engine is required"),
+                ([SYMMETRIC, *out, "--engine", "bulet"], "got bulet"),
+                ([SYMMETRIC, *out, *QUICK, "--start", "nonsense"], "got nonsense"),
+                ([SYMMETRIC, *out, *QUICK, "--start", self.path / "none.yaml"], "none.yaml"),
+                ([SYMMETRIC, *out, *QUICK, "--settings", "nonsense"], "got nonsense"),
+                ([SYMMETRIC, *out, *QUICK, "--within", "-1%"], "must be a share > 0"),
+                ([SYMMETRIC, *out, *QUICK, "--within", "5 mm"], "got 5 mm"),
+                ([SYMMETRIC, *out, *QUICK, "--observables", "nonsense"], "got nonsense"),
+                ([SYMMETRIC, *out, *QUICK, "--phases", "0"], "--phases"),
+                ([SYMMETRIC, *out, *QUICK, "--rates", "0"], "--rates"),
+                ([SYMMETRIC, *out, *QUICK, "--journal", other], "must be a journal"),
+                ([SYMMETRIC, *QUICK, "-o", self.path / "Bad Name.yaml"], "of a-z, 0-9 and -"),
+                ([SYMMETRIC, *QUICK, "-o", self.path / "none" / "a.yaml"], "directory must exist"),
+                ([bare, *out, *QUICK], "must have a tolerance"),
+                ([SYMMETRIC, *out, *QUICK, "--held-out", SYMMETRIC], "must be unique")):
+            with self.subTest(arguments):
+                result = run(*arguments)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertIn(rule, result.stderr)
+                self.assertEqual(result.stdout, "")
+        self.assertEqual(sorted(p.name for p in self.path.iterdir()), ["bare.yaml", "notes.txt"])
+        self.assertEqual(other.read_text(), "something else\n")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])

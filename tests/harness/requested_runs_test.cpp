@@ -1,0 +1,143 @@
+#include "harness/requested_runs.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "scenario/fault.h"
+#include "scenario/load.h"
+
+namespace slipcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RequestedRunsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    setenv("SLIPCHECK_ENGINE_PATH", SLIPCHECK_BINARY_DIR "/faulty", 1);
+    root_ = fs::temp_directory_path() / ("slipcheck-requested-" + std::to_string(getpid()));
+    fs::create_directories(root_ / "scenes");
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  void put(const std::string& name, const std::string& text) const {
+    std::ofstream(root_ / name) << text;
+  }
+
+  /// A ball at rest that is held against these engines, one in each line from line 12 on.
+  Scenario scenario(const std::string& engines) const {
+    return parse_scenario(R"(slipcheck: 1
+name: ball
+title: A ball
+materials: {steel: {density: 7850}}
+contacts: [{between: [steel, substrate], friction: 0.1}]
+substrate: {}
+bodies:
+  - {name: i, material: steel, sphere: {radius: 0.002}, position: [0, 0]}
+run: {until: 1}
+compare:
+  engines:
+)" + engines,
+                          (root_ / "scenes/ball.yaml").string());
+  }
+
+  std::vector<EngineRecord> runs(const std::string& engines) const {
+    return requested_runs({scenario(engines)}).at(0);
+  }
+
+  std::vector<std::string> faults(const std::vector<Scenario>& scenarios) const {
+    std::vector<std::string> messages;
+    try {
+      requested_runs(scenarios);
+    } catch (const BadScenario& bad) {
+      for (const Fault& fault : bad.faults()) {
+        std::string message = fault.message();
+        for (std::size_t at; (at = message.find(root_.string() + "/")) != std::string::npos;)
+          message.erase(at, root_.string().size() + 1);
+        messages.push_back(message);
+      }
+    }
+    return messages;
+  }
+
+  fs::path root_;
+};
+
+TEST_F(RequestedRunsTest, EachEngineHasARunAtEachOfItsRates) {
+  const auto found = runs(
+      "    - {engine: faulty, rate: [60, 240], profile: slow}\n"
+      "    - {engine: bullet, precision: single, rate: 1000, expect: {status: skipped}}\n");
+  ASSERT_EQ(found.size(), 3u);
+  for (std::size_t k : {0u, 1u}) {
+    EXPECT_EQ(found[k].engine, "faulty");
+    EXPECT_EQ(found[k].precision, "double");
+    EXPECT_EQ(found[k].profile, "slow");
+    EXPECT_EQ(found[k].rate, k == 0 ? 60 : 240);
+    EXPECT_EQ(found[k].settings, (Settings{{"fault", std::string("slow")}}));
+    EXPECT_FALSE(found[k].expect);
+    EXPECT_EQ(found[k].reason, "");
+  }
+  EXPECT_EQ(found[2].precision, "single");
+  EXPECT_TRUE(found[2].expect);
+}
+
+TEST_F(RequestedRunsTest, ANameIsShippedOrTheRunHasItsReason) {
+  const auto found = runs("    - {engine: faulty, rate: 60, profile: tuned}\n");
+  EXPECT_EQ(found[0].reason,
+            "faulty has no profile 'tuned'; it has hang, kill-at-step-10, nan, ok, slow");
+  EXPECT_EQ(found[0].status, EngineRecord::Status::skipped);
+}
+
+TEST_F(RequestedRunsTest, TheDefaultNeedsNoFile) {
+  const auto found = runs("    - {engine: faulty, rate: 60}\n");
+  EXPECT_EQ(found[0].profile, "default");
+  EXPECT_EQ(found[0].reason, "");
+  EXPECT_TRUE(found[0].settings.empty());
+}
+
+TEST_F(RequestedRunsTest, APathIsTakenFromTheScenesFolder) {
+  put("mine.yaml", "slipcheck-profile: 1\nengine: faulty\nname: mine\nsettings: {pause: 7}\n");
+  const Settings mine = {{"pause", 7.0}};
+  EXPECT_EQ(runs("    - {engine: faulty, rate: 60, profile: ../mine.yaml}\n")[0].settings, mine);
+  EXPECT_EQ(
+      runs("    - {engine: faulty, rate: 60, profile: " + (root_ / "mine.yaml").string() + "}\n")[0]
+          .settings,
+      mine);
+}
+
+TEST_F(RequestedRunsTest, EverythingThatIsWrongIsToldAtOnceAndOnce) {
+  put("scenes/typo.yaml", "slipcheck-profile: 1\nengine: faulty\nnam: typo\n");
+  put("scenes/far.yaml",
+      "slipcheck-profile: 1\nengine: faulty\nname: far\nsettings: {pause: -1, faul: ok}\n");
+  put("scenes/other.yaml", "slipcheck-profile: 1\nengine: ode\nname: other\n");
+  const Scenario scene = scenario(
+      "    - {engine: bulet, rate: 60}\n"
+      "    - {engine: faulty, rate: 60, profile: none.yaml}\n"
+      "    - {engine: faulty, rate: 60, profile: typo.yaml}\n"
+      "    - {engine: faulty, rate: [60, 240], profile: far.yaml}\n"
+      "    - {engine: faulty, rate: 60, profile: ./other.yaml}\n"
+      // Not installed here, but what it names is looked at all the same.
+      "    - {engine: faulty, precision: single, rate: 60, profile: none.yaml}\n");
+  const std::vector<std::string> expected = {
+      "scenes/ball.yaml:12:8: compare.engines[0].engine: must be one of the engines bullet, "
+      "faulty, got bulet",
+      "scenes/ball.yaml:13:34: compare.engines[1].profile: scenes/none.yaml must be a readable "
+      "file: No such file or directory, got none.yaml",
+      "scenes/typo.yaml:3:1: nam: is not a key here (did you mean name?)",
+      "scenes/typo.yaml:1:1: needs the key name",
+      "scenes/far.yaml:4:23: settings.faul: is no setting of this engine (did you mean fault?)",
+      "scenes/far.yaml:4:12: settings.pause: must be a whole number >= 0 and <= 1000 ms, got -1",
+      "scenes/./other.yaml:2:1: engine: must be faulty, which is to run with it, got ode",
+      "scenes/ball.yaml:17:53: compare.engines[5].profile: scenes/none.yaml must be a readable "
+      "file: No such file or directory, got none.yaml",
+  };
+  EXPECT_EQ(faults({scene}), expected);
+  EXPECT_EQ(faults({scene, scene}), expected);
+}
+
+}  // namespace
+}  // namespace slipcheck
