@@ -16,6 +16,7 @@ namespace slipcheck::bullet {
 namespace {
 
 constexpr const char* kBySpeed = "by speed";
+constexpr const char* kBySlip = "by slip";
 
 /// Values of one name for several bodies or pairs, merged into one entry where all are the same.
 class Gathered {
@@ -64,12 +65,20 @@ void gather_substrate(Gathered& out, const ByIndex& objects, const HardScene& sc
     const std::string whose = fmt::format("{}", i);
     const bool by_speed = settings.coefficients != CoefficientMap::fields &&
                           !scene.on_substrate(i).rolling.is_constant();
-    out.add("friction", whose, number(gCalculateCombinedFrictionCallback(ball, plane)));
+    const SubstrateContact& ground = scene.on_substrate(i);
+    const bool by_slip = settings.coefficients == CoefficientMap::pair_and_slip;
+    const bool friction_by_slip = by_slip && ground.static_friction != ground.kinetic_friction;
+    const bool rolling_by_slip =
+        by_slip && !ground.rolling.is_zero() && !ground.rolling_while_sliding;
+    out.add("friction", whose,
+            friction_by_slip ? Setting(kBySlip)
+                             : number(gCalculateCombinedFrictionCallback(ball, plane)));
     out.add("substrate_restitution", whose,
             number(gCalculateCombinedRestitutionCallback(ball, plane)));
     out.add("rolling_friction", whose,
-            by_speed ? Setting(kBySpeed)
-                     : number(gCalculateCombinedRollingFrictionCallback(ball, plane)));
+            by_speed          ? Setting(kBySpeed)
+            : rolling_by_slip ? Setting(kBySlip)
+                              : number(gCalculateCombinedRollingFrictionCallback(ball, plane)));
     out.add("spinning_friction", whose,
             number(gCalculateCombinedSpinningFrictionCallback(ball, plane)));
   }

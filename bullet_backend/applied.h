@@ -13,7 +13,8 @@ namespace slipcheck::bullet {
 /// Bullet is asked for every contact's coefficients. Where they differ from ball to ball the name
 /// carries the body, "rolling_friction[3]", where they differ from pair to pair two bodies that
 /// stand for their materials, "restitution[0-2]"; those with a box carry one body of the
-/// material, "floor_friction[0]". One that follows a law is the text "by speed".
+/// material, "floor_friction[0]". One that follows a law is the text "by speed",
+/// one that depends on whether the contact slips "by slip".
 /// `scene` and `time_step` are in the world's units.
 Settings applied_settings(btDiscreteDynamicsWorld& world, const HardScene& scene,
                           const BulletSettings& settings, const WorldUnits& units,

@@ -43,6 +43,10 @@ bool NextContact::touches_now(double approach, double within) const {
 
 double NextContact::after(double now, double within) {
   for (std::size_t i = 0; i < states_.size(); ++i) states_[i] = balls_.state(i);
+  return of_pairs(of_surfaces(now, within));
+}
+
+double NextContact::of_surfaces(double now, double within) const {
   for (const btRigidBody* surface : surfaces_.bodies()) {
     const auto* plane = static_cast<const btStaticPlaneShape*>(surface->getCollisionShape());
     const Vector3 n = from_bullet(plane->getPlaneNormal());
@@ -68,11 +72,25 @@ double NextContact::after(double now, double within) {
       if (towards > 0) within = std::min(within, 2 * gap / towards);
     }
   }
-  for (std::size_t i = 0; i < states_.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
+  return within;
+}
+
+/// Only those pairs whose ways along x overlap.
+double NextContact::of_pairs(double within) {
+  ways_.clear();
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const double x = states_[i].position.x(), then = x + within * states_[i].velocity.x();
+    const double radius = scene_.bodies[i].radius;
+    ways_.push_back({std::min(x, then) - radius, std::max(x, then) + radius, i});
+  }
+  std::ranges::sort(ways_, {}, &Way::low);
+  for (std::size_t k = 0; k < ways_.size(); ++k)
+    for (std::size_t l = k + 1; l < ways_.size() && ways_[l].low <= ways_[k].high; ++l) {
+      const std::size_t i = ways_[k].body, j = ways_[l].body;
       within =
           std::min(within, of_balls(states_[i], states_[j],
                                     scene_.bodies[i].radius + scene_.bodies[j].radius, within));
+    }
   return within;
 }
 

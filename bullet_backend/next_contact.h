@@ -22,6 +22,8 @@ class NextContact {
  private:
   /// Whether bodies that touch meet in earnest, and do not just lean on each other.
   bool touches_now(double approach, double within) const;
+  double of_surfaces(double now, double within) const;
+  double of_pairs(double within);
   double of_balls(const BodyState& a, const BodyState& b, double reach, double within) const;
 
   const Balls& balls_;
@@ -30,6 +32,13 @@ class NextContact {
   Vector3 gravity_;
   double tolerance_;
   std::vector<BodyState> states_;
+
+  /// Where a ball is along x while the time passes.
+  struct Way {
+    double low, high;
+    std::size_t body;
+  };
+  std::vector<Way> ways_;
 };
 
 }  // namespace slipcheck::bullet

@@ -166,8 +166,9 @@ void add_search_options(CLI::App& command, TuneArguments& arguments) {
   command.add_option("--seed", arguments.seed, "Of the order in which settings are tried")
       ->capture_default_str();
   command
-      .add_option("--budget", arguments.budget.evaluations,
-                  "Evaluations of all scenes at all rates; the last comparison comes after them")
+      .add_option(
+          "--budget", arguments.budget.evaluations,
+          "Evaluations of all scenes at all rates; the pruning and the last comparison come after")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command

@@ -161,9 +161,9 @@ void Observer::settle_effective_restitution(double t0, double t1, const Frame& f
       const Body& body = bodies_[i];
       const Vector3& now = frame.bodies[i].velocity;
       // A slide's end is a kink; after it the body goes on as it rolls.
-      if (body.slide_end == both) return body.rolling_velocity;
-      if (t1 <= t0 || both <= t0 || both >= t1) return now;
       const bool kink = body.slide_end > t0;
+      if (body.slide_end == both || (kink && both >= t1)) return body.rolling_velocity;
+      if (t1 <= t0 || both <= t0 || both >= t1) return now;
       const double begin = kink ? body.slide_end : t0;
       const Vector3& before = kink ? body.rolling_velocity : last_.bodies[i].velocity;
       return before + (both - begin) / (t1 - begin) * (now - before);

@@ -49,7 +49,8 @@ bool TuningSearch::search_continuous() {
     for (std::size_t k = 0; k < matter.size(); ++k)
       settings[matter[k]->name] = value_at(*matter[k], x[k]);
     try {
-      const Outcome outcome = race(settings, slipcheck::objective(best_.score, options_.goal));
+      const Outcome outcome =
+          race(settings, slipcheck::objective(best_.score, options_.goal), Entry::different);
       if (outcome.whole && is_better(outcome.candidate.score, best_.score, options_.goal))
         adopt(outcome.candidate, "continuous");
       return outcome.objective;

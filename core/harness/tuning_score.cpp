@@ -12,8 +12,6 @@ namespace {
 constexpr double kMeanShare = 0.02;
 /// Objectives that differ by less, relatively, are the same.
 constexpr double kSameObjective = 1e-3;
-/// CPU times that differ by less, relatively, may be the same.
-constexpr double kSameCost = 0.1;
 /// Stands for one error where the scene says nothing: 1 %, or 0.01 of a restitution.
 constexpr double kDefaultTolerance = 0.01;
 
@@ -96,10 +94,12 @@ double objective(const Score& score, const TuningGoal& goal) {
   return score.worst + kMeanShare * score.mean;
 }
 
+double same_cost(const TuningGoal& goal) { return goal.within ? 0.1 : 0.25; }
+
 bool is_better(const Score& a, const Score& b, const TuningGoal& goal) {
   const double left = objective(a, goal), right = objective(b, goal);
   if (std::abs(left - right) > kSameObjective * std::max(left, right)) return left < right;
-  return a.cost < (1 - kSameCost) * b.cost;
+  return a.cost < (1 - same_cost(goal)) * b.cost;
 }
 
 }  // namespace slipcheck

@@ -64,9 +64,12 @@ Score score_of(std::span<const RunScore> runs, const TuningGoal& goal);
 /// is a slope where the worst run does not change. Of a goal with `within`, 1 as soon as it is met.
 double objective(const Score& score, const TuningGoal& goal);
 
+/// The share by which CPU times must differ to count, as they scatter: a tenth where they are what
+/// is searched for, else a quarter.
+double same_cost(const TuningGoal& goal);
+
 /// Whether `a` is to be preferred: its objective is smaller by more than 0.1 %, or they are the
-/// same within that and `a` takes less CPU time by more than a tenth (times scatter by about as
-/// much).
+/// same within that and `a` takes less CPU time by more than same_cost.
 bool is_better(const Score& a, const Score& b, const TuningGoal& goal);
 
 }  // namespace slipcheck

@@ -39,38 +39,62 @@ void TuningSearch::make_stages() {
   const std::size_t all = evaluator_->phases();
   const std::size_t few = std::max<std::size_t>(all / kFewerPhases, 2);
   if (few < all) {
-    stages_.push_back({few, slow});
-    stages_.push_back({few, fast});
+    stages_.push_back({few, fast.empty(), slow});
+    stages_.push_back({few, true, fast});
   }
-  stages_.push_back({all, slow});
-  stages_.push_back({all, fast});
+  stages_.push_back({all, false, slow});
+  stages_.push_back({all, false, fast});
   std::erase_if(stages_, [](const Stage& stage) { return stage.tasks.empty(); });
 }
 
-TuningSearch::Outcome TuningSearch::race(const Settings& settings, double limit) {
+bool TuningSearch::may_go_on(const TuningCandidate& candidate, const Stage& stage,
+                             Entry entry) const {
+  if (entry == Entry::free || stage.phases == evaluator_->phases()) return true;
+  std::vector<RunScore> here, there;
+  for (std::size_t place : stage.tasks) {
+    here.push_back(candidate.few[place]);
+    there.push_back(best_.few[place]);
+  }
+  const TuningGoal& goal = options_.goal;
+  if (entry == Entry::gain && !stage.ends_few)
+    return !is_better(score_of(there, goal), score_of(here, goal), goal);
+  if (!stage.ends_few) return true;
+  const Score mine = score_of(candidate.few, goal), best = score_of(best_.few, goal);
+  if (entry == Entry::gain) return is_better(mine, best, goal);
+  const bool same =
+      std::ranges::equal(candidate.few, best_.few, [](const RunScore& one, const RunScore& other) {
+        return one.worst == other.worst && one.deviation == other.deviation &&
+               one.failed == other.failed;
+      });
+  return !same || is_better(mine, best, goal);
+}
+
+TuningSearch::Outcome TuningSearch::race(const Settings& settings, double limit, Entry entry) {
   Outcome outcome;
-  outcome.candidate.settings = space_->canonical(settings);
-  outcome.candidate.runs.resize(training_.size());
+  TuningCandidate& candidate = outcome.candidate;
+  candidate.settings = space_->canonical(settings);
+  candidate.runs.resize(training_.size());
+  candidate.few.resize(training_.size());
   for (const Stage& stage : stages_) {
     std::vector<std::size_t> tasks;
     for (std::size_t place : stage.tasks) tasks.push_back(training_[place]);
     const std::vector<RunScore> runs =
-        evaluator_->evaluate(outcome.candidate.settings, stage.phases, tasks);
-    outcome.objective =
-        std::max(outcome.objective, objective(score_of(runs, options_.goal), options_.goal));
+        evaluator_->evaluate(candidate.settings, stage.phases, tasks);
+    const Score score = score_of(runs, options_.goal);
+    outcome.objective = std::max(outcome.objective, objective(score, options_.goal));
     // The worst of some is no more than the worst of all; their mean may be.
-    if (score_of(runs, options_.goal).worst > limit) return outcome;
-    if (stage.phases == evaluator_->phases())
-      for (std::size_t k = 0; k < runs.size(); ++k)
-        outcome.candidate.runs[stage.tasks[k]] = runs[k];
+    if (score.worst > limit) return outcome;
+    auto& whole_or_few = stage.phases == evaluator_->phases() ? candidate.runs : candidate.few;
+    for (std::size_t k = 0; k < runs.size(); ++k) whole_or_few[stage.tasks[k]] = runs[k];
+    if (!may_go_on(candidate, stage, entry)) return outcome;
   }
   outcome.whole = true;
-  outcome.candidate.score = score_of(outcome.candidate.runs, options_.goal);
-  outcome.objective = objective(outcome.candidate.score, options_.goal);
+  candidate.score = score_of(candidate.runs, options_.goal);
+  outcome.objective = objective(candidate.score, options_.goal);
   const bool is_new = std::ranges::none_of(evaluated_, [&](const TuningCandidate& earlier) {
-    return earlier.settings == outcome.candidate.settings;
+    return earlier.settings == candidate.settings;
   });
-  if (is_new) evaluated_.push_back(outcome.candidate);
+  if (is_new) evaluated_.push_back(candidate);
   return outcome;
 }
 
@@ -79,8 +103,8 @@ void TuningSearch::adopt(const TuningCandidate& candidate, const std::string& st
   if (options_.improved) options_.improved(step, best_);
 }
 
-bool TuningSearch::consider(const Settings& settings, const std::string& step) {
-  const Outcome outcome = race(settings, objective(best_.score, options_.goal));
+bool TuningSearch::consider(const Settings& settings, const std::string& step, Entry entry) {
+  const Outcome outcome = race(settings, objective(best_.score, options_.goal), entry);
   if (!outcome.whole || !is_better(outcome.candidate.score, best_.score, options_.goal))
     return false;
   adopt(outcome.candidate, step);
@@ -89,17 +113,18 @@ bool TuningSearch::consider(const Settings& settings, const std::string& step) {
 
 bool TuningSearch::run() {
   evaluator_->heed_budget(false);
-  adopt(race(space_->start, std::numeric_limits<double>::infinity()).candidate, "start");
+  const double no_limit = std::numeric_limits<double>::infinity();
+  adopt(race(space_->start, no_limit, Entry::free).candidate, "start");
   evaluator_->heed_budget(true);
   bool converged = true;
   try {
     search_discrete();
     if (search_continuous()) search_discrete();
-    prune();
   } catch (const TuningBudgetSpent&) {
     converged = false;
   }
   evaluator_->heed_budget(false);
+  prune();
   return converged;
 }
 
@@ -136,12 +161,14 @@ bool TuningSearch::try_pairs_of_moves() {
       if (moves[a].setting != moves[b].setting) pairs.emplace_back(a, b);
   shuffle(pairs);
   for (const auto& [a, b] : pairs)
-    if (consider(with(with(best_.settings, moves[a]), moves[b]), "in pairs")) return true;
+    if (consider(with(with(best_.settings, moves[a]), moves[b]), "in pairs", Entry::gain))
+      return true;
   return false;
 }
 
 void TuningSearch::prune() {
-  const double limit = (1 + kPruningCost) * objective(best_.score, options_.goal);
+  const TuningGoal& goal = options_.goal;
+  const double limit = (1 + kPruningCost) * objective(best_.score, goal);
   std::vector<std::string> names;
   for (const SettingInfo& info : space_->vary)
     if (best_.settings.contains(info.name)) names.push_back(info.name);
@@ -149,10 +176,10 @@ void TuningSearch::prune() {
   for (const std::string& name : names) {
     Settings fewer = best_.settings;
     fewer.erase(name);
-    const Outcome outcome = race(fewer, limit);
-    const bool cheap = !options_.goal.within ||
-                       outcome.candidate.score.cost <= (1 + kPruningCost) * best_.score.cost;
-    if (outcome.whole && outcome.objective <= limit && cheap) adopt(outcome.candidate, "pruning");
+    const Outcome outcome = race(fewer, limit, Entry::free);
+    if (outcome.whole && outcome.objective <= limit &&
+        outcome.candidate.score.cost <= (1 + same_cost(goal)) * best_.score.cost)
+      adopt(outcome.candidate, "pruning");
   }
 }
 

@@ -17,6 +17,7 @@ struct TuningCandidate {
   Settings settings;           ///< canonical
   std::vector<RunScore> runs;  ///< of the training tasks, in the evaluator's order
   Score score;
+  std::vector<RunScore> few;  ///< the same with the few phases that a race begins with
 };
 
 struct TuningSearchOptions {
@@ -54,8 +55,15 @@ class TuningSearch {
   const std::vector<TuningCandidate>& evaluated() const { return evaluated_; }
 
  private:
+  /// What a race asks of settings with few phases.
+  enum class Entry {
+    free,       ///< nothing
+    different,  ///< not to do the same as the best so far at no less cost
+    gain,       ///< to be better than the best so far
+  };
   struct Stage {
     std::size_t phases = 0;
+    bool ends_few = false;           ///< the last one with few phases
     std::vector<std::size_t> tasks;  ///< of the training tasks, by place in training_
   };
   /// What settings came to: a score of all tasks, or a lower bound of its objective.
@@ -66,8 +74,9 @@ class TuningSearch {
   };
 
   void make_stages();
-  Outcome race(const Settings& settings, double limit);
-  bool consider(const Settings& settings, const std::string& step);
+  Outcome race(const Settings& settings, double limit, Entry entry);
+  bool may_go_on(const TuningCandidate& candidate, const Stage& stage, Entry entry) const;
+  bool consider(const Settings& settings, const std::string& step, Entry entry = Entry::different);
   void adopt(const TuningCandidate& candidate, const std::string& step);
 
   void search_discrete();

@@ -228,5 +228,29 @@ TEST(ObserverOfAnEngine, ContactTimeIsThatOfTheStepsThatTouch) {
   EXPECT_NEAR(pair.restitution, 0.8, 1e-14);
 }
 
+TEST(ObserverOfAnEngine, EffectiveRestitutionOfSlidesThatEndTogetherUpToRounding) {
+  // A solid sphere's slip falls by (7/2) μ g h in a step, its velocity changes by μ g h, and in all
+  // by 2/7 of the first slip. What is left after ten steps counts as zero: less than half a step's.
+  const double h = 1e-3;
+  const HardScene scene = test::head_on(0.2, -0.2, 0.9);
+  const double brake = scene.on_substrate(0).kinetic_friction * scene.gravity * h;
+  const double u0 = 10.3 * 3.5 * brake, u1 = u0 * (1 - 1e-12);
+  const double w0 = 0.11, w1 = 0.27;
+  std::vector<Shown> frames = {{0, 3e-4, 0.2, -0.2}};
+  for (int n = 0; n <= 10; ++n)
+    frames.push_back({(n + 1) * h, 0, -w0 + n * brake, w1 - n * brake, n == 0,
+                      -(u0 - n * 3.5 * brake), u1 - n * 3.5 * brake});
+  const double v0 = -w0 + 2.0 / 7 * u0, v1 = w1 - 2.0 / 7 * u1;
+  frames.push_back({12 * h, 0, v0, v1});
+  Observer observer(scene, h, 0.2, false);
+  for (const Shown& shown : frames) {
+    Frame frame = frame_of(shown);
+    for (Touch& touch : frame.touches) touch.normal_impulse = 0.1 * scene.bodies[0].mass;
+    observer.take(shown.time, frame);
+  }
+  const PairObservables pair = observer.finish(12 * h).pairs.at(0);
+  EXPECT_NEAR(pair.effective_restitution, (v1 - v0) / 0.4, 1e-12);
+}
+
 }  // namespace
 }  // namespace slipcheck

@@ -116,12 +116,13 @@ TEST(TuningScore, CostDecidesBetweenEqualErrorsOnlyAndByMoreThanItsScatter) {
     made.cost = cost;
     return made;
   };
-  EXPECT_TRUE(is_better(score(1, 0.8), score(1, 1), {}));
-  EXPECT_FALSE(is_better(score(1, 0.95), score(1, 1), {}));
+  EXPECT_TRUE(is_better(score(1, 0.7), score(1, 1), {}));
+  EXPECT_FALSE(is_better(score(1, 0.8), score(1, 1), {}));
   EXPECT_FALSE(is_better(score(1.1, 0.1), score(1, 1), {}));
   EXPECT_TRUE(is_better(score(0.9, 10), score(1, 1), {}));
   // Within the wanted error all errors are equal.
-  EXPECT_TRUE(is_better(score(0.9, 0.5), score(0.1, 1), {0.05}));
+  EXPECT_TRUE(is_better(score(0.9, 0.85), score(0.1, 1), {0.05}));
+  EXPECT_FALSE(is_better(score(0.9, 0.95), score(0.1, 1), {0.05}));
 }
 
 }  // namespace

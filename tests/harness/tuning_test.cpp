@@ -61,7 +61,10 @@ TEST_F(Tuning, AJournalCutAnywhereLeadsToTheSameResult) {
     SCOPED_TRACE(cut);
     write(journal.substr(0, cut));
     expect_same(tuned(synthetic_runs(), true), whole);
+    // And the journal is whole again: the cut line is gone, everything is there once.
     EXPECT_EQ(std::ranges::count(text(), '\n'), std::ranges::count(journal, '\n'));
+    EXPECT_EQ(TuningJournal(file).size() + 1,
+              static_cast<std::size_t>(std::ranges::count(journal, '\n')));
   }
 }
 
