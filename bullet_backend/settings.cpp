@@ -128,7 +128,7 @@ std::vector<Row> solver_rows() {
                  "or btMLCPSolver with one of the three"),
       count("solver_iterations", &S::solver_iterations)
           .within(1, 10000)
-          .try_each({4.0, 10.0, 20.0, 50.0})
+          .try_each({1.0, 4.0, 10.0, 20.0})
           .about("m_numIterations"),
       number("sor", "", &S::sor)
           .within(0.1, 1.9)

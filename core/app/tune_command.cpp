@@ -32,22 +32,21 @@ class Progress {
   void spent(const TuningEvaluator& evaluator) {
     bar_.set(static_cast<std::size_t>(evaluator.spent()),
              static_cast<std::size_t>(evaluator.budget().evaluations));
-    evaluations_ = evaluator.spent();
   }
 
-  void improved(const std::string& step, const TuningCandidate& best) const {
+  void improved(const std::string& step, const TuningCandidate& best,
+                const TuningEvaluator& evaluator) const {
     if (quiet_) return;
     const std::string changes = changes_text(*space_, space_->start, best.settings);
     fmt::print(
-        stderr, "{}{:>4.0f} {:<10}  worst {}  {}\n", on_terminal_ ? "\r\x1b[K" : "", evaluations_,
-        step, tuning_error_text(best.runs[best.score.worst_run]),
+        stderr, "{}{:>4.0f} {:<10}  worst {}  {}\n", on_terminal_ ? "\r\x1b[K" : "",
+        evaluator.spent(), step, tuning_error_text(best.runs[best.score.worst_run]),
         step == "start" ? space_->start.empty() ? "the engine's own settings" : "" : changes);
   }
 
  private:
   bool quiet_, on_terminal_;
   const TuningSpace* space_;
-  double evaluations_ = 0;
   ProgressBar bar_;
 };
 
@@ -69,7 +68,7 @@ TuningResult search(const TuneArguments& arguments, const TuneSetup& setup) {
       *setup.journal, arguments.budget);
   spender = &evaluator;
   const auto improved = [&](const std::string& step, const TuningCandidate& best) {
-    progress.improved(step, best);
+    progress.improved(step, best, evaluator);
   };
   return tune(setup.record.space, evaluator,
               {{setup.record.goal, setup.record.seed, improved}, setup.record.final_phases});

@@ -99,9 +99,8 @@ std::string trade_off(const TuningRecord& tuning, const TableStyle& style) {
         {{cost_text(candidate.score.cost)},
          {error_text(candidate.score)},
          {changes_text(tuning.space, tuning.space.start, candidate.settings), Ink::faint}});
-  return aligned(
-      {{"CPU", true}, {"worst error", true}, {"changed from " + tuning.start}},
-      std::move(rows), style, 2);
+  return aligned({{"CPU", true}, {"worst error", true}, {"changed from " + tuning.start}},
+                 std::move(rows), style, 2);
 }
 
 std::string settings_table(const TuningRecord& tuning, const TableStyle& style) {

@@ -45,7 +45,7 @@ TuningRecord tuned() {
   };
   record.result.finalists = {finalist({}, 40), finalist({{"erp", 0.0}}, 0.5)};
   record.result.chosen = 1;
-  record.result.front = {{{{"erp", 0.0}}, {}, record.result.finalists[1].training}};
+  record.result.front = {{{{"erp", 0.0}}, {}, record.result.finalists[1].training, {}}};
   record.result.candidates = 12;
   record.result.evaluations = 34;
   record.result.converged = true;
