@@ -239,8 +239,8 @@ struct ExpectedObservable {
   std::optional<ExpectedRange> min, median, max;  ///< over the phases
   bool none = false;                              ///< it does not occur in any phase
 };
-/// What an engine is known to do in this scene, right or wrong; its runs are judged by this in place
-/// of the tolerances. An extension.
+/// What an engine is known to do in this scene, right or wrong; its runs are judged by this in
+/// place of the tolerances. An extension.
 struct Expectation {
   std::optional<RunStatus> status;  ///< none or one that is not `ok`; then nothing else is expected
   std::map<std::string, ExpectedObservable> observables;  ///< by full name, "i-j.restitution"

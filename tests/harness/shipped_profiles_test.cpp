@@ -79,9 +79,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, TunedCollision,
 
 TEST(ShippedProfiles, DefaultIsFarOffWhereTunedIsNot) {
   const SceneRecord scene = run("symmetric-30cms", "default");
-  for (const EngineRecord& record : scene.runs)
-    if (record.rate >= 240)
-      EXPECT_GT(worst(scene, record, "i-j.effective_restitution"), 0.1) << record.rate;
+  for (const EngineRecord& record : scene.runs) {
+    if (record.rate < 240) continue;  // some phases pass through each other
+    EXPECT_GT(worst(scene, record, "i-j.effective_restitution"), 0.1) << record.rate;
+  }
 }
 
 }  // namespace
