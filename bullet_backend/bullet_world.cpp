@@ -65,15 +65,15 @@ struct BulletWorld::Parts {
 
   double step_begin() const { return start_time + static_cast<double>(steps) * time_step; }
 
-  /// One step of Bullet's.
+  /// One step of Bullet's, from a time since the step's begin on.
   void advance(double from, double length) {
     coefficients.set_time_step(length);
-    surfaces.begin_step(from, length);
+    surfaces.begin_step(step_begin() + from, length);
     coefficients.set_ground_velocity(surfaces.told_before());
     dynamics.world().stepSimulation(btScalar(length), 0);
     if (is_one_step()) return;
     look(frames.emplace_back());
-    frames.back().part = (from + length - step_begin()) / time_step;
+    frames.back().part = (from + length) / time_step;
   }
 
   /// SI.
@@ -90,7 +90,7 @@ struct BulletWorld::Parts {
     const double end = from + length;
     const double impact = std::max(kImpactStep * length, 4 * double(SIMD_EPSILON));
     for (int split = 0; split < settings.splits_at_contacts; ++split) {
-      const double until = next_contact->after(from, end - from);
+      const double until = next_contact->after(step_begin() + from, end - from);
       if (until >= end - from - impact) break;
       const double part = std::max(until, impact);
       // To push an overlap out within so short a step would be an explosion.
@@ -143,15 +143,14 @@ BulletWorld::~BulletWorld() = default;
 void BulletWorld::step() {
   Parts& parts = *parts_;
   const FlushDenormals while_stepping(parts.settings.flush_denormals);
-  const double from = parts.step_begin();
   parts.frames.clear();
   const int substeps = parts.settings.substeps;
   const double length = parts.time_step / substeps;
   for (int k = 0; k < substeps; ++k) {
     if (parts.next_contact)
-      parts.advance_by_contacts(from + k * length, length);
+      parts.advance_by_contacts(k * length, length);
     else
-      parts.advance(from + k * length, length);
+      parts.advance(k * length, length);
   }
   ++parts.steps;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "bullet_box.h"
 
@@ -151,6 +152,19 @@ TEST_P(BulletSplits, FramesInsideAStepAreInOrderAndEachGoesOnFromTheLast) {
   EXPECT_EQ(whole, steps);
   EXPECT_GT(frames.size(), steps);      // the collision made some
   EXPECT_LE(frames.size(), steps + 8);  // but rolling makes none
+}
+
+TEST_P(BulletSplits, ALateClockDoesNotSwallowTheImpact) {
+  // A millionth of a step at 16 kHz is below the rounding of a clock that stands at 1e6 s.
+  const double rate = 16000, e = 0.9, speed = 0.3;
+  const HardScene scene = head_on(speed, 0, 2.5, rate, e);
+  engine_.configure(scene, splitting(), 1 / rate);
+  engine_.start(scene.initial, 1e6);
+  std::vector<Frame> frames;
+  engine_.advance(5, [&](const Frame& frame) { frames.push_back(frame); });
+  const auto hit = std::ranges::find_if(frames, touch_each_other);
+  ASSERT_NE(hit, frames.end());
+  EXPECT_NEAR((hit->bodies[1].velocity - hit->bodies[0].velocity).x() / speed, e, 1e-9);
 }
 
 TEST_P(BulletSplits, ADroppedBallComesBackWithItsRestitution) {
