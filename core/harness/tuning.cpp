@@ -9,8 +9,8 @@
 namespace slipcheck {
 namespace {
 
-/// So many of the search's best go to the last comparison, beside the start: with few phases the
-/// order of the best is uncertain.
+/// So many of the search's best at least go to the last comparison, beside the start: with few
+/// phases the order of the best is uncertain.
 constexpr std::size_t kFinalists = 4;
 /// More error than this times that of the training scenes is overfitted.
 constexpr double kOverfitted = 2;
@@ -42,6 +42,14 @@ std::size_t choice(const std::vector<TuningFinalist>& finalists, const TuningGoa
     if (clearly || (goal.within && is_better(one, other, goal))) chosen = k;
   }
   return is_better(finalists[chosen].training, finalists[0].training, goal) ? chosen : 0;
+}
+
+/// Where a goal is to be met, further ones have their turn until one meets it on all phases.
+bool are_enough(const std::vector<TuningFinalist>& finalists, const TuningGoal& goal) {
+  if (finalists.size() <= kFinalists) return false;
+  return !goal.within || std::ranges::any_of(finalists, [](const TuningFinalist& each) {
+    return each.training.worst <= 1;
+  });
 }
 
 }  // namespace
@@ -82,12 +90,13 @@ TuningResult tune(const TuningSpace& space, TuningEvaluator& evaluator,
     };
     return rank(a) < rank(b);
   });
-  if (ranked.size() > kFinalists) ranked.resize(kFinalists);
 
   result.finalists.push_back(finalist(evaluator, space.start, options));
   if (search.best().settings == space.start) return result;
-  for (const TuningCandidate& candidate : ranked)
+  for (const TuningCandidate& candidate : ranked) {
+    if (are_enough(result.finalists, goal)) break;
     result.finalists.push_back(finalist(evaluator, candidate.settings, options));
+  }
   result.chosen = choice(result.finalists, goal);
   return result;
 }
