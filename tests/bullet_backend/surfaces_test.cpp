@@ -63,8 +63,9 @@ TEST_P(BulletSurfaces, K24ARollingBallFollowsAShakerWithTwoSeventhsOfWhatBulletI
     std::function<Vector3(double)> velocity;  // as told, of the step that ends at t
   };
   const Way ways[] = {
-      {"step_before", [&](double t) { return (place(t - dt) - place(t - 2 * dt)) / dt; }},
-      {"this_step", [&](double t) { return (place(t) - place(t - dt)) / dt; }},
+      {"step_before",
+       [&](double t) -> Vector3 { return (place(t - dt) - place(t - 2 * dt)) / dt; }},
+      {"this_step", [&](double t) -> Vector3 { return (place(t) - place(t - dt)) / dt; }},
       {"step_end", [&](double t) { return shaker.velocity(t); }}};
   for (const Way& way : ways) {
     std::size_t n = 0;
