@@ -30,6 +30,21 @@ void PairCoefficients::set_time_step(double time_step) {
     const double weight = body.mass * scene_.gravity * time_step;
     raise_.push_back(settings_.body == BodyKind::rigid ? std::max(1.0, weight) : 1.0);
   }
+  fixed_.clear();
+  if (scene_.box || depends_on_motion()) return;
+  for (int body = 0; body < static_cast<int>(scene_.bodies.size()); ++body)
+    fixed_.push_back({friction(body, kFloor, true), restitution(body, kFloor, 0),
+                      rolling_friction(body, kFloor, 0, true), spinning_friction(body, kFloor)});
+}
+
+bool PairCoefficients::depends_on_motion() const {
+  if (settings_.body == BodyKind::multibody) return true;  // restitution()
+  return std::ranges::any_of(scene_.substrate, [this](const SubstrateContact& ground) {
+    if (!ground.rolling.is_constant()) return true;
+    return settings_.coefficients == CoefficientMap::pair_and_slip &&
+           (ground.static_friction != ground.kinetic_friction ||
+            (!ground.rolling.is_zero() && !ground.rolling_while_sliding));
+  });
 }
 
 const PairContact& PairCoefficients::pair_contact(int body, int other) const {

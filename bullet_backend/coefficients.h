@@ -23,6 +23,14 @@ namespace slipcheck::bullet {
 /// the floor of a box, either of its walls, its lid.
 inline constexpr int kFloor = kSubstrate, kWall = -2, kLid = -3;
 
+/// The four numbers of a contact, or those that people type into a body's own fields.
+struct BodyFields {
+  double friction = 0.5;
+  double restitution = 0;
+  double rolling_friction = 0;
+  double spinning_friction = 0;
+};
+
 /// The exact map: pair by pair, what makes Bullet's contact do what the scene says. Lengths, times
 /// and masses in the units of the scene that it is given.
 class PairCoefficients {
@@ -54,6 +62,12 @@ class PairCoefficients {
   /// box 0.
   double spinning_friction(int body, int other) const;
 
+  /// All four where none of them depends on how the body moves over the substrate, so that nobody
+  /// needs to look; else null.
+  const BodyFields* fixed(int body, int other) const {
+    return is_substrate(other) && !fixed_.empty() ? &fixed_[index(body)] : nullptr;
+  }
+
   /// Whether a contact with the substrate slips at this speed: faster than friction can stop in
   /// the step, in which u falls by (1 + 1/q) μ_k g dt.
   bool slips(int body, double slip_speed) const;
@@ -66,6 +80,7 @@ class PairCoefficients {
   /// What two balls do, or a ball and a box.
   const PairContact& pair_contact(int body, int other) const;
   bool is_substrate(int other) const { return other == kSubstrate && !scene_.box; }
+  bool depends_on_motion() const;
   /// Gravity towards a surface.
   double gravity_onto(int other) const;
   static std::size_t index(int body) { return static_cast<std::size_t>(body); }
@@ -74,15 +89,8 @@ class PairCoefficients {
   BulletSettings settings_;
   double time_step_ = 0;
   Vector3 ground_velocity_ = Vector3::Zero();
-  std::vector<double> raise_;  // max(1, m g dt), by body
-};
-
-/// What people type into a body's own fields.
-struct BodyFields {
-  double friction = 0.5;
-  double restitution = 0;
-  double rolling_friction = 0;
-  double spinning_friction = 0;
+  std::vector<double> raise_;      // max(1, m g dt), by body
+  std::vector<BodyFields> fixed_;  // by body; empty where one of them depends on motion
 };
 
 /// The scene's numbers straight: a ball gets μ_k and μ_r of its contact with the substrate, its

@@ -21,6 +21,7 @@ struct Pair {
 
   int body() const { return ball->getUserIndex(); }
   int other_index() const { return other->getUserIndex(); }
+  const BodyFields* fixed() const { return coefficients.fixed(body(), other_index()); }
 };
 
 Pair identify(const btCollisionObject* first, const btCollisionObject* second) {
@@ -62,11 +63,13 @@ bool slips(const Pair& pair) {
 
 btScalar friction(const btCollisionObject* first, const btCollisionObject* second) {
   const Pair pair = identify(first, second);
+  if (const BodyFields* fixed = pair.fixed()) return btScalar(fixed->friction);
   return btScalar(pair.coefficients.friction(pair.body(), pair.other_index(), slips(pair)));
 }
 
 btScalar restitution(const btCollisionObject* first, const btCollisionObject* second) {
   const Pair pair = identify(first, second);
+  if (const BodyFields* fixed = pair.fixed()) return btScalar(fixed->restitution);
   const Vector3 velocity = motion_of(*pair.ball).velocity - motion_of(*pair.other).velocity;
   const double approach_speed = std::abs(velocity.dot(normal_of(pair)));
   return btScalar(pair.coefficients.restitution(pair.body(), pair.other_index(), approach_speed));
@@ -74,6 +77,7 @@ btScalar restitution(const btCollisionObject* first, const btCollisionObject* se
 
 btScalar rolling_friction(const btCollisionObject* first, const btCollisionObject* second) {
   const Pair pair = identify(first, second);
+  if (const BodyFields* fixed = pair.fixed()) return btScalar(fixed->rolling_friction);
   if (pair.other_index() >= 0) return 0;
   const OverPlane motion = over_plane(pair);
   return btScalar(
@@ -83,6 +87,7 @@ btScalar rolling_friction(const btCollisionObject* first, const btCollisionObjec
 
 btScalar spinning_friction(const btCollisionObject* first, const btCollisionObject* second) {
   const Pair pair = identify(first, second);
+  if (const BodyFields* fixed = pair.fixed()) return btScalar(fixed->spinning_friction);
   return btScalar(pair.coefficients.spinning_friction(pair.body(), pair.other_index()));
 }
 

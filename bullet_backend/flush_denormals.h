@@ -11,14 +11,21 @@ namespace slipcheck::bullet {
 class FlushDenormals {
  public:
 #if defined(__SSE2__)
-  explicit FlushDenormals(bool wanted) : before_(_mm_getcsr()) {
+  explicit FlushDenormals(bool wanted) : wanted_(wanted) {
+    if (!wanted) return;
     constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
-    if (wanted) _mm_setcsr(before_ | kFlushToZero | kDenormalsAreZero);
+    before_ = _mm_getcsr();
+    _mm_setcsr(before_ | kFlushToZero | kDenormalsAreZero);
   }
-  ~FlushDenormals() { _mm_setcsr(before_); }
+  ~FlushDenormals() {
+    if (wanted_) _mm_setcsr(before_);
+  }
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
 
  private:
-  unsigned before_;
+  bool wanted_;
+  unsigned before_ = 0;
 #else
   explicit FlushDenormals(bool) {}
 #endif

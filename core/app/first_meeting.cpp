@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "reference/initial_contacts.h"
 #include "reference/reference_solver.h"
 
 namespace slipcheck {
@@ -46,6 +47,7 @@ class UntilTouch final : public FrameSink {
 
 std::optional<Meeting> first_meeting(const ContactScene& scene, double limit) {
   if (scene.hard.bodies.size() < 2 || scene.hard.box) return std::nullopt;
+  if (!initial_contacts(scene, scene.hard.initial).empty()) return std::nullopt;
   const ContactScene hard = with_hard_contacts(scene.hard);
   const ReferenceSolver solver(hard, Compare::Reference::event);
   const double time = solver.next_collision(hard.hard.initial, 0, limit, 0);

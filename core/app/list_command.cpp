@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "app/bundled_scenes.h"
 #include "app/commands.h"
 #include "app/list_engines.h"
 #include "scenario/fault.h"
@@ -21,23 +21,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// Bundled scenes lie beside the program, in its share folder, or in the source tree.
-fs::path scenario_directory() {
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const fs::path& directory :
-       {program / "scenarios", program.parent_path() / "share/slipcheck/scenarios"})
-    if (fs::is_directory(directory, ignored)) return directory;
-  return SLIPCHECK_SCENARIO_DIR;
-}
-
 Json list_scenarios() {
   Json list = Json::array();
-  std::set<fs::path> files;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(scenario_directory(), ignored))
-    if (entry.path().extension() == ".yaml") files.insert(entry.path());
-  for (const fs::path& file : files) {
+  for (const fs::path& file : bundled_scenes()) {
     try {
       const Scenario scenario = load_scenario(file);
       list.push_back(Json{{"name", scenario.name},

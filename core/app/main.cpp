@@ -23,10 +23,14 @@ int main(int argc, char** argv) {
       "scenarios/symmetric-30cms.yaml --phases 64");
   int exit_code = kWithinTolerance;
   add_run_command(app, exit_code);
+  add_check_command(app, exit_code);
   add_explain_command(app, exit_code);
   add_figures_command(app, exit_code);
   add_list_command(app, exit_code);
+  add_precision_command(app, exit_code);
+  add_report_command(app, exit_code);
   add_schema_command(app, exit_code);
+  add_stability_command(app, exit_code);
   add_tune_command(app, exit_code);
   try {
     app.parse(argc, argv);

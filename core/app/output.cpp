@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "app/commands.h"
+#include "app/progress_bar.h"
 
 namespace slipcheck {
 
@@ -29,10 +30,14 @@ void check_output(const std::string& option, const fs::path& path, bool is_direc
     throw BadOption(fmt::format("{}: must be a file, got {}", option, path.string()));
 }
 
-int terminal_width() {
+TableStyle table_style(bool all) {
+  TableStyle style;
+  style.colour = is_plain_terminal(STDOUT_FILENO);
   winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
-  return 100;
+  const bool is_terminal = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  style.width = is_terminal ? size.ws_col : 100;
+  style.all_observables = all;
+  return style;
 }
 
 }  // namespace slipcheck

@@ -3,13 +3,16 @@
 #include <filesystem>
 #include <string>
 
+#include "report/columns.h"
+
 namespace slipcheck {
 
 /// What cannot be written in the end is refused before anything runs: throws BadOption with the
 /// option, the rule and the path.
 void check_output(const std::string& option, const std::filesystem::path& path, bool is_directory);
 
-/// Columns of the terminal that stdout is; 100 where it is none.
-int terminal_width();
+/// How tables look on stdout, 100 columns wide where it is no terminal. `all`: with what is else
+/// left out.
+TableStyle table_style(bool all = false);
 
 }  // namespace slipcheck

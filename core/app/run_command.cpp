@@ -12,12 +12,16 @@
 #include "app/load_files.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
+#include "app/result_outputs.h"
+#include "app/set_option.h"
 #include "harness/scene_run.h"
 #include "report/brief.h"
 #include "report/context.h"
 #include "report/files.h"
-#include "report/html_report.h"
 #include "report/json_report.h"
+#include "report/motion_json.h"
+#include "report/report_page.h"
+#include "report/result_csv.h"
 #include "report/table.h"
 
 namespace slipcheck {
@@ -26,8 +30,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunArguments {
-  std::vector<std::string> files;
-  std::string json, html, directory;
+  std::vector<std::string> files, settings;
+  std::string json, directory;
+  ResultOutputs outputs;
   RunOptions options;
   std::size_t memory_limit = 2048;  // MiB
   bool all = false, summary = false, quiet = false;
@@ -43,21 +48,26 @@ int exit_code_of(const std::vector<SceneRecord>& scenes) {
   return code;
 }
 
-void write_results(const RunArguments& arguments, const std::vector<SceneRecord>& scenes,
-                   const std::string& command) {
-  if (arguments.json == "-")
-    fmt::print("{}\n", json_of(scenes).dump(2));
-  else if (!arguments.json.empty())
-    write_file_atomically(arguments.json, json_of(scenes).dump(2) + "\n");
-  if (!arguments.html.empty()) write_file_atomically(arguments.html, html_of(scenes, command));
-  if (!arguments.directory.empty()) {
-    const fs::path directory = arguments.directory;
-    fs::create_directories(directory);
-    for (const SceneRecord& scene : scenes)
-      write_file_atomically(directory / (scene.scenario.name + ".json"),
-                            json_of(scene).dump(2) + "\n");
-    write_file_atomically(directory / "report.html", html_of(scenes, command));
+/// What `slipcheck report` makes its page of, and that page.
+void write_folder(const fs::path& directory, const ReportContent& content) {
+  fs::create_directories(directory);
+  for (const SceneRecord& scene : content.scenes) {
+    const fs::path stem = directory / scene.scenario.name;
+    write_file_atomically(stem.string() + ".json", json_of(scene).dump(2) + "\n");
+    if (has_motions(scene))
+      write_file_atomically(stem.string() + ".motion.json", motion_json_of(scene).dump() + "\n");
   }
+  write_file_atomically(directory / "results.csv", results_csv(content.scenes));
+  write_file_atomically(directory / "report.html", report_page(content));
+}
+
+void write_results(const RunArguments& arguments, const ReportContent& content) {
+  if (arguments.json == "-")
+    fmt::print("{}\n", json_of(content.scenes).dump(2));
+  else if (!arguments.json.empty())
+    write_file_atomically(arguments.json, json_of(content.scenes).dump(2) + "\n");
+  write_outputs(arguments.outputs, content);
+  if (!arguments.directory.empty()) write_folder(arguments.directory, content);
 }
 
 void print_warnings(const std::vector<SceneRecord>& scenes) {
@@ -71,30 +81,33 @@ void print_warnings(const std::vector<SceneRecord>& scenes) {
 int run(RunArguments& arguments) {
   if (!arguments.json.empty() && arguments.json != "-")
     check_output("--json", arguments.json, false);
-  if (!arguments.html.empty()) check_output("--html", arguments.html, false);
+  check_outputs(arguments.outputs);
   if (!arguments.directory.empty()) check_output("--out", arguments.directory, true);
+  arguments.options.settings = parse_settings(arguments.settings);
   std::vector<Scenario> scenarios = load_files(arguments.files);
 
   watch_for_interrupts();
   arguments.options.stop = &interrupted();
+  arguments.options.record_motion = arguments.outputs.show_motion() || !arguments.directory.empty();
   arguments.options.limits.memory = arguments.memory_limit << 20;
   if (is_debug_build() && !arguments.quiet)
     fmt::print(stderr, "warning: this is a debug build; its run times say nothing\n");
-  std::vector<SceneRecord> scenes;
+  ReportContent content;
+  content.context = context();
   {
     ProgressBar bar("running", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
     arguments.options.progress = [&](std::size_t done, std::size_t total) { bar.set(done, total); };
-    scenes = run_scenes(std::move(scenarios), arguments.options);
+    content.scenes = run_scenes(std::move(scenarios), arguments.options);
   }
-  const std::string command = fmt::format(
-      "slipcheck run {} --phases {}", fmt::join(arguments.files, " "), arguments.options.phases);
-  write_results(arguments, scenes, command);
+  std::string command = fmt::format("slipcheck run {} --phases {}", fmt::join(arguments.files, " "),
+                                    arguments.options.phases);
+  for (const std::string& setting : arguments.settings) command += " --set " + setting;
+  content.commands = {command};
+  write_results(arguments, content);
+  const std::vector<SceneRecord>& scenes = content.scenes;
   if (!arguments.quiet) {
     if (arguments.json != "-") {
-      TableStyle style;
-      style.colour = is_plain_terminal(STDOUT_FILENO);
-      style.width = terminal_width();
-      style.all_observables = arguments.all;
+      const TableStyle style = table_style(arguments.all);
       if (arguments.summary)
         fmt::print("{}\n", brief_of(scenes, style));
       else
@@ -115,9 +128,10 @@ void add_run_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<RunArguments>();
   command->add_option("FILE", arguments->files, "Scenario files")->required();
   command->add_option("--json", arguments->json, "Write the result file here; - is stdout");
-  command->add_option("--html", arguments->html, "Write one self-contained page here");
   command->add_option("--out", arguments->directory,
-                      "Write a result folder: a JSON file for each scene, and report.html");
+                      "Write a result folder: JSON files for each scene, a CSV file, and "
+                      "report.html");
+  add_result_outputs(*command, arguments->outputs, "--html");
   command
       ->add_option("--phases", arguments->options.phases,
                    "Runs in each engine's ensemble, by where in a step the first contact falls")
@@ -136,6 +150,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("--memory-limit", arguments->memory_limit, "MiB for one engine")
       ->check(CLI::Range(16, 1 << 20))
       ->capture_default_str();
+  add_set_option(*command, arguments->settings);
   command->add_flag("--all", arguments->all,
                     "Show every observable, not only those with a tolerance");
   command->add_flag("--summary", arguments->summary,
@@ -145,6 +160,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  slipcheck run scenarios/symmetric-30cms.yaml --phases 64\n"
       "  slipcheck run scenarios/*.yaml --out results/today\n"
+      "  slipcheck run scene.yaml --set erp2=0.4 --html what-if.html\n"
       "  slipcheck run scene.yaml --json - | jq .verdict");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

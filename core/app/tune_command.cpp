@@ -108,10 +108,7 @@ int tune_engine(TuneArguments& arguments) {
   else if (!json.empty())
     write_file_atomically(arguments.json, json);
   if (!arguments.quiet) {
-    TableStyle style;
-    style.colour = is_plain_terminal(STDOUT_FILENO);
-    style.width = terminal_width();
-    if (arguments.json != "-") fmt::print("{}", tuning_table(record, style));
+    if (arguments.json != "-") fmt::print("{}", tuning_table(record, table_style()));
     if (record.result.chosen == 0)
       fmt::print(stderr, "nothing that was tried is better than {}: its settings were written\n",
                  record.start);

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/tuning_runs.h"
 #include "report/tuning_record.h"
+#include "tuning/tuning_runs.h"
 
 namespace slipcheck {
 

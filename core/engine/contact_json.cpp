@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
@@ -13,8 +12,6 @@ namespace slipcheck::protocol {
 using nlohmann::json;
 
 namespace {
-
-constexpr double kTiny = std::numeric_limits<double>::min();  // stands for "> 0"
 
 json to_json(const RollingFriction& rolling) {
   json table = json::array();

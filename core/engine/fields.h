@@ -11,6 +11,9 @@ namespace slipcheck::protocol {
 
 using Bytes = std::vector<std::uint8_t>;
 
+/// Stands for "> 0" as the least of a range.
+inline constexpr double kTiny = std::numeric_limits<double>::min();
+
 /// What came in does not keep to the protocol; the message says where and how.
 class Rubbish : public std::runtime_error {
  public:

@@ -129,6 +129,13 @@ Frames frames_from_json(const Fields& fields) {
   return reply;
 }
 
+std::vector<double> times_from_json(const Fields& fields) {
+  std::vector<double> times = fields.numbers("cpu_seconds");
+  for (const double time : times)
+    if (time < 0) throw Rubbish(fmt::format("reply.cpu_seconds holds {}, not >= 0", time));
+  return times;
+}
+
 // --- the other messages --------------------------------------------------------------------------
 
 json to_json(const Hello& request) { return {{"type", "hello"}, {"protocol", request.version}}; }
@@ -144,6 +151,13 @@ json to_json(const Start& request) {
           {"time", request.time}};
 }
 json to_json(const Step& request) { return {{"type", "step"}, {"count", request.count}}; }
+json to_json(const Time& request) {
+  return {{"type", "time"},
+          {"states", json::binary(pack_states(request.states))},
+          {"time", request.time},
+          {"steps", request.steps},
+          {"repeats", request.repeats}};
+}
 json to_json(const Quit&) { return {{"type", "quit"}}; }
 
 json to_json(const Welcome& reply) {
@@ -161,6 +175,7 @@ json to_json(const Configured& reply) {
 }
 json to_json(const Refusal& reply) { return {{"type", "refused"}, {"reason", reply.reason}}; }
 json to_json(const Started&) { return {{"type", "started"}}; }
+json to_json(const Timed& reply) { return {{"type", "timed"}, {"cpu_seconds", reply.cpu_seconds}}; }
 json to_json(const Failed& reply) { return {{"type", "failed"}, {"reason", reply.reason}}; }
 
 }  // namespace
@@ -199,6 +214,13 @@ Request decode_request(std::span<const std::uint8_t> body) {
     if (step.count == 0) throw Rubbish("request.count is 0");
     return step;
   }
+  if (type == "time") {
+    Time time{unpack_states(fields.bytes("states"), "request.states"), fields.number("time", 0),
+              fields.count("steps", kMaxMessage), fields.count("repeats", kMaxMessage)};
+    if (time.steps == 0) throw Rubbish("request.steps is 0");
+    if (time.repeats == 0) throw Rubbish("request.repeats is 0");
+    return time;
+  }
   if (type == "quit") return Quit{};
   throw Rubbish(fmt::format("there is no request '{}'", type));
 }
@@ -219,6 +241,7 @@ Reply decode_reply(std::span<const std::uint8_t> body) {
   }
   if (type == "refused") return Refusal{fields.text("reason")};
   if (type == "started") return Started{};
+  if (type == "timed") return Timed{times_from_json(fields)};
   if (type == "failed") return Failed{fields.text("reason")};
   throw Rubbish(fmt::format("there is no reply '{}'", type));
 }

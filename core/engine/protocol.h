@@ -14,7 +14,7 @@
 /// one request, one reply. docs/engine-protocol.md words it for other languages.
 namespace slipcheck::protocol {
 
-inline constexpr std::size_t kVersion = 4;
+inline constexpr std::size_t kVersion = 5;
 inline constexpr std::size_t kMaxMessage = std::size_t{64} << 20;  ///< of a message's body [bytes]
 inline constexpr std::size_t kPrefix = 4;  ///< the body's length before it, u32 little-endian
 
@@ -35,8 +35,15 @@ struct Start {
 struct Step {
   std::size_t count = 1;  ///< >= 1
 };
+/// How long steps take, with nothing looked at in between.
+struct Time {
+  std::vector<BodyState> states;
+  double time = 0;          ///< of the states [s], >= 0
+  std::size_t steps = 1;    ///< of each run, >= 1
+  std::size_t repeats = 1;  ///< runs, each from a fresh world, >= 1
+};
 struct Quit {};
-using Request = std::variant<Hello, Configure, Start, Step, Quit>;
+using Request = std::variant<Hello, Configure, Start, Step, Time, Quit>;
 
 // --- replies -------------------------------------------------------------------------------------
 
@@ -55,11 +62,14 @@ struct Frames {
   std::vector<Frame> frames;
   double cpu_seconds = 0;  ///< that the steps took [s], >= 0
 };
+struct Timed {
+  std::vector<double> cpu_seconds;  ///< that the steps of each run took [s], >= 0
+};
 /// The request was not understood or the engine threw.
 struct Failed {
   std::string reason;
 };
-using Reply = std::variant<Welcome, Configured, Refusal, Started, Frames, Failed>;
+using Reply = std::variant<Welcome, Configured, Refusal, Started, Frames, Timed, Failed>;
 
 /// A whole message, prefix included. A message longer than kMaxMessage throws std::length_error.
 Bytes encode(const Request& request);

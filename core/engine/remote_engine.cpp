@@ -73,6 +73,16 @@ void RemoteEngine::start(std::span<const BodyState> states, double time) {
   ask<protocol::Started>(protocol::Start{{states.begin(), states.end()}, time});
 }
 
+std::vector<double> RemoteEngine::time_steps(std::span<const BodyState> states, double time,
+                                             std::size_t steps, std::size_t repeats) {
+  deadline_ = Clock::time_point::max();
+  auto reply =
+      ask<protocol::Timed>(protocol::Time{{states.begin(), states.end()}, time, steps, repeats});
+  if (reply.cpu_seconds.size() != repeats)
+    process_.fail(Status::crashed, "spoke rubbish: not the times asked for");
+  return std::move(reply.cpu_seconds);
+}
+
 double RemoteEngine::advance(std::size_t steps, const std::function<void(const Frame&)>& callback) {
   double cpu_seconds = 0;
   const std::size_t most = steps_at_once(bodies_);

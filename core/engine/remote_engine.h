@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "engine/engine.h"
 #include "engine/protocol.h"
@@ -35,6 +36,12 @@ class RemoteEngine {
   /// callback that throws leaves the worker alive, further on by up to a MiB of frames.
   /// Returns the CPU time that the engine took for its steps [s].
   double advance(std::size_t steps, const std::function<void(const Frame&)>& callback);
+
+  /// The CPU time [s] that the first `steps` steps take from these states at `time` [s] on, in each
+  /// of `repeats` runs, with nothing looked at in between; both >= 1. All of it is one exchange,
+  /// for which the limit of a reply holds. A run of its own begins with start() afterwards.
+  std::vector<double> time_steps(std::span<const BodyState> states, double time, std::size_t steps,
+                                 std::size_t repeats);
 
   /// Wall-clock time that a run may take, from start() to the last frame [s], > 0; infinite unless
   /// set.

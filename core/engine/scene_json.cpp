@@ -32,7 +32,6 @@ T copy(const std::uint8_t* at) {
   return value;
 }
 
-constexpr double kTiny = std::numeric_limits<double>::min();  // stands for "> 0"
 constexpr double kHuge = std::numeric_limits<double>::max();
 
 // --- the substrate's motion ----------------------------------------------------------------------

@@ -109,8 +109,7 @@ class Worker {
   }
 
   protocol::Reply handle(const protocol::Start& request) {
-    if (bodies_ == 0) return protocol::Failed{"start before configure"};
-    if (request.states.size() != bodies_) return protocol::Failed{"wrong number of states"};
+    if (const char* fault = fault_of_start(request.states)) return protocol::Failed{fault};
     engine_.start(request.states, request.time);
     started_ = true;
     return protocol::Started{};
@@ -131,9 +130,29 @@ class Worker {
     return reply;
   }
 
+  protocol::Reply handle(const protocol::Time& request) {
+    if (const char* fault = fault_of_start(request.states)) return protocol::Failed{fault};
+    started_ = false;
+    protocol::Timed reply;
+    reply.cpu_seconds.reserve(request.repeats);
+    for (std::size_t run = 0; run < request.repeats; ++run) {
+      engine_.start(request.states, request.time);
+      const double before = cpu_seconds();
+      for (std::size_t k = 0; k < request.steps; ++k) engine_.step();
+      reply.cpu_seconds.push_back(cpu_seconds() - before);
+    }
+    return reply;
+  }
+
   protocol::Reply handle(const protocol::Quit&) {
     return protocol::Started{};
   }  // run_worker returns
+
+  /// Null for a good one.
+  const char* fault_of_start(const std::vector<BodyState>& states) const {
+    if (bodies_ == 0) return "start before configure";
+    return states.size() == bodies_ ? nullptr : "wrong number of states";
+  }
 
   void refuse_bad_settings(const Settings& settings) const {
     const std::vector<SettingFault> faults = check_settings(engine_.info().settings, settings);

@@ -10,10 +10,11 @@
 namespace slipcheck {
 namespace {
 
-using Status = JobResult::Status;
+using JobStatus = JobResult::Status;
 
-Status status_of(const WorkerFailure& failure) {
-  return failure.status() == WorkerFailure::Status::timed_out ? Status::timed_out : Status::crashed;
+JobStatus status_of(const WorkerFailure& failure) {
+  return failure.status() == WorkerFailure::Status::timed_out ? JobStatus::timed_out
+                                                              : JobStatus::crashed;
 }
 
 /// One thread's workers, at most one for each executable.
@@ -23,20 +24,20 @@ class Workers {
       : limits_(limits), stop_(stop) {}
 
   JobResult run(const EngineJob& job) {
-    if (stop_ != nullptr && *stop_) return {Status::skipped, "interrupted", nullptr};
+    if (stop_ != nullptr && *stop_) return {JobStatus::skipped, "interrupted", nullptr};
     try {
       job.work(engine_for(job.executable));
-      return {Status::ok, "", nullptr};
+      return {JobStatus::ok, "", nullptr};
     } catch (const WorkerFailure& failure) {
       return {status_of(failure), failure.what(), std::current_exception()};
     } catch (const Interrupted& interrupted) {
-      return {Status::skipped, interrupted.what(), std::current_exception()};
+      return {JobStatus::skipped, interrupted.what(), std::current_exception()};
     } catch (const Refused& refused) {
-      return {Status::skipped, refused.what(), std::current_exception()};
+      return {JobStatus::skipped, refused.what(), std::current_exception()};
     } catch (const std::exception& error) {
-      return {Status::failed, error.what(), std::current_exception()};
+      return {JobStatus::failed, error.what(), std::current_exception()};
     } catch (...) {
-      return {Status::failed, "threw something that is no exception", std::current_exception()};
+      return {JobStatus::failed, "threw something that is no exception", std::current_exception()};
     }
   }
 

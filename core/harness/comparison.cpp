@@ -2,23 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 #include "harness/observables.h"
 #include "scenario/observable_names.h"
 
 namespace slipcheck {
 namespace {
-
-double median(std::vector<double> values) {
-  const std::size_t half = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half),
-                   values.end());
-  const double upper = values[half];
-  if (values.size() % 2 == 1) return upper;
-  const double lower =
-      *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half));
-  return 0.5 * (lower + upper);
-}
 
 /// "i.final_velocity.x" is of "i", named "final_velocity.x".
 struct FullName {
@@ -106,24 +97,26 @@ Deviation deviation(const Scenario& scenario, const ReferenceResult& reference,
     differences = is_vector ? vector_differences(scenario, reference, ensemble, name, *observable)
                             : scalar_differences(expected, found->second);
   if (differences.by_phase.empty()) {
-    result.median = result.max = kNotObserved;
+    result.median = result.max = result.rms = kNotObserved;
     result.reason = "no run of the engine shows it";
   } else {
     const double scale = result.absolute ? 1 : differences.scale;
     result.median = median(differences.by_phase);
     result.max = *std::max_element(differences.by_phase.begin(), differences.by_phase.end());
+    result.rms = root_mean_square(differences.by_phase);
     // Zero within the reference's own uncertainty: a relative error has no meaning. That of an
     // average over a box is statistical, a bound with 95 %; elsewhere it is of rounding.
     const double slack = (reference.box ? 1 : 10) * differences.uncertainty;
     const bool is_zero = !result.absolute && scale <= slack;
     if (is_zero && result.max > slack) {
-      result.median = result.max = kNotObserved;
+      result.median = result.max = result.rms = kNotObserved;
       result.reason = "the reference is 0: a tolerance with a unit compares it";
     } else if (is_zero) {
-      result.median = result.max = 0;
+      result.median = result.max = result.rms = 0;
     } else {
       result.median /= scale;
       result.max /= scale;
+      result.rms /= scale;
     }
     if (found->second.missing > 0) result.reason = missing_phases(found->second);
   }
@@ -163,6 +156,26 @@ ExpectationResult none_result(const std::string& name, const EnsembleValue* seen
 
 }  // namespace
 
+double median(std::vector<double> values) {
+  const std::size_t half = values.size() / 2;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half),
+                   values.end());
+  const double upper = values[half];
+  if (values.size() % 2 == 1) return upper;
+  const double lower =
+      *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half));
+  return 0.5 * (lower + upper);
+}
+
+double root_mean_square(std::span<const double> values) {
+  // Over the largest, that squares neither vanish nor overflow.
+  double largest = 0, sum = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  if (largest == 0) return 0;
+  for (const double value : values) sum += (value / largest) * (value / largest);
+  return largest * std::sqrt(sum / static_cast<double>(values.size()));
+}
+
 std::map<std::string, EnsembleValue> ensemble_values(
     const std::vector<std::map<std::string, double>>& phases) {
   std::map<std::string, EnsembleValue> ensemble;
@@ -200,9 +213,41 @@ std::map<std::string, Deviation> deviations(const Scenario& scenario,
                     .tolerance = tolerance->second.value,
                     .absolute = tolerance->second.absolute,
                     .within = false,
-                    .reason = "it does not occur in the reference"};
+                    .reason = "it does not occur in the reference",
+                    .rms = kNotObserved};
   }
   return result;
+}
+
+std::vector<double> phase_errors(const Scenario& scenario, const ReferenceResult& reference,
+                                 const Ensemble& ensemble) {
+  std::size_t phases = 0;
+  for (const auto& [name, value] : ensemble) phases = std::max(phases, value.values.size());
+  std::vector<double> errors(phases, kNotObserved);
+  const auto has_tolerance = [&](const std::string& name) {
+    return scenario.compare.tolerance.contains(FullName(name).observable);
+  };
+  for (std::size_t p = 0; p < phases; ++p) {
+    std::map<std::string, double> seen;
+    for (const auto& [name, value] : ensemble)
+      if (!std::isnan(value.values[p])) seen.emplace(name, value.values[p]);
+    const auto note = [&](double error) { errors[p] = std::fmax(errors[p], error); };
+    const Ensemble alone = ensemble_values({seen});
+    for (const auto& [name, value] : reference.observables) {
+      if (!has_tolerance(name)) continue;
+      const Deviation off = deviation(scenario, reference, alone, name);
+      if (off.within && off.max == 0)
+        note(0);
+      else if (!std::isnan(off.max))
+        note(off.max / *off.tolerance);
+      else if (!seen.contains(name))
+        note(std::numeric_limits<double>::infinity());
+    }
+    for (const auto& [name, value] : seen)
+      if (has_tolerance(name) && !reference.observables.contains(name))
+        note(std::numeric_limits<double>::infinity());
+  }
+  return errors;
 }
 
 std::vector<ExpectationResult> expectation_results(const Expectation& expectation,

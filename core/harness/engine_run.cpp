@@ -11,6 +11,7 @@
 #include "harness/engine_state.h"
 #include "harness/observer.h"
 #include "harness/phases.h"
+#include "reference/initial_contacts.h"
 
 namespace slipcheck {
 namespace {
@@ -27,9 +28,10 @@ class PhaseRun {
       : solver_(*task.solver),
         scene_(task.solver->scene().hard),
         end_(run_end(*task.scenario)),
-        scale_(speed_scale(scene_, scene_.initial)),
+        scale_(speed_scale(task.solver->scene())),
         step_(step),
         start_(start),
+        watch_(task.watch),
         observer_(scene_, step, scale_, task.solver->is_resolved()) {
     Frame frame;
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
@@ -41,19 +43,24 @@ class PhaseRun {
       frame.bodies = solver_.states_at(start);
       observer_.take(start, frame);
     }
+    if (watch_) watch_->begin(start, frame.bodies);
   }
 
   /// The end of one more step, or an instant inside it.
   void take(const Frame& frame) {
-    if (ended_) return;
+    if (ended_ && !wants_more()) return;
     time_ = start_ + (static_cast<double>(steps_) + frame.part) * step_;
     if (frame.part == 1) ++steps_;
+    if (watch_) watch_->take(time_, frame);
+    if (ended_) return;
     check(frame);
     observer_.take(time_, frame);
     ended_ = has_ended(frame);
   }
 
   bool ended() const { return ended_; }
+  /// Whether somebody still looks after the end.
+  bool wants_more() const { return watch_ && watch_->wants_more(); }
   bool reached() const { return reached_; }
   double time() const { return time_; }
   Observables observables() const { return observer_.finish(end_time_); }
@@ -97,8 +104,8 @@ class PhaseRun {
           rolling_angular_velocity(states[i].velocity - frame_velocity, scene_.bodies[i].radius);
       states[i].angular_velocity.z() = spin;
     }
-    // What closes slower than this is no collision (Observer).
-    next_look_ = solver_.next_collision(states, time_, end_.limit, 2e-3 * scale_);
+    next_look_ =
+        solver_.next_collision(states, time_, end_.limit, 2 * observer_.weakest_collision());
     return std::isfinite(next_look_);
   }
 
@@ -106,6 +113,7 @@ class PhaseRun {
   const HardScene& scene_;
   RunEnd end_;
   double scale_, step_, start_;
+  PhaseWatch* watch_;
   Observer observer_;
   std::size_t steps_ = 0;
   double time_ = 0, end_time_ = 0;
@@ -134,7 +142,7 @@ void run_ensemble(RemoteEngine& engine, const EnsembleTask& task, EngineRecord& 
     for (double start : starts) {
       PhaseRun run(task, step, start);
       engine.start(task.solver->states_at(start), start);
-      while (!run.ended()) {
+      while (!run.ended() || run.wants_more()) {
         record.cpu_seconds += engine.advance(chunk, [&](const Frame& frame) { run.take(frame); });
         record.steps += chunk;
       }
@@ -153,7 +161,10 @@ void run_ensemble(RemoteEngine& engine, const EnsembleTask& task, EngineRecord& 
   if (unfinished > 0)
     record.warnings.push_back(fmt::format("{} of {} phases had not ended at the limit of {} s",
                                           unfinished, seen.size(), task.scenario->run.limit));
-  if (std::isfinite(task.reference->first_contact) && task.reference->first_contact < step)
+  const double first_contact = task.reference->first_contact;
+  if (first_contact == 0)
+    record.warnings.push_back("the first contact is there from the start: it has one phase only");
+  else if (std::isfinite(first_contact) && first_contact < step)
     record.warnings.push_back(
         "the first contact falls inside the first step: its phases cover a part of a step only");
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/remote_engine.h"
+#include "harness/phase_watch.h"
 #include "harness/record.h"
 
 namespace slipcheck {
@@ -14,7 +15,8 @@ struct EnsembleTask {
   const ReferenceSolver* solver = nullptr;
   const ReferenceResult* reference = nullptr;
   const Scenario* scenario = nullptr;
-  std::size_t phases = 32;  ///< >= 1
+  std::size_t phases = 32;      ///< >= 1
+  PhaseWatch* watch = nullptr;  ///< sees every frame too
 };
 
 /// Runs every phase of one engine at the rate of `record` and fills in its observables, errors and

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/event_solver.h"
+
 namespace slipcheck {
 namespace {
 
@@ -21,10 +23,24 @@ double FallingQuantity::time_to_zero(double before, double after, double dt) con
   return std::abs(after - expected) <= 0.1 * rate_ * dt ? before / rate_ : dt;
 }
 
+namespace {
+
+/// The fastest that the scene's centres come together by: a spin alone brings nothing together, but
+/// friction may turn some of it into speed.
+double closing_scale_of(const HardScene& scene, double speed_scale) {
+  constexpr double kOfSpins = 1e-3;
+  std::vector<BodyState> without_spin = scene.initial;
+  for (BodyState& state : without_spin) state.angular_velocity.setZero();
+  return std::max(slipcheck::speed_scale(scene, without_spin), kOfSpins * speed_scale);
+}
+
+}  // namespace
+
 Observer::Observer(const HardScene& scene, double step, double speed_scale, bool resolved)
     : scene_(&scene),
       step_(step),
       speed_scale_(speed_scale),
+      closing_scale_(closing_scale_of(scene, speed_scale)),
       resolved_(resolved),
       bodies_(scene.bodies.size()) {
   const double floor = (step > 0 ? kEngineNoise : kRoundOff) * speed_scale;
@@ -148,6 +164,7 @@ void Observer::begin(double time, const Frame& frame) {
       body.stop_position = body.origin;
     }
   }
+  begin_overlaps(time, frame);
 }
 
 // --- the end -------------------------------------------------------------------------------------

@@ -40,9 +40,10 @@ class FallingQuantity {
 /// zero is half of what friction takes in a step, since friction stops a body inside a step.
 ///
 /// A contact of two bodies is a collision if it closes faster than 7 % of the pair's fastest
-/// collision so far and 0.1 % of the scene's speed; weaker ones are rattling. A collision that the
-/// reference resolves in time lasts from the frame before the first of consecutive frames in which
-/// the pair touches to the last of them, whatever happens in between.
+/// collision so far and 0.1 % of the scene's speed, spins left out; weaker ones are rattling. A
+/// collision that the reference resolves in time lasts from the frame before the first of
+/// consecutive frames in which the pair touches to the last of them, whatever happens in between.
+/// Two bodies that overlap in the first frame collide from there on for as long as they touch.
 ///
 /// Slip, rest and the ways to both are relative to the substrate, which may move; velocities and
 /// final positions are those of the laboratory.
@@ -53,6 +54,9 @@ class Observer final : public FrameSink {
   Observer(const HardScene& scene, double step, double speed_scale, bool resolved = false);
 
   void take(double time, const Frame& frame) override;
+
+  /// What closes slower than this is no collision [m/s].
+  double weakest_collision() const { return kOfSceneSpeed * closing_scale_; }
 
   bool anything_slides_or_flies() const;
   bool everything_rests() const;
@@ -111,6 +115,7 @@ class Observer final : public FrameSink {
     int first, second;
     double fastest = 0;  ///< approach of its collisions so far [m/s]
     bool touched_before = false, touched_now = false, colliding = false, collided = false;
+    bool from_start = false;      ///< it overlaps since the first frame
     bool awaits_rolling = false;  ///< for the effective restitution
     Vector3 n = Vector3::Zero();
     double approach = 0;
@@ -125,6 +130,7 @@ class Observer final : public FrameSink {
   void begin(double time, const Frame& frame);
   void look_at_ground(double t0, double t1);
   bool is_supported(std::size_t i, const Frame& frame) const;
+  void begin_overlaps(double time, const Frame& frame);
   void note_touches(double t0, double t1, const Frame& frame);
   void note_collision(Pair& pair, const Touch& touch, double t0, double t1, const Frame& frame);
   /// Whether this touch belongs to a collision, and whether it is the first.
@@ -156,6 +162,7 @@ class Observer final : public FrameSink {
   const HardScene* scene_;
   double step_;
   double speed_scale_;
+  double closing_scale_;  ///< the same of centres alone [m/s]
   bool resolved_;
   bool started_ = false;
   double time_ = 0, time_before_ = 0;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "harness/observer.h"
+#include "reference/initial_contacts.h"
 
 namespace slipcheck {
 namespace {
@@ -30,6 +31,26 @@ Observer::Pair& Observer::pair_of(int first, int second) {
   return pair;
 }
 
+/// Bodies that overlap in the first frame, which have no approach.
+void Observer::begin_overlaps(double time, const Frame& frame) {
+  for (const auto& [i, j, overlap] : overlapping_pairs(*scene_, frame.bodies)) {
+    const BodyState &si = frame.bodies[i], &sj = frame.bodies[j];
+    Pair& pair = pair_of(static_cast<int>(i), static_cast<int>(j));
+    pair.touched_now = pair.colliding = pair.from_start = true;
+    pair.n = (si.position - sj.position).normalized();
+    pair.approach = kNotObserved;
+    const Vector3 u = contact_velocity(scene_->bodies[i], si, scene_->bodies[j], sj, pair.n);
+    pair.tangential = u - pair.n.dot(u) * pair.n;
+    pair.begin_time = time;
+    pair.max_overlap = overlap;
+    pair.slid_before = bodies_[i].sliding || bodies_[j].sliding;
+    for (std::size_t k : {i, j}) {
+      bodies_[k].collision_begin = time;
+      bodies_[k].collision_height = frame.bodies[k].position.z();
+    }
+  }
+}
+
 void Observer::note_touches(double t0, double t1, const Frame& frame) {
   for (Pair& pair : pairs_) {
     pair.touched_before = pair.touched_now;
@@ -39,13 +60,13 @@ void Observer::note_touches(double t0, double t1, const Frame& frame) {
     if (touch.second != kSubstrate)
       note_collision(pair_of(touch.first, touch.second), touch, t0, t1, frame);
   for (Pair& pair : pairs_)
-    if (!pair.touched_now) pair.colliding = false;
+    if (!pair.touched_now) pair.colliding = pair.from_start = false;
 }
 
 bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
   pair.touched_now = true;
   // The reference's contact is a collision or none from its beginning on.
-  if (step_ == 0 && pair.touched_before) return pair.colliding;
+  if ((step_ == 0 || pair.from_start) && pair.touched_before) return pair.colliding;
 
   const std::size_t i = index(pair.first), j = index(pair.second);
   const BodyState &si = last_.bodies[i], &sj = last_.bodies[j];
@@ -53,7 +74,7 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
   const Vector3 n = (si.position - sj.position).normalized();
   const double approach = -n.dot(si.velocity - sj.velocity);
 
-  const double weakest = std::max(kOfPairsFastest * pair.fastest, kOfSceneSpeed * speed_scale_);
+  const double weakest = std::max(kOfPairsFastest * pair.fastest, kOfSceneSpeed * closing_scale_);
   // A blow that passes through a row of bodies in one step finds this pair without an approach;
   // what sliding bodies that lean on each other push in a step is none.
   const double blow = 0.5 * touch.normal_impulse * (1 / a.mass + 1 / b.mass);
@@ -115,7 +136,10 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
     if (direction.squaredNorm() > 0) direction *= tangential.norm() / direction.norm();
   }
   pair.collided = true;
-  pair.restitution = pair.n.dot(after_i.velocity - after_j.velocity) / pair.approach;
+  const double parting = pair.n.dot(after_i.velocity - after_j.velocity);
+  pair.restitution = parting / pair.approach;
+  // What comes later is weighed against what it began with.
+  if (pair.from_start) pair.fastest = std::max(pair.fastest, parting);
   const double before2 = tangential.squaredNorm();
   pair.tangential_restitution =
       std::sqrt(before2) > kEngineNoise * speed_scale_

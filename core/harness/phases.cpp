@@ -8,7 +8,7 @@
 namespace slipcheck {
 
 std::vector<double> phase_starts(double first_contact, double step, std::size_t count) {
-  if (!std::isfinite(first_contact)) return {0.0};
+  if (!std::isfinite(first_contact) || first_contact <= 0) return {0.0};
   const double range = std::min(step, first_contact);
   std::mt19937_64 random(20260101);
   std::vector<double> starts(count);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/engine.h"
+#include "harness/motion.h"
 #include "harness/reference_run.h"
 #include "scenario/scenario.h"
 
@@ -29,6 +30,7 @@ struct Deviation {
   bool absolute = false;
   bool within = true;
   std::string reason;
+  double rms = 0;  ///< root of the mean square of the absolute deviations
 };
 
 /// How a statistic of an ensemble stands to what is expected of it.
@@ -63,6 +65,8 @@ struct EngineRecord {
   Applied applied;
   std::vector<std::string> warnings;
   std::optional<Expectation> expect;  ///< judges the run in place of the tolerances
+  /// Where motion is recorded, the phases nearest to the reference, in the middle and worst.
+  std::vector<RecordedMotion> motions;
 
   /// Of each statistic that is expected, in the order of names, then min, median, max.
   std::vector<ExpectationResult> expectations() const;

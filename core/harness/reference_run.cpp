@@ -10,6 +10,7 @@
 #include "harness/closed_form_values.h"
 #include "harness/cpu_time.h"
 #include "harness/observer.h"
+#include "reference/initial_contacts.h"
 
 namespace slipcheck {
 namespace {
@@ -35,7 +36,7 @@ Solved solve(const ReferenceSolver& solver, const RunEnd& end, int rounding,
              const SolverAccuracy& accuracy) {
   const RoundingMode mode(rounding);
   const HardScene& scene = solver.scene().hard;
-  Observer observer(scene, 0, speed_scale(scene, scene.initial), solver.is_resolved());
+  Observer observer(scene, 0, speed_scale(solver.scene()), solver.is_resolved());
   Solved solved;
   solved.run = solver.run(end, &observer, accuracy);
   solved.seen = observer.finish(solved.run.end_time);

@@ -41,8 +41,11 @@ std::string no_profile(const EngineExecutable& executable, const std::string& as
 /// Finds, reads and checks the profiles of all scenes, each file and each engine once.
 class Profiles {
  public:
-  Profiles(const WorkerLimits& limits, const std::atomic<bool>* stop)
-      : limits_(limits), stop_(stop) {}
+  Profiles(const WorkerLimits& limits, const std::atomic<bool>* stop, const Settings& settings)
+      : limits_(limits), stop_(stop) {
+    over_.file = "--set";
+    over_.settings = settings;
+  }
 
   /// Settings or a reason for the record of a request; a fault in it is noted.
   void choose(const Scenario& scenario, const std::string& key, EngineRecord& record) {
@@ -53,6 +56,22 @@ class Profiles {
       return;
     }
     const auto executable = find_engine(record.engine, record.precision);
+    over_.engine = record.engine;
+    check(over_, record, executable);
+    choose_profile(scenario, key, executable, record);
+    // Of both the setting that is given by hand holds.
+    Settings settings = over_.settings;
+    settings.merge(record.settings);
+    record.settings = std::move(settings);
+  }
+
+  void throw_faults() const {
+    if (!faults_.empty()) throw BadScenario(faults_);
+  }
+
+ private:
+  void choose_profile(const Scenario& scenario, const std::string& key,
+                      const std::optional<EngineExecutable>& executable, EngineRecord& record) {
     if (!executable && !is_profile_path(record.profile)) return;  // the run is skipped for that
     const auto file =
         find_profile(executable.value_or(EngineExecutable{}), record.profile, folder_of(scenario));
@@ -67,11 +86,6 @@ class Profiles {
     record.settings = profile->settings;
   }
 
-  void throw_faults() const {
-    if (!faults_.empty()) throw BadScenario(faults_);
-  }
-
- private:
   static fs::path folder_of(const Scenario& scenario) {
     return fs::path(scenario.file).parent_path();
   }
@@ -116,7 +130,10 @@ class Profiles {
       if (known == nullptr) return;  // the run will tell why
       info.settings = known->settings;
     }
-    for (Fault& fault : check_profile(profile, info)) note(std::move(fault));
+    for (Fault& fault : check_profile(profile, info)) {
+      if (&profile == &over_) fault.key.erase(0, fault.key.find('.') + 1);  // "settings."
+      note(std::move(fault));
+    }
   }
 
   const EngineInfo* ask(const fs::path& executable) {
@@ -131,6 +148,7 @@ class Profiles {
 
   WorkerLimits limits_;
   const std::atomic<bool>* stop_;
+  Profile over_;  // over every other; its engine is that of the record at hand
   std::vector<std::string> engines_ = engine_names();
   std::map<fs::path, std::optional<Profile>> profiles_;
   std::map<fs::path, std::optional<EngineInfo>> infos_;  // by executable; none: it has failed
@@ -142,8 +160,9 @@ class Profiles {
 
 std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario>& scenarios,
                                                       const WorkerLimits& limits,
-                                                      const std::atomic<bool>* stop) {
-  Profiles profiles(limits, stop);
+                                                      const std::atomic<bool>* stop,
+                                                      const Settings& settings) {
+  Profiles profiles(limits, stop, settings);
   std::vector<std::vector<EngineRecord>> runs;
   for (const Scenario& scenario : scenarios) {
     std::vector<EngineRecord>& records = runs.emplace_back();
@@ -153,7 +172,6 @@ std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario
       record.engine = request.engine;
       record.precision = precision_name(request.precision);
       record.profile = request.profile;
-      record.expect = request.expect;
       record.expect = request.expect;
       profiles.choose(scenario, fmt::format("compare.engines[{}]", k), record);
       for (const double rate : request.rates) records.emplace_back(record).rate = rate;

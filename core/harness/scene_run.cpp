@@ -9,7 +9,10 @@
 #include "engine/engine_registry.h"
 #include "engine/worker_pool.h"
 #include "harness/box_run.h"
+#include "harness/comparison.h"
 #include "harness/engine_run.h"
+#include "harness/motion_recorder.h"
+#include "harness/reference_motion.h"
 #include "harness/requested_runs.h"
 
 namespace slipcheck {
@@ -31,14 +34,38 @@ EngineRecord::Status status_of(JobResult::Status status) {
 }
 
 void run_task(const ReferenceSolver& solver, RemoteEngine& engine, const EngineTask& task,
-              std::size_t phases) {
-  run_ensemble(engine, {&solver, &task.scene->reference, &task.scene->scenario, phases},
-               *task.record);
+              const RunOptions& options) {
+  const PreparedScene& scene = *task.scene;
+  EngineRecord& record = *task.record;
+  const HardScene& hard = solver.scene().hard;
+  EnsembleTask ensemble{&solver, &scene.reference, &scene.scenario, options.phases, task.watch};
+  if (!options.record_motion || task.watch || hard.bodies.size() > kMostRecordedBodies) {
+    run_ensemble(engine, ensemble, record);
+    return;
+  }
+  MotionRecorder recorder(hard);
+  ensemble.watch = &recorder;
+  try {
+    run_ensemble(engine, ensemble, record);
+  } catch (const WorkerFailure&) {
+    record.motions = recorder.last_seen();
+    throw;
+  }
+  record.motions =
+      record.status == EngineRecord::Status::ok
+          ? recorder.picked(phase_errors(scene.scenario, scene.reference, record.observables))
+          : recorder.last_seen();
 }
 void run_task(const BoxSolver& solver, RemoteEngine& engine, const EngineTask& task,
-              std::size_t phases) {
-  run_box_ensemble(engine, {&solver, &task.scene->reference, &task.scene->scenario, phases},
+              const RunOptions& options) {
+  run_box_ensemble(engine, {&solver, &task.scene->reference, &task.scene->scenario, options.phases},
                    *task.record);
+}
+
+void record_motion_of(PreparedScene& scene) {
+  const auto* solver = std::get_if<ReferenceSolver>(&scene.solver);
+  if (!solver || scene.scenario.bodies.size() > kMostRecordedBodies) return;
+  scene.reference.motion = reference_motion(*solver, scene.reference.run.end_time);
 }
 
 }  // namespace
@@ -57,12 +84,12 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
           fmt::format("slipcheck-engine-{}-{} is not installed", record.engine, record.precision);
       continue;
     }
-    jobs.push_back(
-        {executable->path, [&task, &options](RemoteEngine& engine) {
-           engine.limit_run(options.time_limit);
-           std::visit([&](const auto& solver) { run_task(solver, engine, task, options.phases); },
-                      task.scene->solver);
-         }});
+    jobs.push_back({executable->path, [&task, &options](RemoteEngine& engine) {
+                      engine.limit_run(options.time_limit);
+                      std::visit(
+                          [&](const auto& solver) { run_task(solver, engine, task, options); },
+                          task.scene->solver);
+                    }});
     records.push_back(&record);
   }
 
@@ -83,13 +110,14 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
 
 std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOptions& options) {
   std::vector<std::vector<EngineRecord>> runs =
-      requested_runs(scenarios, options.limits, options.stop);
+      requested_runs(scenarios, options.limits, options.stop, options.settings);
   std::vector<PreparedScene> prepared = prepare_scenes(std::move(scenarios));
   std::vector<EngineTask> tasks;
   for (std::size_t s = 0; s < prepared.size(); ++s)
     for (EngineRecord& record : runs[s])
       if (record.reason.empty()) tasks.push_back({&prepared[s], &record});
   run_engines(tasks, options);
+  if (options.record_motion) std::ranges::for_each(prepared, record_motion_of);
 
   std::vector<SceneRecord> scenes;
   for (std::size_t s = 0; s < prepared.size(); ++s)

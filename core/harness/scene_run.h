@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/worker_process.h"
+#include "harness/phase_watch.h"
 #include "harness/prepared_scene.h"
 #include "harness/record.h"
 
@@ -14,6 +15,10 @@ namespace slipcheck {
 
 struct RunOptions {
   std::size_t phases = 32;  ///< size of each engine's ensemble, >= 1
+  Settings settings;        ///< of engines, over those of every profile
+  /// Of the reference and of what no EngineTask::watch looks at; not in a box, nor of more bodies
+  /// than kMostRecordedBodies.
+  bool record_motion = false;
   std::size_t workers = 0;  ///< at once; 0: one for each core
   double time_limit = 60;   ///< of wall time for one phase of an engine [s], > 0
   WorkerLimits limits;
@@ -26,6 +31,7 @@ struct RunOptions {
 struct EngineTask {
   const PreparedScene* scene = nullptr;
   EngineRecord* record = nullptr;
+  PhaseWatch* watch = nullptr;  ///< sees every frame too; not in a box
 };
 
 /// Runs the ensembles of these tasks in worker processes, several at once. What becomes of each is

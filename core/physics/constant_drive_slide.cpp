@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "physics/numbers.h"
 
 namespace slipcheck {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// E(k) = (1 − e^(−kτ))/k, τ maybe infinite where k > 0.
 double decayed(double k, double tau) {

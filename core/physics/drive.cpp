@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "physics/numbers.h"
 
 namespace slipcheck {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kTurn = 2 * std::numbers::pi;
 /// A friction that holds gives way where the load exceeds its limit by more than rounding.
 constexpr double kMargin = 1 + 1e-10;
-
-double across(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The way from one angle forward to another, in [0, 2π).
 double forward(double from, double to) {

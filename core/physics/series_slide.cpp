@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "physics/numbers.h"
 #include "physics/safe_root.h"
 
 namespace slipcheck {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr int kOrder = SeriesSlide::kOrder;
 using Series = SeriesSlide::Series;
 

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/numbers.h"
+
 namespace slipcheck {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Entries that are placed while time is in one stretch: few enough for a flat heap, and enough
 /// that the ends of all lists together stay in a cache.
 constexpr double kGoal = 48;

@@ -12,9 +12,7 @@ namespace {
 using Kind = BodyMode::Kind;
 
 Vector3 vector_at(const double* y) { return {y[0], y[1], y[2]}; }
-Vector3 velocity_of(const double* y, std::size_t i) {
-  return vector_at(y + i * ContactDynamics::kBody + 3);
-}
+Vector3 velocity_of(const double* y, std::size_t i) { return vector_at(y + i * kBody + 3); }
 /// k̂×v.
 Vector3 turned(const Vector3& v) { return {-v.y(), v.x(), 0}; }
 
@@ -330,6 +328,11 @@ double ContactDynamics::potential_energy(const double* y) const {
     way.z() += scene.bodies[i].radius;
     energy -= scene.bodies[i].mass * gravity.dot(way);
   }
+  return energy + elastic_energy(y);
+}
+
+double ContactDynamics::elastic_energy(const double* y) const {
+  double energy = 0;
   for (const ContactMode& contact : contacts)
     if (!contact.clamped)
       energy += std::visit([&](const auto& law) { return law.energy(y[slot_at(contact.slot)]); },

@@ -8,6 +8,9 @@
 
 namespace slipcheck {
 
+/// Numbers of the state of a body, and of a contact slot.
+inline constexpr std::size_t kBody = 9, kSlot = 4;
+
 /// The equations of motion of all bodies in their present modes, K (1)-(27) with B's and L's
 /// forces.
 ///
@@ -17,8 +20,6 @@ namespace slipcheck {
 /// and tangential displacement ζ), the energy dissipated and the substrate's work since the start.
 class ContactDynamics {
  public:
-  static constexpr std::size_t kBody = 9, kSlot = 4;
-
   explicit ContactDynamics(const ContactScene& scene);
 
   /// Forces on one body and what follows from them.
@@ -102,6 +103,8 @@ class ContactDynamics {
   /// Kinetic energy and that of gravity and of elastic contacts [J].
   double kinetic_energy(double t, const double* y) const;
   double potential_energy(const double* y) const;
+  /// That of elastic contacts alone [J].
+  double elastic_energy(const double* y) const;
 
  private:
   Vector3 angular_velocity(std::size_t i, const Vector3& substrate, const double* y) const;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "physics/numbers.h"
 
 namespace slipcheck {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Where sliding and spin share the friction, a small slip dies out at the rate (1+A) μ_k N/(m |w|)
 /// with w = (u, a_c Ω_z): the faster, the less of both is left. A contact of bodies is fast too.
@@ -18,7 +17,7 @@ bool is_stiff(const ContactState& state) {
   for (const ContactMode& contact : dynamics.contacts)
     slow_enough = std::max(slow_enough, 10 / contact.time_scale);
   for (std::size_t i = 0; i < dynamics.modes.size(); ++i) {
-    const double spin = state.y[i * ContactDynamics::kBody + 8];
+    const double spin = state.y[i * kBody + 8];
     const BodyMode& mode = dynamics.modes[i];
     if (!dynamics.is_coupled(i) || mode.kind != BodyMode::Kind::sliding || mode.spin_held) continue;
     const SubstrateContact& contact = scene.on_substrate(i);
@@ -77,7 +76,7 @@ void ContactIntegrator::set_floors() {
   double mass = 0;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const double radius = scene.bodies[i].radius;
-    double* floor = floor_.data() + i * ContactDynamics::kBody;
+    double* floor = floor_.data() + i * kBody;
     std::fill_n(floor, 3, tolerance * radius);
     std::fill_n(floor + 3, 3, tolerance * speed);
     std::fill_n(floor + 6, 2, tolerance * speed);
@@ -108,7 +107,7 @@ void ContactIntegrator::predict_landings() {
   landing_.assign(scene.bodies.size(), kNever);
   for (std::size_t i = 0; i < landing_.size(); ++i) {
     if (state_.dynamics().modes[i].on_plane() || state_.in_contact(i)) continue;
-    const double* body = state_.y.data() + i * ContactDynamics::kBody;
+    const double* body = state_.y.data() + i * kBody;
     const double h = std::max(0.0, body[2]), v = body[5], g = scene.gravity;
     const double root = std::sqrt(v * v + 2 * g * h);
     if (v > 0 ? g > 0 : root > v)

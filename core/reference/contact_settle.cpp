@@ -10,7 +10,6 @@ namespace slipcheck {
 namespace {
 
 using Kind = BodyMode::Kind;
-constexpr std::size_t kBody = ContactDynamics::kBody;
 /// A friction that holds gives way where the load exceeds its limit by more than rounding.
 constexpr double kMargin = 1 + 1e-10;
 

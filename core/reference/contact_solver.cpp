@@ -2,25 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "physics/numbers.h"
 #include "reference/contact_integrator.h"
+#include "reference/initial_contacts.h"
 
 namespace slipcheck {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 using What = ContactWatch::What;
 
 ContactScales scales_of(const ContactScene& scene, std::span<const BodyState> initial,
-                        const ContactSettings& settings) {
+                        const ContactSettings& settings,
+                        std::span<const InitialContact> overlapping) {
   ContactScales scales;
   double radius = 0;
   for (const Sphere& sphere : scene.hard.bodies) radius = std::max(radius, sphere.radius);
   // A scene in which nothing moves has the speed of a fall through a thousandth of its size.
   const double least = 1e-3 * std::sqrt(2 * scene.hard.gravity * radius);
-  scales.speed = std::max({speed_scale(scene.hard, initial), least, 1e-30});
+  scales.speed =
+      std::max({speed_scale(scene.hard, initial), release_speed(scene, overlapping), least, 1e-30});
   scales.slip_floor = 100 * settings.tolerance * scales.speed;
   scales.slowest_rebound = settings.cut_offs * EventSettings{}.collapse_fraction * scales.speed;
   scales.slowest_landing = settings.cut_offs * EventSettings{}.landing_fraction * scales.speed;
@@ -33,12 +35,20 @@ class ContactSolver::Impl {
  public:
   Impl(const ContactScene& scene, std::span<const BodyState> initial,
        const ContactSettings& settings)
+      : Impl(scene, initial, settings, initial_contacts(scene, initial)) {}
+  /// Only the pairs in `overlapping` are in contact at the start; others that overlap meet where
+  /// they approach.
+  Impl(const ContactScene& scene, std::span<const BodyState> initial,
+       const ContactSettings& settings, std::vector<InitialContact> overlapping)
       : scene_(&scene),
         settings_(settings),
-        state_(scene, initial, settings.start, scales_of(scene, initial, settings)),
-        integrator_(state_, settings.tolerance) {
-    initial_energy_ = energy();
-  }
+        initial_(initial.begin(), initial.end()),
+        overlapping_(std::move(overlapping)),
+        state_(scene, initial, settings.start, scales_of(scene, initial, settings, overlapping_),
+               overlapping_),
+        integrator_(state_, settings.tolerance),
+        initial_energy_(energy()),
+        initial_elastic_energy_(state_.dynamics().elastic_energy(state_.y.data())) {}
 
   ContactRun run(const RunEnd& end, FrameSink* sink);
   double first_contact(double limit);
@@ -56,14 +66,17 @@ class ContactSolver::Impl {
   void reveal_slides(FrameSink* sink);
   bool has_ended(const RunEnd& end);
   bool will_collide(double limit);
+  bool is_at_start() const { return state_.time == settings_.start; }
   double energy() const;
   void show(FrameSink* sink, double time, std::optional<Touch> hit = std::nullopt);
 
   const ContactScene* scene_;
   ContactSettings settings_;
+  std::vector<BodyState> initial_;
+  std::vector<InitialContact> overlapping_;  ///< at the start
   ContactState state_;
   ContactIntegrator integrator_;
-  double initial_energy_ = 0;
+  double initial_energy_, initial_elastic_energy_;
   double next_look_ = -1;
   std::vector<bool> seen_sliding_;  ///< a frame has shown this body's present slide
   Frame frame_;
@@ -242,8 +255,8 @@ EnergyBalance ContactSolver::Impl::balance() const {
   balance.initial = initial_energy_;
   balance.dissipated = state_.y[state_.dynamics().dissipated_at()];
   balance.substrate_work = state_.y[state_.dynamics().work_at()];
-  balance.scale = std::max({integrator_.largest_kinetic_energy(), std::abs(balance.dissipated),
-                            std::abs(balance.substrate_work)});
+  balance.scale = std::max({integrator_.largest_kinetic_energy(), initial_elastic_energy_,
+                            std::abs(balance.dissipated), std::abs(balance.substrate_work)});
   return balance;
 }
 
@@ -255,7 +268,7 @@ bool ContactSolver::Impl::will_collide(double limit) {
   ContactSettings coarse;
   coarse.tolerance = std::max(1e-9, settings_.tolerance);
   coarse.start = state_.time;
-  const double next = Impl(*scene_, now, coarse).next_collision(limit, 0);
+  const double next = Impl(*scene_, now, coarse, {}).next_collision(limit, 0);
   next_look_ = next;
   return std::isfinite(next);
 }
@@ -274,6 +287,7 @@ ContactRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
   ContactRun run;
   const bool to_a_time = end.until == Run::Until::time;
   const double last = to_a_time ? end.time : end.limit;
+  if (is_at_start()) run.collisions = overlapping_.size();
   show(sink, state_.time);
   bool event = true;
   while (true) {
@@ -325,6 +339,7 @@ ContactRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
 }
 
 double ContactSolver::Impl::first_contact(double limit) {
+  if (is_at_start() && !overlapping_.empty()) return state_.time;
   ContactRun run;
   while (state_.time < limit && run.events < settings_.max_events) {
     const Happening happening = integrator_.advance(limit);
@@ -337,6 +352,9 @@ double ContactSolver::Impl::first_contact(double limit) {
 }
 
 double ContactSolver::Impl::next_collision(double limit, double slowest) {
+  // Looks at what meets: an engine's overlaps are not to burst apart.
+  if (!overlapping_.empty())
+    return Impl(*scene_, initial_, settings_, {}).next_collision(limit, slowest);
   ContactRun run;
   while (state_.time < limit && run.events < settings_.max_events) {
     const Happening happening = integrator_.advance(limit);

@@ -25,7 +25,7 @@ struct EnergyBalance {
   double initial = 0;         ///< the same at the start [J]
   double dissipated = 0;      ///< by all contacts since then [J]
   double substrate_work = 0;  ///< done on the bodies by the substrate's motion [J]
-  double scale = 0;           ///< largest energy that took part [J]
+  double scale = 0;           ///< largest energy that took part, elastic at the start [J]
   /// (energy + dissipated − substrate work − initial)/scale.
   double error() const {
     return scale > 0 ? (energy + dissipated - substrate_work - initial) / scale : 0;
@@ -48,7 +48,7 @@ struct ContactRun {
 /// lift-off and landing on a still, tilted or moving substrate. CVODE integrates between changes of
 /// mode (contact begin and end, stick and slip, Coulomb's caps, breaking asperities, …), which are
 /// found as roots; no sign function is ever integrated through. Pairs whose contact is hard collide
-/// at an instant.
+/// at an instant; others that overlap at the start are in contact from then on.
 class ContactSolver {
  public:
   ContactSolver(const ContactScene& scene, std::span<const BodyState> initial,
@@ -60,7 +60,7 @@ class ContactSolver {
   ContactRun run(const RunEnd& end, FrameSink* sink);
 
   /// The time [s] at which the first two bodies touch or one lands, or infinity where that does not
-  /// happen before `limit` [s].
+  /// happen before `limit` [s]; the start, where two overlap.
   double first_contact(double limit);
   /// The same for two bodies alone that meet at `slowest` [m/s] or faster.
   double next_collision(double limit, double slowest);

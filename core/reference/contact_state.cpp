@@ -10,7 +10,6 @@ namespace slipcheck {
 namespace {
 
 using Kind = BodyMode::Kind;
-constexpr std::size_t kBody = ContactDynamics::kBody;
 
 /// Overlap and time in which an elastic contact stops the reduced mass at the approach speed.
 struct ImpactScale {
@@ -32,7 +31,8 @@ struct ImpactScale {
 }  // namespace
 
 ContactState::ContactState(const ContactScene& scene, std::span<const BodyState> initial,
-                           double start, const ContactScales& scales)
+                           double start, const ContactScales& scales,
+                           std::span<const InitialContact> overlapping)
     : time(start), scene_(&scene), scales_(scales), dynamics_(scene) {
   bool any_soft = false;
   for (const auto& contact : scene.soft) any_soft |= contact.has_value();
@@ -51,6 +51,8 @@ ContactState::ContactState(const ContactScene& scene, std::span<const BodyState>
     else
       place(i);
   }
+  for (const InitialContact& contact : overlapping)
+    begin_contact(contact.first, contact.second, contact.overlap);
   y[dynamics_.dissipated_at()] = y[dynamics_.work_at()] = 0;
   settle();
 }
@@ -85,7 +87,7 @@ void ContactState::set_body(std::size_t i, const BodyState& state) {
 
 // --- contacts of two bodies ----------------------------------------------------------------------
 
-void ContactState::begin_contact(std::size_t i, std::size_t j) {
+void ContactState::begin_contact(std::size_t i, std::size_t j, double overlap) {
   const auto& law = scene_->between(i, j);
   ContactMode contact;
   contact.first = i;
@@ -96,15 +98,18 @@ void ContactState::begin_contact(std::size_t i, std::size_t j) {
   if (free_slots_.empty()) {
     // One more slot, before the two ledgers at the end.
     free_slots_.push_back(dynamics_.slots++);
-    y.insert(y.end() - 2, ContactDynamics::kSlot, 0.0);
+    y.insert(y.end() - 2, kSlot, 0.0);
   }
   contact.slot = free_slots_.back();
   free_slots_.pop_back();
-  std::fill_n(y.begin() + static_cast<std::ptrdiff_t>(dynamics_.slot_at(contact.slot)),
-              ContactDynamics::kSlot, 0.0);
+  std::fill_n(y.begin() + static_cast<std::ptrdiff_t>(dynamics_.slot_at(contact.slot)), kSlot, 0.0);
+  y[dynamics_.slot_at(contact.slot)] = overlap;
   const BodyState a = body(i), b = body(j);
   const Vector3 n = (a.position - b.position).normalized();
-  const double approach = std::max(-n.dot(a.velocity - b.velocity), 1e-9 * scales_.speed);
+  // What an overlap holds counts as the approach that would have made it.
+  const double approach =
+      std::hypot(std::max(-n.dot(a.velocity - b.velocity), 1e-9 * scales_.speed),
+                 overlap > 0 ? release_speed(*law, overlap, contact.reduced_mass) : 0);
   contact.overlap_scale = std::visit(ImpactScale{contact.reduced_mass, approach}, law->normal);
   contact.time_scale = contact.overlap_scale / approach;
   dynamics_.contacts.push_back(contact);
@@ -117,6 +122,10 @@ void ContactState::begin_contact(std::size_t i, std::size_t j) {
   made.force_sign = forces.normal < 0 ? -1 : 1;
   if (const auto* viscous = std::get_if<ViscousForce>(&law->tangential))
     made.capped = viscous->viscous(forces.slip.norm()) > viscous->cap(forces.normal);
+  if (overlap == 0) return;
+  made.clamped = law->end == ContactEnd::zero_force && forces.normal <= 0;
+  const double growth = dynamics_.force_growth(made, forces, y.data());
+  made.growing = growth > 0 || (growth == 0 && forces.closing_rate > 0);
 }
 
 void ContactState::end_contact(std::size_t index) {

@@ -6,6 +6,7 @@
 
 #include "physics/collision.h"
 #include "reference/contact_dynamics.h"
+#include "reference/initial_contacts.h"
 
 namespace slipcheck {
 
@@ -19,8 +20,9 @@ struct ContactScales {
 /// The state of all bodies with the modes they are in, and the changes of mode at events.
 class ContactState {
  public:
+  /// The contacts of `overlapping` begin at the start, with nothing bent yet.
   ContactState(const ContactScene& scene, std::span<const BodyState> initial, double time,
-               const ContactScales& scales);
+               const ContactScales& scales, std::span<const InitialContact> overlapping = {});
 
   const ContactScene& scene() const { return *scene_; }
   ContactDynamics& dynamics() { return dynamics_; }
@@ -35,7 +37,8 @@ class ContactState {
   std::vector<BodyState> bodies() const;
 
   // --- events ------------------------------------------------------------------------------------
-  void begin_contact(std::size_t i, std::size_t j);
+  /// Two bodies that touch, or overlap by this much [m] from the start.
+  void begin_contact(std::size_t i, std::size_t j, double overlap = 0);
   void end_contact(std::size_t contact);
   /// zero_force: the force is gone, or comes back, while the bodies overlap.
   void clamp_contact(std::size_t contact);

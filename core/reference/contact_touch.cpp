@@ -2,27 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "physics/numbers.h"
 
 namespace slipcheck {
 namespace {
 
-constexpr std::size_t kBody = ContactDynamics::kBody;
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
 Vector3 vector_at(const double* y) { return {y[0], y[1], y[2]}; }
 
-/// Bound of a body's acceleration during the step [m/s²].
-double largest_acceleration(const ContactState& state, std::size_t i) {
+/// Bound of a body's acceleration during the step [m/s²], `after` being its end. What rests has
+/// none, so that a gap of round-off beside it is not looked at again and again.
+double largest_acceleration(const ContactState& state, const ContactDynamics::Evaluation& after,
+                            std::size_t i) {
   const HardScene& scene = state.scene().hard;
   const SubstrateContact& contact = scene.on_substrate(i);
-  const double free = std::hypot(scene.gravity, scene.downhill.norm()) +
-                      contact.static_friction * scene.gravity + scene.motion.largest_acceleration();
+  const BodyMode& mode = state.dynamics().modes[i];
+  const double shaken = scene.motion.largest_acceleration();
   // In a contact forces can grow within a step, though not by much.
-  return state.in_contact(i) ? 2 * free + 10 * state.evaluation().bodies[i].acceleration.norm()
-                             : free;
+  if (state.in_contact(i)) {
+    // What may come and go in between, of what acts without a contact.
+    constexpr double kUnseen = 1e-6;
+    const double free = std::hypot(scene.gravity, scene.downhill.norm()) +
+                        contact.static_friction * scene.gravity + shaken;
+    return kUnseen * free + 10 * std::max(state.evaluation().bodies[i].acceleration.norm(),
+                                          after.bodies[i].acceleration.norm());
+  }
+  // Outside of contacts nothing but the mode that the body is in acts on it.
+  switch (mode.kind) {
+    case BodyMode::Kind::flying:
+      return std::hypot(scene.gravity, scene.downhill.norm());
+    case BodyMode::Kind::sliding:
+      return scene.downhill.norm() + contact.kinetic_friction * scene.gravity;
+    case BodyMode::Kind::rolling:
+      break;
+  }
+  if (mode.roll_held) return shaken;
+  const double rolling = contact.rolling.is_zero() ? 0 : contact.static_friction * scene.gravity;
+  return scene.downhill.norm() + rolling + shaken;
 }
 
 struct Approach {
@@ -40,11 +57,10 @@ Approach approach(const ContactDynamics& dynamics, const double* y, std::size_t 
 /// Since gap(t + τ) >= gap − c τ − ½ B τ² with the closing speed c and a bound B of the relative
 /// acceleration, steps to the root of that bound never pass a contact.
 double touch_time(const ContactState& state, const Ode& ode, std::size_t i, std::size_t j,
-                  std::vector<double>& y) {
+                  double bound, std::vector<double>& y) {
   const HardScene& scene = state.scene().hard;
   const double contact = scene.bodies[i].radius + scene.bodies[j].radius;
   const double touching = 8 * kEpsilon * contact;
-  const double bound = largest_acceleration(state, i) + largest_acceleration(state, j);
   const double begin = state.time, end = ode.time();
   double t = begin;
   const double* now = state.y.data();
@@ -57,7 +73,9 @@ double touch_time(const ContactState& state, const Ode& ode, std::size_t i, std:
         const auto& bodies = state.evaluation().bodies;
         const Vector3 n = state.dynamics().between_centres(i, j, now).normalized();
         const double pushed = -n.dot(bodies[i].acceleration - bodies[j].acceleration);
-        const bool begins = t == begin && pushed > 1e-12 * bound;
+        // Round-off of what acts on them is none.
+        const double acts = std::hypot(scene.gravity, scene.downhill.norm());
+        const bool begins = t == begin && pushed > 1e-12 * (bound + 2 * acts);
         return begins ? t : kNever;
       }
     }
@@ -82,8 +100,14 @@ double touch_time(const ContactState& state, const Ode& ode, std::size_t i, std:
 
 std::optional<NextTouch> first_touch(const ContactState& state, const Ode& ode) {
   const std::size_t count = state.dynamics().modes.size();
+  if (count < 2) return std::nullopt;
   std::optional<NextTouch> first;
   std::vector<double> scratch(state.y.size());
+  ContactDynamics::Evaluation after;
+  if (!state.dynamics().contacts.empty())
+    state.dynamics().evaluate(ode.time(), ode.y().data(), after);
+  std::vector<double> largest(count);
+  for (std::size_t i = 0; i < count; ++i) largest[i] = largest_acceleration(state, after, i);
   const auto are_touching = [&](std::size_t i, std::size_t j) {
     return std::any_of(state.dynamics().contacts.begin(), state.dynamics().contacts.end(),
                        [&](const ContactMode& c) { return c.first == i && c.second == j; });
@@ -91,7 +115,7 @@ std::optional<NextTouch> first_touch(const ContactState& state, const Ode& ode) 
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = i + 1; j < count; ++j) {
       if (are_touching(i, j)) continue;
-      const double t = touch_time(state, ode, i, j, scratch);
+      const double t = touch_time(state, ode, i, j, largest[i] + largest[j], scratch);
       if (t <= ode.time() && (!first || t < first->time)) first = NextTouch{t, i, j};
     }
   return first;

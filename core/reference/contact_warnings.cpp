@@ -67,7 +67,21 @@ struct Worst {
   double dissipation_time = 0;  ///< of the viscous one [s]
   double duration = 0;          ///< its t_c [s]
   double passive_speed = kInfinity;
+  double depth = 0;        ///< of an impact, over the smaller radius
+  double depth_speed = 0;  ///< its speed [m/s]
 };
+
+/// What an impact compresses without damping.
+void look_at_depth(const ClassPair& pair, const NormalForce& force, double speed, Worst& worst) {
+  if (!(speed > 0)) return;
+  const ImpactScales scales = impact_scales(force, pair.mass(), speed);
+  const double power = 1 + scales.law.alpha;
+  const double depth = scales.length * std::pow(power / 2, 1 / power) /
+                       std::min(pair.first.radius, pair.second.radius);
+  if (depth <= worst.depth) return;
+  worst.depth = depth;
+  worst.depth_speed = speed;
+}
 
 void look_at_quasistatic(const ClassPair& pair, double A, double speed, Worst& worst) {
   if (!(speed > 0)) return;
@@ -117,6 +131,7 @@ std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneO
       if (const auto A = dissipation_time_of(soft.normal))
         look_at_quasistatic(pair, *A, speed, worst);
       look_at_asperities(pair, soft, bend, worst);
+      look_at_depth(pair, soft.normal, speed, worst);
     }
   };
   for (std::size_t a = 0; a < outline.classes.size(); ++a) {
@@ -150,6 +165,13 @@ std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneO
         fmt::format("the dissipation time {:.3g} s is {:.2g} of an impact's duration {:.3g} s; the "
                     "law holds where that is far below 1 (B 12)",
                     worst.dissipation_time, worst.viscous.time_ratio, worst.duration));
+  }
+  if (worst.depth > 1) {
+    warn(normal,
+         fmt::format("impacts at up to {:.3g} m/s go {:.2g} of the smaller radius deep; the "
+                     "law is one of small overlaps, and pushes on bodies whose centres have "
+                     "passed each other",
+                     worst.depth_speed, worst.depth));
   }
   if (worst.passive_speed < kInfinity) {
     warn(".tangential.form",

@@ -7,7 +7,6 @@ namespace slipcheck {
 namespace {
 
 using Kind = BodyMode::Kind;
-constexpr std::size_t kBody = ContactDynamics::kBody;
 
 /// Falls through zero where dry friction ends a velocity w. A straight one passes through zero
 /// along its direction; one that turns comes as close as its integration allows. What has just

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "physics/numbers.h"
 #include "reference/calendar_queue.h"
 
 namespace slipcheck {
 
 /// What an event of one body alone has changed.
-enum class Change {
+enum class BodyChange {
   nothing,  ///< only its next own event is to be found again
   cell,     ///< it has new neighbours
   path,     ///< it moves differently from here
@@ -28,7 +28,7 @@ enum class Change {
 /// World tells the physics:
 ///   size_t size();
 ///   double own_event_time(i, now);            plans it; absolute [s], maybe infinite
-///   Change do_own_event(i, now);              performs it
+///   BodyChange do_own_event(i, now);              performs it
 ///   double collision_time(i, j, now, shift);  absolute [s], >= now, or infinite
 ///   span<const uint32_t> collide(i, j, now);  performs it; the bodies that changed
 ///   for_each_near(i, f), for_each_newly_near(i, f): f(j, shift) for all bodies that may collide
@@ -88,7 +88,6 @@ class EventScheduler {
   std::uint32_t partner(std::uint32_t i) const { return plans_[i].partner; }
 
  private:
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
   static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
 
   struct Plan {
@@ -104,12 +103,12 @@ class EventScheduler {
     plans_[i].partner = kNobody;
   }
   void do_own_event(std::uint32_t i) {
-    const Change change = world_->do_own_event(i, now_);
-    if (change == Change::path) forget_collision(i);
+    const BodyChange change = world_->do_own_event(i, now_);
+    if (change == BodyChange::path) forget_collision(i);
     plan_own_event(i);
-    if (change == Change::path)
+    if (change == BodyChange::path)
       plan_collision(i);
-    else if (change == Change::cell)
+    else if (change == BodyChange::cell)
       plan_collision_with(i, [&](auto look) { world_->for_each_newly_near(i, look); });
     else
       queue(i);

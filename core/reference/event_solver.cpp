@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
+#include "physics/numbers.h"
 #include "reference/event_scheduler.h"
 #include "reference/indexed_heap.h"
 #include "reference/scan_queue.h"
@@ -14,8 +14,6 @@
 
 namespace slipcheck {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 LeastSpeeds least_speeds(const HardScene& scene, std::span<const BodyState> states,
                          const EventSettings& settings) {

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "physics/numbers.h"
 
 namespace slipcheck {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// The first t in [from, horizon] at which gap(t) = y + v t + ½ a t² − A sin(ω (start + t)) is zero
 /// and falls, in steps that never pass it.

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/numbers.h"
+
 namespace slipcheck {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Part of a diameter by which cells are larger than it.
 constexpr double kSpare = 1e-6;
 

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "physics/numbers.h"
 #include "physics/polynomial_roots.h"
 
 namespace slipcheck {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The least of c t + ½ b t² for t in [0, horizon].
 double least_on(double c, double b, double horizon) {

@@ -145,7 +145,7 @@ void PlanarWorld::find_wall_event(std::uint32_t i, double now, double& earliest,
   }
 }
 
-Change PlanarWorld::do_own_event(std::uint32_t i, double now) {
+BodyChange PlanarWorld::do_own_event(std::uint32_t i, double now) {
   Body& body = moved_to(i, now);
   const CellGrid::Shift& period = grid_.period();
   const auto cross = [&](std::int32_t& cell, int step, double& coordinate, double length,
@@ -159,12 +159,12 @@ Change PlanarWorld::do_own_event(std::uint32_t i, double now) {
   const auto cross_x = [&](int step) {
     cross(body.ix, step, body.x, period.x, grid_.cells_x(), matter_[i].image_x);
     grid_.move(i, moved_x_ = step, moved_y_ = 0);
-    return Change::cell;
+    return BodyChange::cell;
   };
   const auto cross_y = [&](int step) {
     cross(body.iy, step, body.y, period.y, grid_.cells_y(), matter_[i].image_y);
     grid_.move(i, moved_x_ = 0, moved_y_ = step);
-    return Change::cell;
+    return BodyChange::cell;
   };
   switch (own_[i]) {
     case Own::left:
@@ -176,7 +176,7 @@ Change PlanarWorld::do_own_event(std::uint32_t i, double now) {
     case Own::up:
       return cross_y(+1);
     case Own::none:
-      return Change::nothing;
+      return BodyChange::nothing;
     case Own::left_wall:
     case Own::right_wall:
     case Own::floor:
@@ -200,7 +200,7 @@ Change PlanarWorld::do_own_event(std::uint32_t i, double now) {
       meet(i, {0, -1, walls, &box.on_lid}, now);
       break;
   }
-  return Change::path;
+  return BodyChange::path;
 }
 
 bool PlanarWorld::has_elastic_rule() const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/numbers.h"
 #include "physics/planar_collision.h"
 #include "physics/sphere.h"
 #include "reference/cell_grid.h"
@@ -33,7 +34,7 @@ class PlanarWorld {
   // --- for EventScheduler ---
   std::size_t size() const { return bodies_.size(); }
   double own_event_time(std::uint32_t i, double now);
-  Change do_own_event(std::uint32_t i, double now);
+  BodyChange do_own_event(std::uint32_t i, double now);
   std::span<const std::uint32_t> collide(std::uint32_t i, std::uint32_t j, double now);
 
   double collision_time(std::uint32_t i, std::uint32_t j, double now,
@@ -83,7 +84,6 @@ class PlanarWorld {
   double deepest_overlap(double now) const;
 
  private:
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
   enum class Own : std::uint8_t { none, left, right, down, up, left_wall, right_wall, floor, lid };
 
   struct alignas(64) Body {

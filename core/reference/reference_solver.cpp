@@ -1,5 +1,7 @@
 #include "reference/reference_solver.h"
 
+#include "reference/initial_contacts.h"
+
 namespace slipcheck {
 
 bool has_exact_phases(const HardScene& scene) {
@@ -19,6 +21,8 @@ ReferenceSolver::ReferenceSolver(const ContactScene& scene, Compare::Reference a
   resolved_ =
       asked == Compare::Reference::contact || (asked == Compare::Reference::automatic && soft);
   if (!resolved_ && soft) {
+    if (!initial_contacts(scene, scene.hard.initial).empty())
+      throw Unsupported("bodies that overlap at the start can only be solved with soft contacts");
     hardened_ = scene;
     hardened_->soft.assign(scene.soft.size(), std::nullopt);
   }
@@ -46,6 +50,7 @@ SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
 }
 
 double ReferenceSolver::first_contact(double limit, double tolerance) const {
+  if (!initial_contacts(scene(), scene().hard.initial).empty()) return 0;
   if (runs_in_phases(scene().hard))
     return EventSolver(scene().hard, scene().hard.initial).first_contact(limit);
   ContactSettings settings;
@@ -57,7 +62,7 @@ std::vector<BodyState> ReferenceSolver::states_at(double time) const {
   const HardScene& hard = scene().hard;
   if (time == 0) return hard.initial;
   const RunEnd end{Run::Until::time, time, time};
-  if (runs_in_phases(hard)) {
+  if (runs_in_phases(hard) && initial_contacts(scene(), hard.initial).empty()) {
     EventSolver solver(hard, hard.initial);
     solver.run(end, nullptr);
     return solver.states();
@@ -65,6 +70,32 @@ std::vector<BodyState> ReferenceSolver::states_at(double time) const {
   ContactSolver solver(scene(), hard.initial);
   solver.run(end, nullptr);
   return solver.states();
+}
+
+namespace {
+
+template <class Solver>
+std::vector<std::vector<BodyState>> walk(Solver solver, std::span<const double> times) {
+  std::vector<std::vector<BodyState>> states;
+  states.reserve(times.size());
+  for (const double time : times) {
+    if (!solver.run({Run::Until::time, time, time}, nullptr).reached) break;
+    states.push_back(solver.states());
+  }
+  return states;
+}
+
+}  // namespace
+
+std::vector<std::vector<BodyState>> ReferenceSolver::states_along(
+    std::span<const double> times) const {
+  const std::vector<BodyState>& initial = scene().hard.initial;
+  if (phases_) {
+    EventSettings settings;
+    settings.most_events = most_events_;
+    return walk(EventSolver(scene().hard, initial, settings), times);
+  }
+  return walk(ContactSolver(scene(), initial), times);
 }
 
 double ReferenceSolver::next_collision(std::span<const BodyState> states, double start,

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "reference/contact_solver.h"
 #include "reference/event_solver.h"
@@ -54,6 +55,9 @@ class ReferenceSolver {
   double first_contact(double limit, double tolerance = SolverAccuracy{}.tolerance) const;
   /// All bodies at a time before the first contact [s].
   std::vector<BodyState> states_at(double time) const;
+  /// All bodies at these times [s], rising and >= 0; `states[k][i]`. Where the integrator gives up
+  /// or a cascade of collisions never ends, the times that it did not come to are missing.
+  std::vector<std::vector<BodyState>> states_along(std::span<const double> times) const;
   /// When two bodies next meet at `slowest` [m/s] or faster, if they are in `states` at `start`
   /// [s]; infinity where not before `limit` [s].
   double next_collision(std::span<const BodyState> states, double start, double limit,

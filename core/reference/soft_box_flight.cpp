@@ -2,17 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
+#include "physics/numbers.h"
+
 namespace slipcheck {
-namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-}  // namespace
 
 SoftBoxFlight::SoftBoxFlight(const SoftBoxDynamics& dynamics)
     : dynamics_(&dynamics), flights_(dynamics.size()), order_(dynamics.size()) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <variant>
 
+#include "physics/numbers.h"
 #include "reference/soft_box_dynamics.h"
 #include "reference/soft_box_flight.h"
 #include "reference/soft_box_watch.h"
@@ -14,7 +14,6 @@
 namespace slipcheck {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 using Near = SoftBoxFlight::Near;
 using What = SoftBoxWatch::What;
 

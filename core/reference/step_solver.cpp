@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "physics/numbers.h"
 #include "physics/polynomial_roots.h"
 #include "reference/step_kernel.h"
 
 namespace slipcheck {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 StepBody make_body(const HardScene& scene, std::size_t i, const BodyState& state,
                    double slowest_rebound) {

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "physics/collision.h"
+#include "physics/numbers.h"
 #include "reference/path_collision.h"
 
 namespace slipcheck {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 /// Collisions that do not dissipate, as the TC model has them.
 const PairContact kElastic{};
 /// Part of the sum of two radii that no pair which touches is apart: a search for a collision that
@@ -128,14 +128,14 @@ double SubstrateWorld<Phase, Near>::own_event_time(std::uint32_t i, double now) 
 }
 
 template <class Phase, class Near>
-Change SubstrateWorld<Phase, Near>::do_own_event(std::uint32_t i, double now) {
+BodyChange SubstrateWorld<Phase, Near>::do_own_event(std::uint32_t i, double now) {
   Body& body = bodies_[i];
   if constexpr (kHasCells) {
     if (body.leaves_cell) {
       if (!body.is_parabola && !near_.is_at_side(i, on_path(i, now).position))
-        return Change::nothing;
+        return BodyChange::nothing;
       near_.cross(i);
-      return Change::cell;
+      return BodyChange::cell;
     }
   }
   ++events_;
@@ -148,7 +148,7 @@ Change SubstrateWorld<Phase, Near>::do_own_event(std::uint32_t i, double now) {
   }
   set_state(i, state, now);
   show(now);
-  return Change::path;
+  return BodyChange::path;
 }
 
 template <class Phase, class Near>

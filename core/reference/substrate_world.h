@@ -2,13 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <type_traits>
 #include <vector>
 
 #include "physics/driven_phase.h"
 #include "physics/frame.h"
+#include "physics/numbers.h"
 #include "physics/substrate_phase.h"
 #include "reference/event_scheduler.h"
 #include "reference/neighbours.h"
@@ -40,7 +40,7 @@ class SubstrateWorld {
   // --- for EventScheduler ---
   std::size_t size() const { return bodies_.size(); }
   double own_event_time(std::uint32_t i, double now);
-  Change do_own_event(std::uint32_t i, double now);
+  BodyChange do_own_event(std::uint32_t i, double now);
   /// On paths that are no parabolas maybe a time before which the two do not collide; collide()
   /// then changes nothing.
   double collision_time(std::uint32_t i, std::uint32_t j, double now,
@@ -75,7 +75,6 @@ class SubstrateWorld {
   static constexpr bool kIsStill = std::is_same_v<Phase, SubstratePhase>;
 
  private:
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
   using Kind = typename Phase::Kind;
 
   /// What is asked for at each look at a pair: two cache lines.

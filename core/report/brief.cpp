@@ -61,10 +61,10 @@ std::string brief_of(const std::vector<SceneRecord>& scenes, const TableStyle& s
       within += run.verdict() == Verdict::within;
     }
     const bool good = scene.verdict() == Verdict::within;
-    rows.push_back({{scene.scenario.name, Ink::plain},
-                    {good ? "✓" : "✗", good ? Ink::good : Ink::bad},
-                    {fmt::format("{}/{}", within, counted), Ink::plain},
-                    {worst_text(scene), Ink::faint}});
+    rows.push_back({{scene.scenario.name, Tone::plain},
+                    {good ? "✓" : "✗", good ? Tone::good : Tone::bad},
+                    {fmt::format("{}/{}", within, counted), Tone::plain},
+                    {worst_text(scene), Tone::faint}});
   }
   return aligned({{"scene"}, {""}, {"runs within", true}, {"worst deviation", false, 1}},
                  std::move(rows), style, 0);

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kGap = 2;
 constexpr std::size_t kShortestName = 12;
+constexpr std::size_t kParagraphIndent = 2;
 
 using Rows = std::vector<std::vector<Cell>>;
 
@@ -42,12 +43,12 @@ bool leave_one_out(std::vector<Column>& columns, Rows& rows) {
 
 }  // namespace
 
-std::string inked(const std::string& text, Ink ink, const TableStyle& style) {
-  if (!style.colour || ink == Ink::plain || text.empty()) return text;
-  const char* code = ink == Ink::good    ? "\x1b[32m"
-                     : ink == Ink::bad   ? "\x1b[31m"
-                     : ink == Ink::faint ? "\x1b[2m"
-                                         : "\x1b[1m";
+std::string inked(const std::string& text, Tone ink, const TableStyle& style) {
+  if (!style.colour || ink == Tone::plain || text.empty()) return text;
+  const char* code = ink == Tone::good    ? "\x1b[32m"
+                     : ink == Tone::bad   ? "\x1b[31m"
+                     : ink == Tone::faint ? "\x1b[2m"
+                                          : "\x1b[1m";
   return code + text + "\x1b[0m";
 }
 
@@ -80,9 +81,22 @@ std::string aligned(std::vector<Column> columns, Rows rows, const TableStyle& st
     result += line + '\n';
   };
   std::vector<Cell> headers;
-  for (const Column& column : columns) headers.push_back({column.header, Ink::faint});
+  for (const Column& column : columns) headers.push_back({column.header, Tone::faint});
   add_line(headers);
   for (const auto& row : rows) add_line(row);
+  return result;
+}
+
+std::string paragraph(const std::string& head, const std::string& text, Tone ink,
+                      const TableStyle& style) {
+  const std::size_t indent = kParagraphIndent + display_width(head);
+  const auto width = static_cast<std::size_t>(std::max(style.width, 1));
+  std::string result;
+  for (const std::string& line : wrapped(printable(text), width > indent ? width - indent : 1)) {
+    result += result.empty() ? std::string(kParagraphIndent, ' ') + inked(head, ink, style)
+                             : std::string(indent, ' ');
+    result += line + '\n';
+  }
   return result;
 }
 

@@ -13,10 +13,10 @@ struct TableStyle {
 };
 
 /// What a piece of text stands for, hence its colour.
-enum class Ink { plain, good, bad, faint, strong };
+enum class Tone { plain, good, bad, faint, strong };
 
 /// The text in its colour, where the style has colours.
-std::string inked(const std::string& text, Ink ink, const TableStyle& style);
+std::string inked(const std::string& text, Tone ink, const TableStyle& style);
 
 struct Column {
   std::string header;
@@ -26,12 +26,16 @@ struct Column {
 
 struct Cell {
   std::string text;
-  Ink ink = Ink::plain;
+  Tone ink = Tone::plain;
 };
 
 /// Lines of aligned columns. Where there is no room, spare columns go first, and then the first
 /// column is shortened. Every row has a cell for each column.
 std::string aligned(std::vector<Column> columns, std::vector<std::vector<Cell>> rows,
                     const TableStyle& style, std::size_t indent);
+
+/// A paragraph under a head of that ink, each line indented to behind it; two blanks before all.
+std::string paragraph(const std::string& head, const std::string& text, Tone ink,
+                      const TableStyle& style);
 
 }  // namespace slipcheck

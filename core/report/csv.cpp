@@ -7,18 +7,9 @@
 #include <cmath>
 #include <utility>
 
+#include "report/csv_rows.h"
+
 namespace slipcheck {
-namespace {
-
-std::string quoted(const std::string& name) {
-  if (name.find_first_of(",\"\n") == std::string::npos) return name;
-  std::string text = "\"";
-  for (char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
-  return text + "\"";
-}
-
-}  // namespace
-
 std::vector<double>& Table::add(std::string name, std::vector<double> values) {
   return columns_.emplace_back(Column{std::move(name), std::move(values)}).values;
 }
@@ -35,7 +26,7 @@ std::string csv_text(const Table& table) {
   std::size_t rows = 0;
   for (const Table::Column& column : table.columns()) {
     if (&column != &table.columns().front()) text += ",";
-    text += quoted(column.name);
+    text += csv_field(column.name);
     rows = std::max(rows, column.values.size());
   }
   text += "\n";

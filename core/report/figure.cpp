@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
-#include "report/html_text.h"
+#include "report/outcome_look.h"
 #include "report/plot_text.h"
+#include "report/svg_image.h"
 
 namespace slipcheck {
 namespace {
@@ -19,7 +21,21 @@ constexpr double kSampleWidth = 34, kLegendLine = 20, kLegendFont = 12.5;
 struct LegendEntry {
   std::string label;
   Look look;
+  std::optional<Outcome> outcome = std::nullopt;  ///< a cell of a map in place of a curve
 };
+
+/// The outcomes of all maps from good to bad, and the lines in them.
+void add_maps(std::vector<LegendEntry>& entries, const FigureDrawing& drawing) {
+  std::set<Outcome> outcomes;
+  std::set<std::string> lines;
+  for (const Panel& panel : drawing.panels)
+    if (const auto* map = std::get_if<CategoryMap>(&panel)) {
+      outcomes.insert(map->cells.begin(), map->cells.end());
+      if (!map->line.empty()) lines.insert(map->line_label);
+    }
+  for (const Outcome outcome : outcomes) entries.push_back({name_of(outcome), {}, outcome});
+  for (const std::string& line : lines) entries.push_back({line, {Ink::black, Line::dashed}});
+}
 
 std::vector<LegendEntry> legend_of(const FigureDrawing& drawing) {
   std::vector<LegendEntry> entries;
@@ -30,6 +46,7 @@ std::vector<LegendEntry> legend_of(const FigureDrawing& drawing) {
             std::none_of(entries.begin(), entries.end(),
                          [&](const LegendEntry& e) { return e.label == curve.label; }))
           entries.push_back({curve.label, curve.look});
+  add_maps(entries, drawing);
   return entries;
 }
 
@@ -48,7 +65,8 @@ std::string legend_svg(const std::vector<LegendEntry>& entries, double& y) {
     const std::size_t column = k / rows;
     const double x = left + static_cast<double>(column) * widest;
     const double line = y + kLegendLine * (static_cast<double>(k % rows) + 0.5);
-    svg += legend_sample(entries[k].look, x, line, kSampleWidth);
+    svg += entries[k].outcome ? outcome_cell_svg(*entries[k].outcome, {x + 8, line - 8, 18, 16}, "")
+                              : legend_sample(entries[k].look, x, line, kSampleWidth);
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x + kSampleWidth + 8,
                        line + 4, plot_text(entries[k].label));
   }
@@ -70,6 +88,8 @@ std::string figure_svg(const FigureDrawing& drawing, const std::string& name,
                     panel_width - kLeft - kRight, kPlotHeight};
     if (const auto* chart = std::get_if<LineChart>(&drawing.panels[k])) {
       body += line_chart_svg(*chart, frame, fmt::format("{}-plot-{}", name, k + 1));
+    } else if (const auto* map = std::get_if<CategoryMap>(&drawing.panels[k])) {
+      body += category_map_svg(*map, frame, fmt::format("{}-plot-{}", name, k + 1));
     } else {
       frame.width -= kColourBarWidth - kRight;
       body += heat_map_svg(std::get<HeatMap>(drawing.panels[k]), frame);
@@ -80,15 +100,7 @@ std::string figure_svg(const FigureDrawing& drawing, const std::string& name,
   double height = rows * panel_height;
   body += legend_svg(legend_of(drawing), height);
   height += 8;
-  return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" "
-             "width=\"{0:g}\" height=\"{1:g}\" role=\"img\" aria-labelledby=\"{2}-title\" "
-             "font-family=\"Helvetica, Arial, 'Liberation Sans', sans-serif\" font-size=\"12\" "
-             "fill=\"#1b1b1b\">\n<title id=\"{2}-title\">{3}</title>\n<desc>{4}</desc>\n"
-             "<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"#ffffff\"/>\n",
-             kWidth, height, escaped(name), escaped(plain_plot_text(title)),
-             escaped(plain_plot_text(description))) +
-         body + "</svg>\n";
+  return svg_image(kWidth, height, name, title, description, body);
 }
 
 }  // namespace slipcheck

@@ -6,10 +6,11 @@
 
 #include "report/heat_map.h"
 #include "report/line_chart.h"
+#include "report/outcome_map.h"
 
 namespace slipcheck {
 
-using Panel = std::variant<LineChart, HeatMap>;
+using Panel = std::variant<LineChart, HeatMap, CategoryMap>;
 
 /// Panels side by side with one legend below them.
 struct FigureDrawing {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "report/context.h"
+#include "report/html_page.h"
 #include "report/html_text.h"
-#include "report/page_css.h"
 #include "report/plot_text.h"
 
 namespace slipcheck {
@@ -26,32 +26,21 @@ std::string section_of(const FigureOnPage& figure) {
 std::string figure_page(std::span<const FigureOnPage> figures, const std::string& introduction,
                         const std::string& command) {
   const Context& made = context();
-  std::string html = R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8"/>
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'"/>
-<meta name="viewport" content="width=device-width, initial-scale=1"/>
-<meta name="color-scheme" content="light dark"/>
-<title>Slipcheck figures</title>
-<style>
-)";
-  html += kPageCss;
-  html +=
-      ".plot svg { display: block; width: 100%; max-width: 60rem; height: auto; }\n"
-      "</style>\n</head>\n<body>\n<header>\n<h1>Slipcheck: the papers' figures</h1>\n";
+  std::string html =
+      html_head("Slipcheck figures",
+                ".plot svg { display: block; width: 100%; max-width: 60rem; height: auto; }\n");
+  html += "<header>\n<h1>Slipcheck: the papers' figures</h1>\n";
   html += html_paragraph("title", "", introduction);
-  html += fmt::format(
-      "<dl class=\"context\">\n<div><dt>command</dt><dd>{}</dd></div>\n<div><dt>date</dt>"
-      "<dd>{}</dd></div>\n<div><dt>slipcheck</dt><dd>{}, commit {}</dd></div>\n</dl>\n",
-      escaped(command), escaped(made.date), escaped(made.version), escaped(made.commit));
+  html +=
+      "<dl class=\"context\">\n" + html_fact("command", command) + html_fact("date", made.date) +
+      html_fact("slipcheck", fmt::format("{}, commit {}", made.version, made.commit)) + "</dl>\n";
   html += "<nav aria-label=\"Figures\"><ul class=\"contents\">\n";
   for (const FigureOnPage& figure : figures)
     html += fmt::format("<li><a href=\"#{0}\">{0}</a> {1}</li>\n", escaped(figure.name),
                         html_plot_text(figure.title));
   html += "</ul></nav>\n</header>\n<main>\n";
   for (const FigureOnPage& figure : figures) html += section_of(figure);
-  return html + "</main>\n</body>\n</html>\n";
+  return html + "</main>\n" + kHtmlEnd;
 }
 
 }  // namespace slipcheck

@@ -22,20 +22,27 @@ constexpr std::array<Colour, 5> kStops = {Colour{160, 60, 0}, Colour{235, 150, 8
 
 int level_of(double share) { return std::clamp(static_cast<int>(share * kLevels), 0, kLevels - 1); }
 
-/// The axis that the grid's cells fill.
-PlotAxis grid_axis(AxisSpec spec, const std::vector<double>& centres) {
-  const double first = centres.front(), last = centres.back();
-  const double cells = static_cast<double>(std::max<std::size_t>(centres.size(), 2) - 1);
-  if (spec.logarithmic) {
-    const double half = std::pow(last / first, 0.5 / cells);
-    spec.low = first / half;
-    spec.high = last * half;
-  } else {
-    const double half = 0.5 * (last - first) / cells;
-    spec.low = first - half;
-    spec.high = last + half;
+/// Which share of the colours a level has.
+double share_of(const HeatMap& map, int level) {
+  const double share = (level + 0.5) / kLevels;
+  return map.low_is_blue ? 1 - share : share;
+}
+
+/// What stands in the cells that have no value.
+std::string missing_cells(const HeatMap& map, const PlotFrame& frame) {
+  if (map.missing.empty()) return {};
+  const double width = frame.width / static_cast<double>(map.x_values.size());
+  const double height = frame.height / static_cast<double>(map.y_values.size());
+  std::string svg = "<g text-anchor=\"middle\" font-size=\"11\" fill=\"#7a7a7a\">";
+  for (std::size_t k = 0; k < map.z.size(); ++k) {
+    if (!std::isnan(map.z[k])) continue;
+    const auto row = static_cast<double>(k / map.x_values.size());
+    const auto column = static_cast<double>(k % map.x_values.size());
+    svg += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>",
+                       frame.left + (column + 0.5) * width,
+                       frame.top + frame.height - (row + 0.5) * height + 4, plot_text(map.missing));
   }
-  return PlotAxis(std::move(spec), centres);
+  return svg + "</g>\n";
 }
 
 std::string colour_bar(const HeatMap& map, const PlotFrame& frame) {
@@ -44,7 +51,7 @@ std::string colour_bar(const HeatMap& map, const PlotFrame& frame) {
   std::string svg = "<g shape-rendering=\"crispEdges\">";
   for (int k = 0; k < kLevels; ++k)
     svg += fmt::format("<path fill=\"{}\" d=\"M{:.2f} {:.2f}h{:g}v{:.2f}h-{:g}z\"/>",
-                       heat_colour((k + 0.5) / kLevels), left,
+                       heat_colour(share_of(map, k)), left,
                        frame.top + frame.height - (k + 1) * step, width,
                        // A little more, so that no line of background shows between two levels.
                        step + (k > 0 ? 0.5 : 0), width);
@@ -72,6 +79,21 @@ std::string heat_colour(double share) {
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
+PlotAxis grid_axis(AxisSpec spec, const std::vector<double>& centres) {
+  const double first = centres.front(), last = centres.back();
+  const double cells = static_cast<double>(std::max<std::size_t>(centres.size(), 2) - 1);
+  if (spec.logarithmic) {
+    const double half = std::pow(last / first, 0.5 / cells);
+    spec.low = first / half;
+    spec.high = last * half;
+  } else {
+    const double half = 0.5 * (last - first) / cells;
+    spec.low = first - half;
+    spec.high = last + half;
+  }
+  return PlotAxis(std::move(spec), centres);
+}
+
 std::string heat_map_svg(const HeatMap& map, const PlotFrame& frame) {
   const std::size_t columns = map.x_values.size(), rows = map.y_values.size();
   const double width = frame.width / static_cast<double>(columns);
@@ -95,9 +117,8 @@ std::string heat_map_svg(const HeatMap& map, const PlotFrame& frame) {
     }
   std::string svg = "<g shape-rendering=\"crispEdges\">\n";
   for (const auto& [level, path] : paths)
-    svg +=
-        fmt::format("<path fill=\"{}\" d=\"{}\"/>\n", heat_colour((level + 0.5) / kLevels), path);
-  svg += "</g>\n";
+    svg += fmt::format("<path fill=\"{}\" d=\"{}\"/>\n", heat_colour(share_of(map, level)), path);
+  svg += "</g>\n" + missing_cells(map, frame);
   svg += axes_svg(map.title, grid_axis(map.x, map.x_values), grid_axis(map.y, map.y_values), frame);
   return svg + colour_bar(map, frame);
 }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "harness/record.h"
+#include "report/html_engines.h"
 
 namespace slipcheck {
 
@@ -12,7 +14,8 @@ std::string verdict_label(const SceneRecord& scene);
 /// Its class on the page and in the filter: "within", "deviates", "failed".
 std::string verdict_class(const SceneRecord& scene);
 
-/// A scene's section of the page: what it is, the reference, charts, and a table for each run.
-std::string html_scene(const SceneRecord& scene, const std::string& id);
+/// Section of the k-th scene: what it is, what of the reference it leaves out, the reference's
+/// values, what charts show in words, and each run.
+std::string html_scene(const SceneRecord& scene, std::size_t k, const SharedSettings& shared);
 
 }  // namespace slipcheck

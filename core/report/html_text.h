@@ -22,8 +22,16 @@ struct HtmlCell {
 };
 
 /// A table that scrolls by itself where it is wider than the screen, also by keyboard; `label` is
-/// what a screen reader calls it. The first cell of a row is its head.
+/// what a screen reader calls it, empty where the heading before it says so. The first cell of a
+/// row is its head. Below a head of class "n" stand numbers, to the right.
 std::string html_table(std::string_view label, const std::vector<HtmlCell>& headers,
                        const std::vector<std::vector<HtmlCell>>& rows);
+
+/// A list under a bold head, all escaped; nothing without items.
+std::string html_list(std::string_view css_class, std::string_view head,
+                      const std::vector<std::string>& items);
+
+/// HTML that opens at a click on its summary, which is escaped; nothing without content.
+std::string html_details(std::string_view summary, std::string_view content);
 
 }  // namespace slipcheck

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/context.h"
+#include "report/json_number.h"
 #include "report/selection.h"
 #include "report/text.h"
 
@@ -14,26 +14,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds to what stands beside a null, or to why a run is not ok.
-void add_reason(Json& object, const std::string& reason) {
-  if (reason.empty()) return;
-  Json& text = object["reason"];
-  text =
-      text.is_string() ? text.get<std::string>() + "; " + valid_utf8(reason) : valid_utf8(reason);
-}
-
-const char* kind_of(double value) {
-  return std::isnan(value) ? "is not a number" : value > 0 ? "is infinite" : "is minus infinite";
-}
-
 /// JSON has no words for what is not finite.
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// A number, or null with a reason beside it.
-void put(Json& object, const std::string& key, double value, const std::string& reason = {}) {
-  object[key] = number_or_null(value);
-  if (!std::isfinite(value))
-    add_reason(object, reason.empty() ? key + " " + kind_of(value) : reason);
+const char* kind_of(double value) {
+  return std::isnan(value) ? "is not a number" : value > 0 ? "is infinite" : "is minus infinite";
 }
 
 Json strings(const std::vector<std::string>& texts) {
@@ -80,21 +65,26 @@ Json reference_json(const SceneRecord& scene) {
   const ReferenceResult& reference = scene.reference;
   Json json;
   json["solver"] = reference.solver;
-  put(json, "cpu_seconds", reference.cpu_seconds);
-  put(json, "end_time", reference.run.end_time);
+  put_number(json, "cpu_seconds", reference.cpu_seconds);
+  put_number(json, "end_time", reference.run.end_time);
+  json["reached"] = reference.run.reached;
+  add_reason(json, reference.run.reason);
+  if (reference.run.failed) json["failed"] = true;
+  if (std::isfinite(reference.first_contact)) json["first_contact"] = reference.first_contact;
   json["collisions"] = reference.run.collisions;
+  if (reference.run.collapses > 0) json["collapses"] = reference.run.collapses;
   json["events"] = reference.run.events;
   json["steps"] = reference.run.steps;
-  if (reference.run.balance) put(json, "energy_error", reference.run.balance->error());
+  if (reference.run.balance) put_number(json, "energy_error", reference.run.balance->error());
   if (reference.box) json["statistics"] = statistics_json(*reference.box);
 
   // In alphabetical order, what is absent between what is shown.
   std::map<std::string, Json> observables;
   for (const auto& [name, value] : reference.observables) {
     Json& entry = observables[name];
-    put(entry, "value", value.value);
-    put(entry, "uncertainty", value.uncertainty,
-        std::isinf(value.uncertainty) ? no_bound(reference) : "");
+    put_number(entry, "value", value.value);
+    put_number(entry, "uncertainty", value.uncertainty,
+               std::isinf(value.uncertainty) ? no_bound(reference) : "");
   }
   for (const auto& [name, reason] : absent_observables(scene))
     observables[name] = {{"value", nullptr}, {"uncertainty", nullptr}, {"reason", reason}};
@@ -102,16 +92,17 @@ Json reference_json(const SceneRecord& scene) {
   for (auto& [name, entry] : observables) json["observables"][name] = std::move(entry);
 
   json["closed_form"] = Json::object();
-  for (const auto& [name, value] : reference.closed_form) put(json["closed_form"], name, value);
+  for (const auto& [name, value] : reference.closed_form)
+    put_number(json["closed_form"], name, value);
   json["warnings"] = strings(reference.warnings);
   return json;
 }
 
 Json ensemble_json(const EnsembleValue& ensemble, bool with_values) {
   Json json;
-  put(json, "median", ensemble.median);
-  put(json, "min", ensemble.min);
-  put(json, "max", ensemble.max);
+  put_number(json, "median", ensemble.median);
+  put_number(json, "min", ensemble.min);
+  put_number(json, "max", ensemble.max);
   if (ensemble.missing > 0) json["missing"] = ensemble.missing;
   if (with_values) {
     json["values"] = Json::array();
@@ -129,28 +120,13 @@ Json deviation_json(const Deviation& deviation) {
   Json json;
   json["median"] = number_or_null(deviation.median);
   json["max"] = number_or_null(deviation.max);
+  json["rms"] = number_or_null(deviation.rms);
   add_reason(json, deviation.reason);
   if (deviation.reason.empty() && !std::isfinite(deviation.max))
     add_reason(json, std::string("the error ") + kind_of(deviation.max));
-  if (deviation.tolerance) put(json, "tolerance", *deviation.tolerance);
+  if (deviation.tolerance) put_number(json, "tolerance", *deviation.tolerance);
   if (deviation.absolute) json["absolute"] = true;
   json["within"] = deviation.within;
-  return json;
-}
-
-void put_setting(Json& settings, const std::string& name, const Setting& setting) {
-  if (const double* number = std::get_if<double>(&setting)) {
-    put(settings, name, *number);
-  } else if (const bool* flag = std::get_if<bool>(&setting)) {
-    settings[name] = *flag;
-  } else {
-    settings[name] = valid_utf8(std::get<std::string>(setting));
-  }
-}
-
-Json settings_json(const Settings& settings) {
-  Json json = Json::object();
-  for (const auto& [name, setting] : settings) put_setting(json, valid_utf8(name), setting);
   return json;
 }
 
@@ -159,8 +135,8 @@ Json expectation_json(const ExpectationResult& expected) {
   json["observable"] = valid_utf8(expected.observable);
   json["statistic"] = name_of(expected.statistic);
   if (expected.statistic != ExpectationResult::Statistic::none) {
-    put(json, "low", expected.low);
-    put(json, "high", expected.high);
+    put_number(json, "low", expected.low);
+    put_number(json, "high", expected.high);
   }
   json["value"] = number_or_null(expected.value);
   json["met"] = expected.met;
@@ -170,6 +146,14 @@ Json expectation_json(const ExpectationResult& expected) {
   return json;
 }
 
+/// What is shown phase by phase, or expected of it: not more, as there may be many phases.
+bool needs_values(const Scenario& scenario, const EngineRecord& run, const std::string& name) {
+  const ObservableName* observable = observable_of(name);
+  return has_tolerance(scenario, name) ||
+         (observable && scenario.compare.tolerance.contains(std::string(observable->name))) ||
+         (run.expect && run.expect->observables.contains(name));
+}
+
 Json run_json(const Scenario& scenario, const EngineRecord& run) {
   Json json;
   json["engine"] = valid_utf8(run.engine);
@@ -177,16 +161,16 @@ Json run_json(const Scenario& scenario, const EngineRecord& run) {
   json["precision"] = run.precision;
   json["profile"] = valid_utf8(run.profile);
   json["settings"] = settings_json(run.settings);
-  put(json, "rate", run.rate);
+  put_number(json, "rate", run.rate);
   json["status"] = name_of(run.status);
   if (run.status != EngineRecord::Status::ok)
     add_reason(json, run.reason.empty() ? "not known" : run.reason);
-  put(json, "cpu_seconds", run.cpu_seconds);
+  put_number(json, "cpu_seconds", run.cpu_seconds);
   json["steps"] = run.steps;
   json["phases"] = run.phases;
   json["observables"] = Json::object();
   for (const auto& [name, ensemble] : run.observables)
-    json["observables"][name] = ensemble_json(ensemble, has_tolerance(scenario, name));
+    json["observables"][name] = ensemble_json(ensemble, needs_values(scenario, run, name));
   json["errors"] = Json::object();
   for (const auto& [name, deviation] : run.errors) json["errors"][name] = deviation_json(deviation);
   if (run.expect && run.expect->status) json["expected_status"] = name_of(*run.expect->status);
@@ -204,17 +188,14 @@ Json run_json(const Scenario& scenario, const EngineRecord& run) {
 }  // namespace
 
 Json json_of(const SceneRecord& scene) {
-  const Context& circumstances = context();
   const Scenario& scenario = scene.scenario;
-  Json json;
-  json["schema"] = "slipcheck-result/1";
-  json["slipcheck"] = {{"version", circumstances.version},
-                       {"commit", circumstances.commit},
-                       {"build", circumstances.build}};
+  Json json{{"schema", "slipcheck-result/1"}};
+  put_context(json);
   json["scenario"] = {{"name", valid_utf8(scenario.name)},
                       {"title", valid_utf8(scenario.title)},
                       {"file", valid_utf8(scenario.file)},
-                      {"sha256", scenario.sha256}};
+                      {"sha256", scenario.sha256},
+                      {"text", valid_utf8(scenario.text)}};
   json["reference"] = reference_json(scene);
   json["runs"] = Json::array();
   for (const EngineRecord& run : scene.runs) json["runs"].push_back(run_json(scenario, run));

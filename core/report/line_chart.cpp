@@ -41,6 +41,12 @@ std::string path_of(Marker marker, double x, double y) {
     case Marker::square:
       return fmt::format("M{:.2f} {:.2f}h{:g}v{:g}h{:g}z", x - 0.9 * s, y - 0.9 * s, 1.8 * s,
                          1.8 * s, -1.8 * s);
+    case Marker::diamond:
+      return fmt::format("M{:.2f} {:.2f}l{d:g} {d:g}l-{d:g} {d:g}l-{d:g} -{d:g}z", x, y - 1.4 * s,
+                         fmt::arg("d", 1.4 * s));
+    case Marker::ring:
+      return fmt::format("M{:.2f} {:.2f}a{r:g} {r:g} 0 1 0 {d:g} 0a{r:g} {r:g} 0 1 0 -{d:g} 0z",
+                         x - 2.1 * s, y, fmt::arg("r", 2.1 * s), fmt::arg("d", 4.2 * s));
     case Marker::none:
       break;
   }
@@ -53,6 +59,8 @@ std::string stroke_of(const Look& look) {
 }
 
 std::string marker_paint(const Look& look) {
+  if (look.marker == Marker::ring)
+    return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"", colour_of(look.ink));
   return fmt::format("fill=\"#ffffff\" stroke=\"{}\" stroke-width=\"1.3\"", colour_of(look.ink));
 }
 
@@ -131,6 +139,10 @@ const char* colour_of(Ink ink) {
       return "#cc79a7";
     case Ink::grey:
       return "#7a7a7a";
+    case Ink::orange:
+      return "#e69f00";
+    case Ink::sky:
+      return "#56b4e9";
   }
   return "#1b1b1b";
 }

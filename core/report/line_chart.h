@@ -9,9 +9,10 @@ namespace slipcheck {
 
 /// Colours of Okabe and Ito, which colour-blind people can tell apart. Line and marker always say
 /// the same.
-enum class Ink { black, blue, vermilion, green, purple, grey };
+enum class Ink { black, blue, vermilion, green, purple, grey, orange, sky };
 enum class Line { none, solid, dashed, dotted, dash_dot };
-enum class Marker { none, circle, triangle, square };
+/// A ring goes around another curve's marker.
+enum class Marker { none, circle, triangle, square, diamond, ring };
 
 /// How a curve is drawn.
 struct Look {

@@ -17,6 +17,8 @@ struct Piece {
   int level = 0;  ///< 1 raised, −1 lowered
 };
 
+bool is_special(char c) { return c == '_' || c == '^' || c == '\\' || c == '{' || c == '}'; }
+
 std::vector<Piece> pieces_of(std::string_view text) {
   std::vector<Piece> pieces;
   std::size_t begin = 0;
@@ -24,6 +26,12 @@ std::vector<Piece> pieces_of(std::string_view text) {
     if (end > begin) pieces.push_back({text.substr(begin, end - begin), 0});
   };
   for (std::size_t k = 0; k < text.size();) {
+    if (text[k] == '\\' && k + 1 < text.size() && is_special(text[k + 1])) {
+      close(k);
+      begin = k + 1;
+      k += 2;
+      continue;
+    }
     if ((text[k] != '^' && text[k] != '_') || k + 1 == text.size()) {
       ++k;
       continue;
@@ -87,9 +95,22 @@ std::string html_plot_text(std::string_view text) {
 
 std::string plain_plot_text(std::string_view text) {
   std::string plain;
-  for (char c : text)
-    if (c != '{' && c != '}') plain += c;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (text[k] == '\\' && k + 1 < text.size() && is_special(text[k + 1]))
+      plain += text[++k];
+    else if (text[k] != '{' && text[k] != '}')
+      plain += text[k];
+  }
   return plain;
+}
+
+std::string plot_literal(std::string_view text) {
+  std::string literal;
+  for (char c : text) {
+    if (is_special(c)) literal += '\\';
+    literal += c;
+  }
+  return literal;
 }
 
 }  // namespace slipcheck

@@ -6,7 +6,8 @@
 namespace slipcheck {
 
 /// What stands in an SVG text element for a formula's text: `_` and `^` lower and raise the next
-/// character or group in braces, as in "t^s", "v_{rel}", "u_i^f". Everything else is escaped.
+/// character or group in braces, as in "t^s", "v_{rel}", "u_i^f"; after a backslash they are
+/// themselves. Everything else is escaped.
 std::string plot_text(std::string_view text);
 
 /// About how wide that is, in units of the font's size.
@@ -15,7 +16,10 @@ double plot_text_width(std::string_view text);
 /// The same for HTML.
 std::string html_plot_text(std::string_view text);
 
-/// The same for places that show plain text: without the braces.
+/// The same for places that show plain text: without braces and backslashes.
 std::string plain_plot_text(std::string_view text);
+
+/// A text that is no formula, such as a file's name, for all of these.
+std::string plot_literal(std::string_view text);
 
 }  // namespace slipcheck

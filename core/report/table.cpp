@@ -20,23 +20,9 @@ constexpr std::size_t kMostRows = 20;
 
 constexpr std::size_t kIndent = 2;
 
-/// A paragraph under a head, each line indented to behind it.
-std::string paragraph(const std::string& head, const std::string& text, Ink ink,
-                      const TableStyle& style) {
-  const std::size_t indent = kIndent + display_width(head);
-  const auto width = static_cast<std::size_t>(std::max(style.width, 1));
-  std::string result;
-  for (const std::string& line : wrapped(printable(text), width > indent ? width - indent : 1)) {
-    result += result.empty() ? std::string(kIndent, ' ') + inked(head, ink, style)
-                             : std::string(indent, ' ');
-    result += line + '\n';
-  }
-  return result;
-}
-
 std::string warnings_text(const std::vector<std::string>& warnings, const TableStyle& style) {
   std::string result;
-  for (const std::string& warning : warnings) result += paragraph("! ", warning, Ink::bad, style);
+  for (const std::string& warning : warnings) result += paragraph("! ", warning, Tone::bad, style);
   return result;
 }
 
@@ -47,7 +33,7 @@ std::string more_rows(std::size_t count) {
 std::string reference_block(const SceneRecord& scene, const std::vector<std::string>& names,
                             const TableStyle& style) {
   const ReferenceResult& reference = scene.reference;
-  std::string result = paragraph("reference  ", reference_summary(reference), Ink::strong, style);
+  std::string result = paragraph("reference  ", reference_summary(reference), Tone::strong, style);
 
   const auto absent = absent_observables(scene);
   std::vector<std::vector<Cell>> rows;
@@ -58,7 +44,7 @@ std::string reference_block(const SceneRecord& scene, const std::vector<std::str
     std::string closed_form = closed_form_text(reference, name, format);
     any_closed_form |= !closed_form.empty();
     if (const auto found = absent.find(name); found != absent.end()) closed_form = found->second;
-    rows.push_back({{name}, {reference_text(scene, name, format)}, {closed_form, Ink::faint}});
+    rows.push_back({{name}, {reference_text(scene, name, format)}, {closed_form, Tone::faint}});
   }
   if (rows.empty()) return result + warnings_text(reference.warnings, style);
   const std::size_t left_out = names.size() - rows.size();
@@ -66,20 +52,20 @@ std::string reference_block(const SceneRecord& scene, const std::vector<std::str
       aligned({{"observable"}, {"value", true}, {any_closed_form ? "closed form" : "", false, 1}},
               std::move(rows), style, 2 * kIndent);
   if (left_out > 0)
-    result += paragraph("  … ", fmt::format("{} observables more", left_out), Ink::faint, style);
+    result += paragraph("  … ", fmt::format("{} observables more", left_out), Tone::faint, style);
   return result + warnings_text(reference.warnings, style);
 }
 
-Ink ink_of(Mark mark) {
-  return mark == Mark::within ? Ink::good : mark == Mark::deviates ? Ink::bad : Ink::faint;
+Tone ink_of(Mark mark) {
+  return mark == Mark::within ? Tone::good : mark == Mark::deviates ? Tone::bad : Tone::faint;
 }
 
 std::string rows_text(const std::vector<ComparisonRow>& comparison, const TableStyle& style) {
   std::vector<std::vector<Cell>> rows;
   std::string notes;
   for (const ComparisonRow& row : comparison) {
-    const Ink ink = ink_of(row.mark);
-    const Ink error_ink = row.mark == Mark::deviates ? Ink::bad : Ink::plain;
+    const Tone ink = ink_of(row.mark);
+    const Tone error_ink = row.mark == Mark::deviates ? Tone::bad : Tone::plain;
     rows.push_back({{row.name},
                     {row.reference},
                     {row.median},
@@ -88,7 +74,7 @@ std::string rows_text(const std::vector<ComparisonRow>& comparison, const TableS
                     {row.tolerance},
                     {symbol_of(row.mark), ink},
                     {word_of(row.mark), ink}});
-    if (!row.note.empty()) notes += paragraph("  " + row.name + ": ", row.note, Ink::faint, style);
+    if (!row.note.empty()) notes += paragraph("  " + row.name + ": ", row.note, Tone::faint, style);
   }
   return aligned({{"observable"},
                   {"reference", true},
@@ -108,14 +94,14 @@ std::string expectations_text(const std::vector<ExpectationRow>& expectations,
   std::vector<std::vector<Cell>> rows;
   std::string notes;
   for (const ExpectationRow& row : expectations) {
-    const Ink ink = row.met ? Ink::good : Ink::bad;
+    const Tone ink = row.met ? Tone::good : Tone::bad;
     rows.push_back({{row.name},
                     {row.statistic},
-                    {row.value, row.met ? Ink::plain : Ink::bad},
+                    {row.value, row.met ? Tone::plain : Tone::bad},
                     {row.limits},
                     {symbol_of(row.met ? Mark::within : Mark::deviates), ink},
                     {expectation_word(row.met), ink}});
-    if (!row.note.empty()) notes += paragraph("  " + row.name + ": ", row.note, Ink::faint, style);
+    if (!row.note.empty()) notes += paragraph("  " + row.name + ": ", row.note, Tone::faint, style);
   }
   return aligned({{"of this engine"}, {""}, {"value", true}, {"expected"}, {""}, {"", false, 1}},
                  std::move(rows), style, 2 * kIndent) +
@@ -126,7 +112,7 @@ std::string expectations_text(const std::vector<ExpectationRow>& expectations,
 std::string status_block(const EngineRecord& run, const TableStyle& style) {
   const bool skipped = run.verdict() == std::nullopt;
   const bool good = run.verdict() == Verdict::within;
-  const Ink ink = skipped ? Ink::faint : good ? Ink::good : Ink::bad;
+  const Tone ink = skipped ? Tone::faint : good ? Tone::good : Tone::bad;
   const char* symbol = skipped ? "– " : good ? "✓ " : "✗ ";
   const bool ok = run.status == RunStatus::ok;
   return paragraph("  " + std::string(symbol) + outcome_text(run) + (ok ? "" : ": "),
@@ -146,7 +132,7 @@ std::string run_block(const SceneRecord& scene, const EngineRecord& run,
   std::string result = "\n";
   const auto width = static_cast<std::size_t>(std::max(style.width, 1));
   for (const std::string& line : wrapped(head, width > kIndent ? width - kIndent : 1))
-    result += std::string(kIndent, ' ') + inked(line, Ink::strong, style) + '\n';
+    result += std::string(kIndent, ' ') + inked(line, Tone::strong, style) + '\n';
   if (!ok || (run.expect && run.expect->status)) result += status_block(run, style);
   if (ok) {
     std::vector<ComparisonRow> rows = comparison_rows(scene, run, names);
@@ -154,18 +140,18 @@ std::string run_block(const SceneRecord& scene, const EngineRecord& run,
     if (!style.all_observables) rows = most_severe(std::move(rows), kMostRows);
     const std::size_t left_out = count - rows.size();
     if (!rows.empty()) result += rows_text(rows, style);
-    if (left_out > 0) result += paragraph("  … ", more_rows(left_out), Ink::faint, style);
+    if (left_out > 0) result += paragraph("  … ", more_rows(left_out), Tone::faint, style);
     result += expectations_text(expectation_rows(run), style);
   }
   if (!run.applied.not_represented.empty())
     result += paragraph(
         "  not represented: ", fmt::format("{}", fmt::join(run.applied.not_represented, ", ")),
-        Ink::faint, style);
+        Tone::faint, style);
   return result + warnings_text(run.warnings, style);
 }
 
 std::string verdict_text(const SceneRecord& scene, const TableStyle& style) {
-  if (scene.runs.empty()) return inked("reference only", Ink::faint, style);
+  if (scene.runs.empty()) return inked("reference only", Tone::faint, style);
   const bool by_expectations = is_judged_by_expectations(scene);
   const auto word = [&](Mark mark) {
     return std::string(symbol_of(mark)) + " " +
@@ -173,13 +159,13 @@ std::string verdict_text(const SceneRecord& scene, const TableStyle& style) {
   };
   switch (scene.verdict()) {
     case Verdict::within:
-      return inked(word(Mark::within), Ink::good, style);
+      return inked(word(Mark::within), Tone::good, style);
     case Verdict::deviates:
-      return inked(word(Mark::deviates), Ink::bad, style);
+      return inked(word(Mark::deviates), Tone::bad, style);
     case Verdict::failed:
       break;
   }
-  return inked("✗ FAILED", Ink::bad, style);
+  return inked("✗ FAILED", Tone::bad, style);
 }
 
 std::string plural(std::size_t count, const std::string& noun) {
@@ -190,10 +176,10 @@ std::string plural(std::size_t count, const std::string& noun) {
 
 std::string table_of(const SceneRecord& scene, const TableStyle& style) {
   const Scenario& scenario = scene.scenario;
-  std::string result = inked(printable(scenario.name), Ink::strong, style) + "  " +
+  std::string result = inked(printable(scenario.name), Tone::strong, style) + "  " +
                        verdict_text(scene, style) + '\n';
-  if (!scenario.title.empty()) result += paragraph("", scenario.title, Ink::plain, style);
-  if (!scenario.source.empty()) result += paragraph("", scenario.source, Ink::plain, style);
+  if (!scenario.title.empty()) result += paragraph("", scenario.title, Tone::plain, style);
+  if (!scenario.source.empty()) result += paragraph("", scenario.source, Tone::plain, style);
   result += '\n';
   const std::vector<std::string> names = shown_observables(scene, style.all_observables);
   result += reference_block(scene, names, style);
@@ -214,15 +200,15 @@ std::string summary_of(const std::vector<SceneRecord>& scenes, const TableStyle&
         ++skipped;
     }
   }
-  const auto count = [&](std::size_t number, const char* what, Ink ink) {
-    return inked(fmt::format("{} {}", number, what), number > 0 ? ink : Ink::plain, style);
+  const auto count = [&](std::size_t number, const char* what, Tone ink) {
+    return inked(fmt::format("{} {}", number, what), number > 0 ? ink : Tone::plain, style);
   };
   return fmt::format(
       "{}: {}, {}, {}; {}: {}, {}, {}, {}\n", plural(scenes.size(), "scene"),
-      count(verdicts[0], "within", Ink::good), count(verdicts[1], "deviate", Ink::bad),
-      count(verdicts[2], "failed", Ink::bad), plural(runs, "engine run"),
-      count(run_verdicts[0], "within", Ink::good), count(run_verdicts[1], "deviate", Ink::bad),
-      count(run_verdicts[2], "failed", Ink::bad), count(skipped, "skipped", Ink::faint));
+      count(verdicts[0], "within", Tone::good), count(verdicts[1], "deviate", Tone::bad),
+      count(verdicts[2], "failed", Tone::bad), plural(runs, "engine run"),
+      count(run_verdicts[0], "within", Tone::good), count(run_verdicts[1], "deviate", Tone::bad),
+      count(run_verdicts[2], "failed", Tone::bad), count(skipped, "skipped", Tone::faint));
 }
 
 }  // namespace slipcheck

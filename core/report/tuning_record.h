@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/tuning.h"
+#include "tuning/tuning.h"
 
 namespace slipcheck {
 

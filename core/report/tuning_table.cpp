@@ -36,7 +36,7 @@ std::size_t count_scenes(const TuningRecord& tuning, bool held_out) {
 std::string heading(const TuningRecord& tuning, const TableStyle& style) {
   const std::size_t training = count_scenes(tuning, false);
   std::string text = fmt::format("{} {} {}", tuning.engine, tuning.version, tuning.precision);
-  return inked(text, Ink::strong, style) +
+  return inked(text, Tone::strong, style) +
          fmt::format(", fitted to {} scene{} at {:g} Hz, {} phases\n", training,
                      training == 1 ? "" : "s", fmt::join(tuning.rates, ", "), tuning.final_phases);
 }
@@ -51,10 +51,10 @@ std::string runs_table(const TuningRecord& tuning, const TableStyle& style) {
     rows.push_back({{task.scene},
                     {fmt::format("{:g} Hz", task.rate)},
                     {tuning_error_text(before)},
-                    {tuning_error_text(after), good ? Ink::good : Ink::bad},
-                    {good ? "✓" : "✗", good ? Ink::good : Ink::bad},
-                    {after.failed > 0 ? after.reason : after.observable, Ink::faint},
-                    {task.held_out ? "held out" : "", Ink::faint}});
+                    {tuning_error_text(after), good ? Tone::good : Tone::bad},
+                    {good ? "✓" : "✗", good ? Tone::good : Tone::bad},
+                    {after.failed > 0 ? after.reason : after.observable, Tone::faint},
+                    {task.held_out ? "held out" : "", Tone::faint}});
   }
   return aligned({{"scene"},
                   {"rate", true},
@@ -88,7 +88,7 @@ std::string summary(const TuningRecord& tuning, const TableStyle& style) {
   text += fmt::format("  held out: {} times the error of the scenes it was fitted to\n",
                       plain_number(ratio));
   if (tuning.result.overfitted())
-    text += fmt::format("  {}\n", inked("! overfitted: more than twice", Ink::bad, style));
+    text += fmt::format("  {}\n", inked("! overfitted: more than twice", Tone::bad, style));
   return text;
 }
 
@@ -98,7 +98,7 @@ std::string trade_off(const TuningRecord& tuning, const TableStyle& style) {
     rows.push_back(
         {{cost_text(candidate.score.cost)},
          {error_text(candidate.score)},
-         {changes_text(tuning.space, tuning.space.start, candidate.settings), Ink::faint}});
+         {changes_text(tuning.space, tuning.space.start, candidate.settings), Tone::faint}});
   return aligned({{"CPU", true}, {"worst error", true}, {"changed from " + tuning.start}},
                  std::move(rows), style, 2);
 }
@@ -111,8 +111,8 @@ std::string settings_table(const TuningRecord& tuning, const TableStyle& style) 
     const std::string unit = info.unit.empty() ? "" : " " + info.unit;
     rows.push_back({{info.name},
                     {exact_text(chosen->second) + unit},
-                    {exact_text(info.shipped) + unit, Ink::faint},
-                    {printable(info.about), Ink::faint}});
+                    {exact_text(info.shipped) + unit, Tone::faint},
+                    {printable(info.about), Tone::faint}});
   }
   if (rows.empty()) return "  every setting has the engine's own value\n";
   return aligned({{"setting"}, {"chosen", true}, {"engine's own", true}, {"", false, 1}},
@@ -130,16 +130,16 @@ std::string tuning_error_text(const RunScore& run) {
 std::string tuning_table(const TuningRecord& tuning, const TableStyle& style) {
   const TuningResult& result = tuning.result;
   std::string text = heading(tuning, style);
-  text += fmt::format("\n{}\n", inked("Worst phase's error, in tolerances", Ink::strong, style));
+  text += fmt::format("\n{}\n", inked("Worst phase's error, in tolerances", Tone::strong, style));
   text += runs_table(tuning, style);
   text += '\n';
   text += summary(tuning, style);
   text += fmt::format("\n{}, {} phases, {} settings seen by all, {:.0f} evaluations{}\n",
-                      inked("Accuracy against time", Ink::strong, style), tuning.phases,
+                      inked("Accuracy against time", Tone::strong, style), tuning.phases,
                       result.candidates, result.evaluations,
                       result.converged ? "" : " (the budget was spent)");
   text += trade_off(tuning, style);
-  text += fmt::format("\n{}\n", inked(tuning.profile, Ink::strong, style));
+  text += fmt::format("\n{}\n", inked(tuning.profile, Tone::strong, style));
   text += settings_table(tuning, style);
   return text;
 }

@@ -9,6 +9,7 @@
 #include "scenario/check.h"
 #include "scenario/fill.h"
 #include "scenario/overlap.h"
+#include "scenario/scene_outline.h"
 
 namespace slipcheck {
 namespace {
@@ -138,6 +139,18 @@ std::vector<Body> resolve(const Fill& fill, const WrittenScene& written,
   return bodies;
 }
 
+/// Where nothing repeats or encloses them, bodies whose contact lasts may start in it.
+std::optional<std::string> overlap_obstacle(const WrittenScene& written, const Scenario& scenario,
+                                            const Body& first, const Body& second) {
+  if (written.container || !written.substrate || written.substrate->periodic) return "";
+  const BodyContact* contact = find_contact(scenario, first.material, second.material);
+  if (!contact || std::holds_alternative<HardNormal>(contact->normal))
+    return " (only bodies with a soft contact may, by less than the smaller radius)";
+  if (written.compare.reference == Compare::Reference::event)
+    return " (not with the reference event, which takes soft contacts as hard ones)";
+  return std::nullopt;
+}
+
 void resolve_bodies(const WrittenScene& written, Scenario& scenario, Reading& reading) {
   std::vector<Body> explicit_bodies;
   std::vector<std::string> paths;
@@ -148,7 +161,10 @@ void resolve_bodies(const WrittenScene& written, Scenario& scenario, Reading& re
     paths.push_back(body->path);
   }
   check_overlaps(explicit_bodies, paths,
-                 written.substrate ? written.substrate->periodic : std::nullopt, reading);
+                 written.substrate ? written.substrate->periodic : std::nullopt, reading,
+                 [&](const Body& first, const Body& second) {
+                   return overlap_obstacle(written, scenario, first, second);
+                 });
   if (!reading.faults().empty()) return;  // a fill might only repeat them
 
   std::vector<Body> placed = explicit_bodies;

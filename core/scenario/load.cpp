@@ -34,6 +34,7 @@ Scenario parse_scenario(std::string_view text, const std::string& file) {
   Scenario scenario = assemble(written, reading);
   reading.throw_faults();
   scenario.file = file;
+  scenario.text = text;
   scenario.sha256 = sha256_hex(text);
   scenario.locations = reading.locations();
   return scenario;

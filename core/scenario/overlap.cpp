@@ -78,7 +78,8 @@ double overlap_of(const Vector3& a, double radius_a, const Vector3& b, double ra
 }
 
 void check_overlaps(const std::vector<Body>& bodies, const std::vector<std::string>& paths,
-                    const std::optional<Vector2>& periodic, Reading& reading) {
+                    const std::optional<Vector2>& periodic, Reading& reading,
+                    const OverlapRule& rule) {
   if (bodies.empty()) return;
   std::vector<Image> images = images_of(bodies, periodic);
   // Sweep along the longest extent: only bodies whose shadows on it meet are compared.
@@ -93,11 +94,17 @@ void check_overlaps(const std::vector<Body>& bodies, const std::vector<std::stri
       const double overlap =
           overlap_of(images[i].position, images[i].radius, images[j].position, images[j].radius);
       if (overlap <= 0) continue;
+      const Body &a = bodies[first], &b = bodies[second];
+      std::optional<std::string> why = rule ? rule(a, b) : "";
+      if (!why) {
+        if (overlap < std::min(a.sphere.radius, b.sphere.radius)) continue;
+        why = " (bodies with a soft contact may, by less than the smaller radius)";
+      }
       reported[second] = true;
       const double shown = overlap / to_si(1, kLength, reading.units());
       reading.fault_at(paths[second] + ".position",
-                       fmt::format("must not overlap {}, but does by {:.6g} {}", bodies[first].name,
-                                   shown, unit_name(kLength, reading.units())));
+                       fmt::format("must not overlap {}, but does by {:.6g} {}{}", a.name, shown,
+                                   unit_name(kLength, reading.units()), *why));
     }
   }
 }

@@ -276,7 +276,8 @@ struct Scenario {
   Compare compare;
 
   std::string file;    ///< as it was named by the user
-  std::string sha256;  ///< of the file's bytes, in hex
+  std::string text;    ///< the file's bytes
+  std::string sha256;  ///< of them, in hex
   /// Where each key stands in the file, by its path, as in "contacts[0].normal.model".
   std::map<std::string, Location> locations;
 };

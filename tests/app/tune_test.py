@@ -20,7 +20,7 @@ QUICK = ["--engine", "bullet", "--rates", "240", "--phases", "4", "--final-phase
 
 def run(*arguments, **options):
     return subprocess.run([SLIPCHECK, "tune", *map(str, arguments)], capture_output=True, text=True,
-                          timeout=200, **options)
+                          timeout=600, **options)
 
 
 class Tune(unittest.TestCase):
@@ -56,7 +56,7 @@ class Tune(unittest.TestCase):
         engine = "    - {engine: bullet, precision: double, profile: ./fitted.yaml, rate: 240}"
         scene.write_text("\n".join(lines[:at + 1] + [engine] + rest) + "\n")
         shown = subprocess.run([SLIPCHECK, "run", scene, "--phases", "8", "--json", "-"],
-                               capture_output=True, text=True, timeout=100)
+                               capture_output=True, text=True, timeout=600)
         errors = json.loads(shown.stdout)["runs"][0]["errors"]
         worst = max(e["max"] / e["tolerance"] for e in errors.values() if e.get("tolerance"))
         self.assertAlmostEqual(worst, report["chosen"]["training"]["worst"], delta=1e-9 * worst)
@@ -70,7 +70,7 @@ class Tune(unittest.TestCase):
                                           or journal.read_text().count("\n") < 10):
             time.sleep(0.005)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=600)
         self.assertEqual(process.returncode, 130, errors)
         self.assertIn("goes on there", errors)
         self.assertFalse(self.profile.exists())

@@ -44,6 +44,7 @@ std::vector<Bytes> good_messages() {
       encode(Request(Configure{periodic, {{"erp", 0.2}}, 0.01})),
       encode(Request(Start{some_scene(3).initial, 0.5})),
       encode(Request(Step{100})),
+      encode(Request(Time{some_scene().initial, 0.5, 100, 3})),
       encode(Reply(Welcome{1, {"bullet", "3.24", "double", some_settings()}})),
       encode(Reply(Configured{{{{"erp", 0.2}, {"on", true}}, {"this", "that"}}})),
       encode(Reply(Refusal{"no"})),

@@ -104,6 +104,11 @@ TEST(Protocol, TheOtherMessagesComeThrough) {
   const auto start = request_through<Start>(Start{some_scene().initial, 0.125});
   EXPECT_EQ(start.states.size(), 2u);
   EXPECT_EQ(start.time, 0.125);
+  const auto time = request_through<Time>(Time{some_scene().initial, 0.25, 300, 7});
+  EXPECT_EQ(time.states.size(), 2u);
+  EXPECT_EQ(time.time, 0.25);
+  EXPECT_EQ(time.steps, 300u);
+  EXPECT_EQ(time.repeats, 7u);
   request_through<Quit>(Quit{});
 
   const auto welcome = through<Welcome>(Welcome{1, {"bullet", "3.24", "single", some_settings()}});
@@ -120,6 +125,8 @@ TEST(Protocol, TheOtherMessagesComeThrough) {
   EXPECT_EQ(through<Refusal>(Refusal{"why"}).reason, "why");
   EXPECT_EQ(through<Failed>(Failed{"µ"}).reason, "µ");
   through<Started>(Started{});
+  const std::vector<double> times = {1e-6, 0, 2.5};
+  EXPECT_EQ(through<Timed>(Timed{times}).cpu_seconds, times);
 }
 
 void expect_rubbish(const nlohmann::json& reply, const std::string& reason) {
@@ -177,6 +184,8 @@ TEST(Protocol, ABadReplyIsNamed) {
   append_f64(touches, -1);
   touches[4] = 1;
   expect_rubbish(with("touches", bytes(touches)), "a touch's normal impulse is -1, not > 0");
+  expect_rubbish({{"type", "timed"}, {"cpu_seconds", {1e-6, -1e-6}}},
+                 "reply.cpu_seconds holds -1e-06, not >= 0");
   expect_rubbish({{"type", "refused"}, {"reason", "\xff"}}, "reply.reason is not valid UTF-8");
 }
 

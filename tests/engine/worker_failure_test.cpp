@@ -64,8 +64,8 @@ class WorkerFailureTest : public ::testing::Test {
   std::size_t descriptors_ = 0;
 };
 
-// The sanitizers slow everything down, and two tests may share a core.
-constexpr double kSoon = 6;
+// Far from never: the sanitizers slow everything down, and the machine may be busy.
+constexpr double kSoon = 60;
 
 TEST_F(WorkerFailureTest, CrashesHaveTheirSignal) {
   expect_failure("crash", Status::crashed, "killed by signal 11 (Segmentation fault)", kSoon);
@@ -104,8 +104,8 @@ TEST_F(WorkerFailureTest, ARunHasItsTimeLimit) {
 }
 
 TEST_F(WorkerFailureTest, AMemoryEaterIsStopped) {
-  expect_failure("eat-memory", Status::crashed, "exceeded the memory limit of 256 MiB", 10,
-                 {.memory = std::size_t{256} << 20, .reply = 10});
+  expect_failure("eat-memory", Status::crashed, "exceeded the memory limit of 256 MiB", kSoon,
+                 {.memory = std::size_t{256} << 20, .reply = kSoon});
 }
 
 TEST_F(WorkerFailureTest, RubbishIsNamed) {
@@ -147,7 +147,7 @@ TEST_F(WorkerFailureTest, GrandchildrenDieToo) {
   const pid_t group = engine.pid();
   EXPECT_EQ(running_in_group(group), 1);
   EXPECT_THROW(run(engine, "fork-and-hang"), WorkerFailure);
-  for (int k = 0; k < 1000 && running_in_group(group) > 0; ++k) {
+  for (int k = 0; k < 30'000 && running_in_group(group) > 0; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_EQ(running_in_group(group), 0);
@@ -207,6 +207,24 @@ TEST_F(WorkerFailureTest, FramesComeInOrderOverManyRequests) {
   EXPECT_LT(cpu_seconds, 5);
 }
 
+TEST_F(WorkerFailureTest, EachTimedRunBeginsAFreshWorld) {
+  RemoteEngine engine(faulty_engine());
+  const HardScene scene = some_scene();
+  engine.configure(scene, {{"fault", "kill-at-step-10"}}, 1e-3);
+  const std::vector<double> times = engine.time_steps(scene.initial, 0, 9, 5);
+  EXPECT_EQ(times.size(), 5u);
+  for (const double time : times) EXPECT_GE(time, 0);
+  EXPECT_THROW(engine.time_steps(scene.initial, 0, 10, 1), WorkerFailure);
+}
+
+TEST_F(WorkerFailureTest, ATimedRunIsNotGoneOnWith) {
+  RemoteEngine engine(faulty_engine());
+  const HardScene scene = some_scene();
+  engine.configure(scene, {}, 1e-3);
+  engine.time_steps(scene.initial, 0, 3, 1);
+  EXPECT_THROW(engine.advance(1, [](const Frame&) {}), WorkerFailure);
+}
+
 TEST_F(WorkerFailureTest, NanStatesAreDataNotRubbish) {
   RemoteEngine engine(faulty_engine());
   const HardScene scene = some_scene();
@@ -260,14 +278,14 @@ TEST_F(WorkerFailureTest, TheStopFlagIsSeenWhileWaiting) {
     stop = true;
   });
   EXPECT_THROW(run(engine, "hang"), Interrupted);
-  EXPECT_LT(std::chrono::duration<double>(Clock::now() - asked).count(), 1);
+  EXPECT_LT(std::chrono::duration<double>(Clock::now() - asked).count(), 5);  // the limit is 10 s
 }
 
 TEST_F(WorkerFailureTest, ADeadIdleWorkerIsNoticed) {
   RemoteEngine engine(faulty_engine());
   EXPECT_TRUE(engine.alive());
   kill(engine.pid(), SIGKILL);
-  for (int k = 0; k < 1000 && engine.alive(); ++k) {
+  for (int k = 0; k < 30'000 && engine.alive(); ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_FALSE(engine.alive());

@@ -34,7 +34,7 @@ class Figures(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.path = Path(cls.folder.name) / "new" / "figures"
         cls.result = subprocess.run([SLIPCHECK, "figures", cls.path], capture_output=True, text=True,
-                                    timeout=580)
+                                    timeout=880)
         cls.tables = {}
 
     @classmethod

@@ -66,6 +66,18 @@ TEST(Deviations, OneBadPhaseIsEnough) {
   EXPECT_FALSE(found.at("i.sliding_time").within);
 }
 
+TEST(Deviations, RootMeanSquareOverThePhases) {
+  // Off by 0.1, 0.1 and 0.2 of 2: relative 0.05, 0.05 and 0.1, mean square 0.015/3.
+  const auto found = deviations(
+      {}, reference({{"i.sliding_time", {2, 0}}}),
+      ensemble_values(
+          {{{"i.sliding_time", 2.1}}, {{"i.sliding_time", 1.9}}, {{"i.sliding_time", 2.2}}}));
+  EXPECT_NEAR(found.at("i.sliding_time").rms, std::sqrt(0.005), 1e-14);
+  // Squares of what is this small would vanish.
+  const std::vector<double> tiny = {3e-200, 4e-200};
+  EXPECT_NEAR(root_mean_square(tiny) / 1e-200, std::sqrt(12.5), 1e-14);
+}
+
 TEST(Deviations, PhaseThatShowsNothingIsNotWithin) {
   const auto some =
       deviations(with_tolerance("sliding_time", 0.01), reference({{"i.sliding_time", {1, 0}}}),
@@ -143,6 +155,44 @@ ExpectedObservable nothing() {
   ExpectedObservable expected;
   expected.none = true;
   return expected;
+}
+
+TEST(PhaseErrors, AreTheLargestDeviationInItsTolerance) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  Scenario scenario;
+  scenario.bodies.push_back({"i", "steel", {}, {}});
+  scenario.compare.tolerance = {{"sliding_time", {0.01, false}},
+                                {"restitution", {0.005, false}},
+                                {"final_velocity", {0.1, true}},
+                                {"jump_height", {0.1, true}}};
+  ReferenceResult truth;
+  truth.observables = {{"i.sliding_time", {2, 0}},     {"i-j.restitution", {0.9, 0}},
+                       {"i.final_velocity", {5, 0}},   {"i.final_velocity.x", {3, 0}},
+                       {"i.final_velocity.y", {4, 0}}, {"i.final_velocity.z", {0, 0}},
+                       {"i.stopping_time", {1, 0}}};
+  std::map<std::string, double> right;
+  for (const auto& [name, value] : truth.observables) right[name] = value.value;
+  std::vector<std::map<std::string, double>> phases(6, right);
+  phases[1]["i.sliding_time"] = 2.06;     // 3 % of 1 %
+  phases[1]["i-j.restitution"] = 0.91;    // 0.01 of 0.005
+  phases[1]["i.stopping_time"] = 100;     // has no tolerance
+  phases[2]["i-j.restitution"] = 0.8;     // 0.1 of 0.005
+  phases[3]["i.final_velocity.x"] = 3.3;  // √(0.3² + 0.4²) m/s of 0.1 m/s
+  phases[3]["i.final_velocity.y"] = 4.4;
+  phases[4].erase("i.sliding_time");
+  phases[5]["i.jump_height"] = 1e-9;
+  const auto errors = phase_errors(scenario, truth, ensemble_values(phases));
+  ASSERT_EQ(errors.size(), 6u);
+  EXPECT_EQ(errors[0], 0);
+  EXPECT_NEAR(errors[1], 3, 1e-12);
+  EXPECT_NEAR(errors[2], 20, 1e-12);
+  EXPECT_NEAR(errors[3], 5, 1e-12);
+  EXPECT_EQ(errors[4], infinity);
+  EXPECT_EQ(errors[5], infinity);
+
+  scenario.compare.tolerance.clear();
+  for (const double error : phase_errors(scenario, truth, ensemble_values(phases)))
+    EXPECT_TRUE(std::isnan(error));
 }
 
 TEST(Expectations, HoldEachStatisticOfTheEnsembleAgainstItsLimits) {

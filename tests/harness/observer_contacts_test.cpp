@@ -116,6 +116,61 @@ TEST(ObserverOfResolvedContacts, TheFirstBodyToSlideMakesTheOnset) {
   EXPECT_NEAR(seen_in(frames).pairs[0].sliding_onset, 1e-5, 1e-17);
 }
 
+/// At rest in an overlap of 0.1 mm, which parts them at 0.2 m/s after 1 ms.
+std::vector<Shown> overlap_at_the_start() {
+  return {{0, -1e-4, 0, 0, true},
+          {5e-4, -4e-5, -0.06, 0.06, true},
+          {1e-3, 0, -0.1, 0.1, true},
+          {2e-3, 2e-4, -0.1, 0.1}};
+}
+
+TEST(ObserverOfResolvedContacts, AnOverlapAtTheStartIsACollisionWithoutAnApproach) {
+  const Observables seen = seen_in(overlap_at_the_start());
+  ASSERT_EQ(seen.pairs.size(), 1u);
+  EXPECT_TRUE(std::isnan(seen.pairs[0].restitution));
+  EXPECT_TRUE(std::isnan(seen.pairs[0].tangential_restitution));
+  EXPECT_TRUE(std::isnan(seen.pairs[0].effective_restitution));
+  EXPECT_NEAR(seen.pairs[0].contact_time, 1e-3, 1e-17);
+  EXPECT_NEAR(seen.pairs[0].max_overlap, 1e-4, 1e-17);
+  for (const BodyObservables& body : seen.bodies)
+    EXPECT_NEAR(body.velocity_after_collision.norm(), 0.1, 1e-15);
+}
+
+TEST(ObserverOfResolvedContacts, AnOverlapAtTheStartMayCloseFirst) {
+  std::vector<Shown> frames = overlap_at_the_start();
+  frames[0].v0 = 0.05;
+  frames[1].gap = -1.2e-4;
+  const Observables seen = seen_in(frames);
+  EXPECT_TRUE(std::isnan(seen.pairs[0].restitution));
+  EXPECT_NEAR(seen.pairs[0].max_overlap, 1.2e-4, 1e-17);
+}
+
+TEST(ObserverOfResolvedContacts, ALaterCollisionAfterAnOverlapAtTheStartHasItsApproach) {
+  std::vector<Shown> frames = overlap_at_the_start();
+  frames.push_back({0.1, 0, 0.1, -0.1});
+  frames.push_back({0.101, 0, -0.05, 0.05, true});
+  frames.push_back({0.2, 0.01, -0.05, 0.05});
+  const Observables seen = seen_in(frames);
+  EXPECT_NEAR(seen.pairs[0].restitution, 0.5, 1e-14);
+  EXPECT_NEAR(seen.pairs[0].contact_time, 1e-3, 1e-15);
+}
+
+TEST(ObserverOfResolvedContacts, AnEnginesOverlapAtTheStartLastsForAsLongAsItTouches) {
+  const std::vector<Shown> touches = {{0, -1e-4, 0, 0},
+                                      {1e-3, -8e-5, -0.02, 0.02, true},
+                                      {2e-3, -4e-5, -0.03, 0.03, true},
+                                      {3e-3, 2e-5, -0.03, 0.03}};
+  const Observables seen = seen_in(touches, 1e-3);
+  ASSERT_EQ(seen.pairs.size(), 1u);
+  EXPECT_TRUE(std::isnan(seen.pairs[0].restitution));
+  EXPECT_NEAR(seen.pairs[0].contact_time, 2e-3, 1e-15);
+  EXPECT_NEAR(seen.bodies[0].velocity_after_collision.norm(), 0.03, 1e-15);
+  // One that leaves the two in their overlap shows no collision.
+  const Observables left = seen_in({{0, -1e-4, 0, 0}, {1e-3, -1e-4, 0, 0}}, 1e-3);
+  EXPECT_TRUE(left.pairs.empty());
+  EXPECT_TRUE(std::isnan(left.bodies[0].velocity_after_collision.x()));
+}
+
 TEST(ObserverOfResolvedContacts, ASecondCollisionIsTheLastOne) {
   std::vector<Shown> frames = resolved_collision();
   frames.push_back({0.1, 0, 0.05, -0.05});

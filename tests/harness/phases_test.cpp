@@ -31,6 +31,10 @@ TEST(Phases, OneRunWithoutAContact) {
             std::vector<double>{0.0});
 }
 
+TEST(Phases, OneRunWithAContactFromTheStart) {
+  EXPECT_EQ(phase_starts(0, 0.1, 32), std::vector<double>{0.0});
+}
+
 TEST(Phases, EnginesStartFromTheReferencesExactState) {
   const ContactScene scene = with_hard_contacts(test::head_on(0.15, -0.15, 0.9));
   const auto states = ReferenceSolver(scene, Compare::Reference::automatic).states_at(0.01);

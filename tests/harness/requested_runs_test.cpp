@@ -49,10 +49,11 @@ compare:
     return requested_runs({scenario(engines)}).at(0);
   }
 
-  std::vector<std::string> faults(const std::vector<Scenario>& scenarios) const {
+  std::vector<std::string> faults(const std::vector<Scenario>& scenarios,
+                                  const Settings& settings = {}) const {
     std::vector<std::string> messages;
     try {
-      requested_runs(scenarios);
+      requested_runs(scenarios, {}, nullptr, settings);
     } catch (const BadScenario& bad) {
       for (const Fault& fault : bad.faults()) {
         std::string message = fault.message();
@@ -87,8 +88,9 @@ TEST_F(RequestedRunsTest, EachEngineHasARunAtEachOfItsRates) {
 
 TEST_F(RequestedRunsTest, ANameIsShippedOrTheRunHasItsReason) {
   const auto found = runs("    - {engine: faulty, rate: 60, profile: tuned}\n");
-  EXPECT_EQ(found[0].reason,
-            "faulty has no profile 'tuned'; it has hang, kill-at-step-10, nan, ok, slow");
+  EXPECT_EQ(
+      found[0].reason,
+      "faulty has no profile 'tuned'; it has eat-memory, hang, kill-at-step-10, nan, ok, slow");
   EXPECT_EQ(found[0].status, EngineRecord::Status::skipped);
 }
 
@@ -107,6 +109,28 @@ TEST_F(RequestedRunsTest, APathIsTakenFromTheScenesFolder) {
       runs("    - {engine: faulty, rate: 60, profile: " + (root_ / "mine.yaml").string() + "}\n")[0]
           .settings,
       mine);
+}
+
+TEST_F(RequestedRunsTest, SettingsByHandStandOverThoseOfEveryProfile) {
+  put("mine.yaml", "slipcheck-profile: 1\nengine: faulty\nname: mine\nsettings: {pause: 7}\n");
+  const auto found = requested_runs({scenario("    - {engine: faulty, rate: 60, profile: slow}\n"
+                                              "    - {engine: faulty, rate: 60}\n"
+                                              "    - {engine: faulty, rate: 60, profile: "
+                                              "../mine.yaml}\n")},
+                                    {}, nullptr, {{"pause", 9.0}})
+                         .at(0);
+  EXPECT_EQ(found[0].settings, (Settings{{"fault", std::string("slow")}, {"pause", 9.0}}));
+  EXPECT_EQ(found[1].settings, (Settings{{"pause", 9.0}}));
+  EXPECT_EQ(found[2].settings, (Settings{{"pause", 9.0}}));
+}
+
+TEST_F(RequestedRunsTest, SettingsByHandAreCheckedAsThoseOfAProfile) {
+  const std::vector<std::string> expected = {
+      "--set: faul: is no setting of this engine (did you mean fault?)",
+      "--set: pause: must be a whole number >= 0 and <= 1000 ms, got -1"};
+  EXPECT_EQ(faults({scenario("    - {engine: faulty, rate: [60, 240]}\n")},
+                   {{"faul", std::string("ok")}, {"pause", -1.0}}),
+            expected);
 }
 
 TEST_F(RequestedRunsTest, EverythingThatIsWrongIsToldAtOnceAndOnce) {

@@ -48,9 +48,26 @@ std::vector<SceneRecord> run(const std::string& text, std::size_t phases = 8) {
   use_test_engines();
   RunOptions options;
   options.phases = phases;
-  options.time_limit = 20;
-  options.limits.reply = 4;
+  options.time_limit = 60;
+  options.limits.reply = 10;
   return run_scenes({parse_scenario(text, "scene.yaml")}, options);
+}
+
+TEST(SceneRun, AnOverlapAtTheStartIsRunOnce) {
+  // Bullet pushes an overlap ξ out with the velocity erp2 ξ/dt, here 0.2 · 5 mm · 240 Hz.
+  use_test_engines();
+  RunOptions options;
+  options.phases = 8;
+  const auto scenes = run_scenes(
+      {load_scenario(SLIPCHECK_SOURCE_DIR "/scenarios/extreme/overlap-start-half.yaml")}, options);
+  EXPECT_EQ(scenes[0].reference.first_contact, 0);
+  const EngineRecord& engine = scenes[0].runs[0];
+  EXPECT_EQ(engine.phases, 1u);
+  EXPECT_NEAR(engine.observables.at("j.velocity_after_collision").median, 0.12, 1e-6);
+  EXPECT_FALSE(engine.observables.contains("i-j.restitution"));
+  ASSERT_FALSE(engine.warnings.empty());
+  EXPECT_EQ(engine.warnings.back(),
+            "the first contact is there from the start: it has one phase only");
 }
 
 TEST(SceneRun, BulletsRestitutionIsALotteryOverThePhases) {

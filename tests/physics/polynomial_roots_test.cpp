@@ -3,16 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
+#include "physics/numbers.h"
 #include "physics/vector.h"
 
 namespace slipcheck {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 TEST(FirstFallingRoot, StraightApproach) {
   // Gap² of two points that close at speed 2 from distance 5, contact at distance 1: t = 2.

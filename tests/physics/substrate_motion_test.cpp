@@ -3,13 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "physics/numbers.h"
 
 namespace slipcheck {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 SubstrateMotion oscillation() {
   return SubstrateMotion::oscillation({0.1, -0.03}, 5, std::numbers::pi / 3);

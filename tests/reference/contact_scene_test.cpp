@@ -328,6 +328,20 @@ TEST(ContactScene, WarnsOfImpactsThatAreNotQuasistatic) {
                   .warnings.empty());
 }
 
+TEST(ContactScene, WarnsOfImpactsDeeperThanARadius) {
+  // m̄ v²/2 = k ξ²/2 with m̄ = 16.4 kg: ξ = 0.128 m at 1 m/s, of R = 0.1 m.
+  const auto warnings = [](const std::string& stiffness) {
+    return scene_of(pair_text("{model: linear, restitution: 1, stiffness: " + stiffness + "}"))
+        .warnings;
+  };
+  ASSERT_EQ(warnings("1e3").size(), 1u);
+  EXPECT_EQ(warnings("1e3")[0].find("s.yaml:8:14: contacts[0].normal.model: impacts at up to 1 m/s "
+                                    "go 1.3 of the smaller radius deep"),
+            0u)
+      << warnings("1e3")[0];
+  EXPECT_TRUE(warnings("1e4").empty());
+}
+
 TEST(ContactScene, WarnsOfADissipationTimeNearTheDuration) {
   const auto warnings = [](const std::string& time) {
     return scene_of(pair_text("{model: viscoelastic, dissipation_time: " + time + "}")).warnings;

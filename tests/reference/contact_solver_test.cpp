@@ -65,6 +65,40 @@ TEST(ContactSolver, K2FreePairPartsWithItsRestitutionAfterItsTime) {
   }
 }
 
+TEST(ContactSolver, AGapOfRoundOffBetweenBallsAtRestTakesNoTime) {
+  // Looked at as if friction could close it at any moment, a minute would take ten billion looks.
+  HardScene hard = test::head_on(0, 0, 0.9);
+  hard.initial[1].position = hard.initial[0].position;
+  hard.initial[1].position.x() += 2 * hard.bodies[0].radius * (1 + 8e-15);
+  for (BodyState& state : hard.initial) state.angular_velocity.setZero();
+  const ContactScene scene = test::soft(hard);
+  ContactSolver solver(scene, scene.hard.initial);
+  const ContactRun run = solver.run(until(60), nullptr);
+  EXPECT_TRUE(run.reached);
+  EXPECT_EQ(run.collisions, 0u);
+  EXPECT_LT(run.steps, 1000u);
+}
+
+TEST(ContactSolver, AGapOfRoundOffBesideBallsThatLeanTakesNoTime) {
+  // One ball stands on another; beside it a third one that nothing pushes.
+  HardScene hard = test::steel_scene(3);
+  const double radius = hard.bodies[0].radius;
+  hard.initial[1].position = Vector3(2 * radius * (1 + 8e-15), 0, radius);
+  hard.initial[2].position = Vector3(0, 0, 3 * radius);
+  ContactScene scene = with_hard_contacts(hard);
+  const LinearContact law = LinearContact::with_collision_time(hard.bodies[0].mass / 2, 0.3, 1e-3,
+                                                               LinearContact::End::zero_force);
+  scene.soft[0] =
+      SoftContact{LinearForce{law.stiffness(), law.damping_rate() * hard.bodies[0].mass / 2},
+                  ContactEnd::zero_force, NoTangentialForce{}};
+  ContactSolver solver(scene, scene.hard.initial);
+  const ContactRun run = solver.run(until(0.1), nullptr);
+  EXPECT_TRUE(run.reached);
+  const double rest = 3 * radius - hard.bodies[0].mass * hard.gravity / law.stiffness();
+  EXPECT_NEAR(solver.states()[2].position.z(), rest, 1e-12);
+  EXPECT_EQ(run.collisions, 1u);
+}
+
 TEST(ContactSolver, KClampOnTheDampingOfZeroOverlapGives090203) {
   ContactScene scene = test::soft(free_pair(0.05, -0.05));
   scene.soft[0]->end = ContactEnd::zero_force;

@@ -1,16 +1,14 @@
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <random>
 #include <vector>
 
+#include "physics/numbers.h"
 #include "reference/calendar_queue.h"
 #include "reference/indexed_heap.h"
 
 namespace slipcheck {
 namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The earliest by looking at all of them.
 QueuedEvent earliest(const std::vector<double>& times) {
@@ -45,8 +43,8 @@ void compare_with_search(std::size_t n, std::size_t events, Delay delay) {
 }
 
 template <class Queue>
-class EventQueue : public testing::Test {};
-using Queues = testing::Types<HeapQueue, CalendarQueue>;
+class EventQueue : public ::testing::Test {};
+using Queues = ::testing::Types<HeapQueue, CalendarQueue>;
 TYPED_TEST_SUITE(EventQueue, Queues);
 
 TYPED_TEST(EventQueue, ServesTheEarliestOfAll) {

@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "../physics/integration.h"
 #include "../scenes.h"
 #include "physics/closed_forms.h"
+#include "physics/numbers.h"
 
 namespace slipcheck {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 const RunEnd kRolling{Run::Until::rolling, 0, 10};
 const RunEnd kRest{Run::Until::rest, 0, 100};
 

@@ -8,10 +8,11 @@
 #include <numbers>
 #include <random>
 
+#include "physics/numbers.h"
+
 namespace slipcheck {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kGravity = 9.81;
 
 TEST(FloorContact, OnAStillFloorIsTheEndOfTheParabola) {

@@ -37,7 +37,11 @@ TEST_P(BundledScene, ReachesItsEndWithoutAFailureAndItsEnergyBalances) {
   const Scenario scenario = load_scenario(GetParam());
   const ContactScene scene = make_contact_scene(scenario);
   const ReferenceSolver solver(scene, scenario.compare.reference);
-  const ReferenceResult result = run_reference(solver, run_end(scenario), body_names(scenario));
+  RunEnd end = run_end(scenario);
+#ifdef SLIPCHECK_SANITIZE
+  if (scenario.bodies.size() > 100) end.time *= 0.2;  // the same code, a fifth as often
+#endif
+  const ReferenceResult result = run_reference(solver, end, body_names(scenario));
   EXPECT_TRUE(result.run.reached) << result.run.reason;
   EXPECT_FALSE(result.run.failed);
   if (result.run.balance) {
@@ -68,9 +72,10 @@ TEST_P(BundledScene, K18RollingVelocityFollowsFromTheEndOfTheCollision) {
   // any law, flights and landings. Where the slip ends both are v^s: v^s = v^f − u^f/(1+A). A
   // coupled slip counts as ended at 1e-6 of the scene's speed.
   const Scenario scenario = load_scenario(GetParam());
+  if (has_more_than_k18(make_contact_scene(scenario).hard)) return;
   const Played played = play(scenario);
   // Of one collision each: later ones can be too weak for the observer to count.
-  if (has_more_than_k18(played.scene.hard) || played.run.collisions > 1) return;
+  if (played.run.collisions > 1) return;
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
     const std::string& name = scenario.bodies[i].name;
     if (!played.seen.contains(name + ".rolling_velocity") ||
@@ -285,6 +290,30 @@ TEST(Scene, HertzA13) {
     const Played scene = play(name);
     EXPECT_NEAR(scene["i-j.contact_time"] / duration, 1, kLeft / v);  // App. D
     EXPECT_NEAR(scene["i-j.restitution"], 1, kLeft / v);
+  }
+}
+
+TEST(Scene, OverlapsAtTheStartPartAsTheirClosedFormsSay) {
+  const double reduced = 0.5 * 1000 * 4 * M_PI / 3 * 1e-6;
+  const double omega0 = std::sqrt(7.53982 / reduced);
+  const ElasticMaterial soft{1e4, 0.3, 0};
+  const double rho = hertz_modulus(soft, soft, 0.005);
+  const double hertz = std::sqrt(0.8 * rho * std::pow(0.003, 2.5) / reduced);
+  for (const auto& [name, overlap, v, t] :
+       {std::tuple{"tenth", 1e-3, omega0 * 1e-3, M_PI / (2 * omega0)},
+        {"half", 5e-3, omega0 * 5e-3, M_PI / (2 * omega0)},
+        {"hertz", 3e-3, hertz, hertz_duration(reduced, rho, hertz) / 2}}) {
+    const Played scene = play("extreme/overlap-start-" + std::string(name));
+    for (const char* body : {"i", "j"}) {
+      const std::string of = body;
+      EXPECT_NEAR(scene[of + ".velocity_after_collision"] / (v / 2), 1, 1e-10) << name;
+      EXPECT_NEAR(scene[of + ".final_velocity"] / (v / 2), 1, 1e-10) << name;
+    }
+    EXPECT_NEAR(scene["i-j.contact_time"] / t, 1, 1e-10) << name;
+    EXPECT_NEAR(scene["i-j.max_overlap"] / overlap, 1, 1e-12) << name;
+    EXPECT_FALSE(scene.seen.contains("i-j.restitution"));
+    EXPECT_FALSE(scene.seen.contains("i-j.effective_restitution"));
+    EXPECT_LT(std::abs(scene.run.balance->error()), 1e-10) << name;
   }
 }
 

@@ -58,6 +58,13 @@ TEST(PlotText, RaisesAndLowersAndComesBackToTheLine) {
   EXPECT_LT(plot_text_width("10^{−3}"), plot_text_width("10−3"));
 }
 
+TEST(PlotText, ALiteralIsNoFormula) {
+  const std::string name = "a_b^c{d}\\e";
+  EXPECT_EQ(plot_text(plot_literal(name)), name);
+  EXPECT_EQ(html_plot_text(plot_literal(name)), name);
+  EXPECT_EQ(plain_plot_text(plot_literal(name)), name);
+}
+
 TEST(LineChart, PointsAreWhereTheAxesPutThem) {
   EXPECT_EQ(path_of(one_curve({0, 5, 10}, {0, 2.5, 10})), "M0.00 100.00L50.00 75.00L100.00 0.00");
 }
@@ -109,6 +116,25 @@ TEST(HeatMap, CellsFillTheFrameAndEqualNeighboursAreOne) {
   EXPECT_NE(svg.find("M0.00 0.00h100.00v50.00h-100.00z"), std::string::npos);
   map.z[0] = NAN;
   EXPECT_EQ(heat_map_svg(map, {0, 0, 100, 100}).find("M0.00 50.00h50.00v50"), std::string::npos);
+}
+
+TEST(HeatMap, CanShowSmallAsBlueAndSayWhatIsMissing) {
+  HeatMap map;
+  map.x = {"x"};
+  map.y = {"y"};
+  map.x_values = {1, 2};
+  map.y_values = {1, 2};
+  map.z = {-1, 1, 0, NAN};
+  map.missing = "none";
+  const std::string cell = "\" d=\"M0.00 50.00h50.00";  // of the lowest value
+  const auto colour = [&](const std::string& svg) { return svg.substr(svg.find(cell) - 7, 7); };
+  std::string svg = heat_map_svg(map, {0, 0, 100, 100});
+  EXPECT_EQ(colour(svg), heat_colour(0.5 / 64));  // the first of 64 levels
+  EXPECT_EQ(count(svg, ">none</text>"), 1u);
+  EXPECT_NE(svg.find("x=\"75.00\" y=\"29.00\">none"), std::string::npos);
+  map.low_is_blue = true;
+  svg = heat_map_svg(map, {0, 0, 100, 100});
+  EXPECT_EQ(colour(svg), heat_colour(1 - 0.5 / 64));
 }
 
 TEST(Figure, OneLegendForAllPanelsAndIdsOfItsOwn) {

@@ -23,11 +23,16 @@ TEST(JsonReport, HasTheKeysOfTheContract) {
   const Json json = read_back(lottery_scene());
   EXPECT_EQ(json["schema"], "slipcheck-result/1");
   EXPECT_EQ(keys(json["slipcheck"]), (std::vector<std::string>{"version", "commit", "build"}));
+  EXPECT_EQ(keys(json["machine"]),
+            (std::vector<std::string>{"processor", "hardware_threads", "system", "compiler"}));
   EXPECT_EQ(json["scenario"]["name"], "symmetric-steel");
   EXPECT_EQ(json["scenario"]["file"], "scenarios/symmetric-steel.yaml");
   EXPECT_EQ(json["scenario"]["sha256"], std::string(64, 'a'));
+  EXPECT_EQ(json["scenario"]["text"], "");
   EXPECT_EQ(json["reference"]["solver"], "event");
   EXPECT_EQ(json["reference"]["cpu_seconds"], 1.2e-6);
+  EXPECT_EQ(json["reference"]["reached"], true);
+  EXPECT_EQ(json["reference"]["first_contact"], 0);
   EXPECT_EQ(json["reference"]["observables"]["i.sliding_time"]["value"], 0.1 / 3.6);
   EXPECT_EQ(json["reference"]["observables"]["i.sliding_time"]["uncertainty"], 1e-17);
   EXPECT_EQ(json["reference"]["closed_form"]["i-j.effective_restitution"], 5.0 / 14);
@@ -62,8 +67,9 @@ TEST(JsonReport, KeepsEveryBitOfAValue) {
 TEST(JsonReport, TellsErrorsRelativeAndAbsolute) {
   const Json errors = read_back(lottery_scene())["runs"][0]["errors"];
   EXPECT_EQ(keys(errors["i.sliding_time"]),
-            (std::vector<std::string>{"median", "max", "tolerance", "within"}));
+            (std::vector<std::string>{"median", "max", "rms", "tolerance", "within"}));
   EXPECT_EQ(errors["i.sliding_time"]["within"], true);
+  EXPECT_EQ(errors["i.sliding_time"]["rms"], 0);
   EXPECT_EQ(errors["i-j.effective_restitution"]["absolute"], true);
   EXPECT_EQ(errors["i-j.effective_restitution"]["max"], 0.141);
   EXPECT_EQ(errors["i-j.effective_restitution"]["tolerance"], 0.005);
@@ -85,6 +91,34 @@ TEST(JsonReport, GivesValuesByPhaseOnlyWhereThereIsATolerance) {
   EXPECT_EQ(observables["i.sliding_time"]["values"].size(), 64u);
   EXPECT_FALSE(observables["i-j.restitution"].contains("values"));
   EXPECT_FALSE(observables["i.sliding_time"].contains("missing"));
+}
+
+TEST(JsonReport, GivesValuesOfAVectorsComponentsAndOfWhatIsExpected) {
+  SceneRecord scene = expected_lottery();
+  scene.scenario.compare.tolerance = {{"final_velocity", {0.01, false}}};
+  for (const char* name : {"i.final_velocity.y", "j.jump_height", "j.sliding_time"})
+    scene.runs[0].observables[name] = {0.9, 0.9, 0.9, {0.9, 0.9}, 0};
+  const Json observables = read_back(scene)["runs"][0]["observables"];
+  EXPECT_EQ(observables["i.final_velocity.y"]["values"].size(), 2u);
+  EXPECT_EQ(observables["j.jump_height"]["values"].size(), 2u);
+  EXPECT_FALSE(observables["j.sliding_time"].contains("values"));
+}
+
+TEST(JsonReport, SaysHowTheReferenceEnded) {
+  SceneRecord scene = lottery_scene();
+  scene.reference.run.reached = false;
+  scene.reference.run.reason = "the time limit";
+  scene.reference.run.collapses = 3;
+  scene.reference.first_contact = kInfinity;
+  const Json reference = read_back(scene)["reference"];
+  EXPECT_EQ(reference["reached"], false);
+  EXPECT_EQ(reference["reason"], "the time limit");
+  EXPECT_EQ(reference["collapses"], 3);
+  EXPECT_FALSE(reference.contains("first_contact"));  // there is none
+  EXPECT_FALSE(reference.contains("failed"));
+  scene.reference.run.failed = true;
+  EXPECT_EQ(read_back(scene)["reference"]["failed"], true);
+  EXPECT_FALSE(read_back(lottery_scene())["reference"].contains("collapses"));
 }
 
 TEST(JsonReport, SaysWhichPhasesAreMissing) {

@@ -179,13 +179,9 @@ TEST(Check, Friction) {
 }
 
 TEST(Check, Overlap) {
-  expect_fault(
-      with(kHard, "position: [1, 0]", "position: [0.15, 0]"),
-      "s.yaml:15:65: bodies[1].position: must not overlap a, but does by 0.05 m, got [0.15, "
-      "0]");
-  expect_fault(with(kExample, "[-0.3, 0]", "[-0.05, 0]"),
-               "s.yaml:29:65: bodies[1].position: must not overlap i, but does by 0.05 cm, got "
-               "[-0.05, 0]");
+  expect_fault(with(kHard, "position: [1, 0]", "position: [0.15, 0]"),
+               "s.yaml:15:65: bodies[1].position: must not overlap a, but does by 0.05 m (only "
+               "bodies with a soft contact may, by less than the smaller radius), got [0.15, 0]");
   EXPECT_EQ(messages(with(kHard, "position: [1, 0]", "position: [0.2, 0]")), kNoFaults);
   EXPECT_EQ(messages(with(with(kHard, "position: [0, 0]", "position: [0.1, 0]"), "position: [1, 0]",
                           "position: [0.3, 0]")),
@@ -203,6 +199,26 @@ TEST(Check, Overlap) {
       with(kHard, "substrate: {}", "substrate: {periodic: [2, 0.19]}"),
       "s.yaml:12:27: substrate.periodic[1]: must be at least 4 times the largest diameter, "
       "0.8 m, got 0.19");
+}
+
+TEST(Check, SoftBodiesMayOverlapByLessThanTheSmallerRadius) {
+  const auto at = [](const char* position) { return with(kExample, "[-0.3, 0]", position); };
+  const std::string place = "s.yaml:29:65: bodies[1].position: must not overlap i, but does by ";
+  const std::string rule =
+      " (bodies with a soft contact may, by less than the smaller radius), got ";
+  EXPECT_EQ(messages(at("[-0.05, 0]")), kNoFaults);
+  EXPECT_EQ(messages(at("[0.0999, 0]")), kNoFaults);
+  expect_fault(at("[0.101, 0]"), place + "0.201 cm" + rule + "[0.101, 0]");
+  expect_fault(at("[0.3, 0]"), place + "0.4 cm" + rule + "[0.3, 0]");
+  // The pair's contact counts, and what the reference takes it for.
+  const std::string overlap = at("[-0.05, 0]");
+  EXPECT_EQ(messages(with(overlap, "reference: auto", "reference: contact")), kNoFaults);
+  expect_fault(with(overlap, "reference: auto", "reference: event"),
+               place +
+                   "0.05 cm (not with the reference event, which takes soft contacts as hard "
+                   "ones), got [-0.05, 0]");
+  // Nothing overlaps across a periodic cell.
+  expect_fault(with(overlap, "# periodic", "periodic"), place + "0.05 cm, got [-0.05, 0]");
 }
 
 TEST(Check, OverlapsOfManyBodies) {

@@ -1,6 +1,6 @@
 """Holds the JSON Schema against the loader.
 
-usage: schema_agreement.py CORPUS_PROGRAM SCHEMA
+usage: schema_agreement.py SCHEMA CORPUS_PROGRAM [EVERY]
 
 The program prints scenes with the loader's verdict; the schema must come to the same.
 """
@@ -18,13 +18,13 @@ BEYOND_A_SCHEMA = re.compile(r'must have the (smaller radius|lower limit) first|
 
 
 def main():
-    program, schema_file = sys.argv[1:]
+    schema_file, *program = sys.argv[1:]
     with open(schema_file, encoding="utf-8") as file:
         schema = json.load(file)
     jsonschema.Draft7Validator.check_schema(schema)
     validator = jsonschema.Draft7Validator(schema)
 
-    lines = subprocess.run([program], check=True, capture_output=True, text=True).stdout.splitlines()
+    lines = subprocess.run(program, check=True, capture_output=True, text=True).stdout.splitlines()
     accepted = disagreements = 0
     for line in lines:
         case = json.loads(line)

@@ -1,0 +1,32 @@
+#include "app/bundled_scenes.h"
+
+#include <algorithm>
+
+namespace slipcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path scenario_directory() {
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  for (const fs::path& directory :
+       {program / "scenarios", program.parent_path() / "share/slipcheck/scenarios"})
+    if (fs::is_directory(directory, ignored)) return directory;
+  return SLIPCHECK_SCENARIO_DIR;
+}
+
+}  // namespace
+
+std::vector<fs::path> bundled_scenes(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(scenario_directory() / folder, ignored))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+fs::path bundled_baselines() { return scenario_directory().parent_path() / "results/baselines"; }
+
+}  // namespace slipcheck

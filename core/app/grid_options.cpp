@@ -1,0 +1,60 @@
+#include "app/grid_options.h"
+
+#include <filesystem>
+
+#include "app/interrupt.h"
+#include "app/output.h"
+#include "engine/profile.h"
+
+namespace slipcheck {
+
+void add_grid_options(CLI::App& command, GridArguments& arguments) {
+  command
+      .add_option("--engines", arguments.engines.engines,
+                  "Engines, separated by commas; else all that are installed")
+      ->delimiter(',');
+  command
+      .add_option("--precisions", arguments.engines.precisions,
+                  "single, double, or both with a comma; else what is installed")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"single", "double"}));
+  command
+      .add_option("--profiles", arguments.engines.profiles,
+                  "Names, or paths of YAML files, separated by commas")
+      ->delimiter(',')
+      ->capture_default_str();
+  command
+      .add_option("--phases", arguments.options.phases,
+                  "Runs in each ensemble, by where in a step the first contact falls")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command
+      .add_option("--workers", arguments.options.workers,
+                  "Engines at work at once; 0: one for each core")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command
+      .add_option("--time-limit", arguments.options.time_limit,
+                  "Wall-clock seconds for one run of an engine")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--memory-limit", arguments.memory_limit, "MiB for one engine")
+      ->check(CLI::Range(16, 1 << 20))
+      ->capture_default_str();
+  command.add_option("--out", arguments.directory,
+                     "Write a folder: JSON, CSV, charts and a page that shows them");
+  command.add_option("--json", arguments.json, "Write the result here; - is stdout");
+  command.add_flag("-q,--quiet", arguments.quiet, "No table, no progress; the exit code tells");
+}
+
+void complete(GridArguments& arguments) {
+  if (!arguments.json.empty() && arguments.json != "-")
+    check_output("--json", arguments.json, false);
+  if (!arguments.directory.empty()) check_output("--out", arguments.directory, true);
+  for (std::string& profile : arguments.engines.profiles)
+    if (is_profile_path(profile)) profile = std::filesystem::absolute(profile).string();
+  arguments.options.limits.memory = arguments.memory_limit << 20;
+  arguments.options.stop = &interrupted();
+}
+
+}  // namespace slipcheck

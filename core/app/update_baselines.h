@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "baseline/update.h"
+#include "report/check_rows.h"
+
+namespace slipcheck {
+
+/// The line that tells of an update: date, versions, how much has moved, the largest move, and why.
+std::string changes_line(const BaselineUpdate& update, const CheckReport& report,
+                         const std::string& engines, const std::string& why);
+
+/// Writes the files of an update, removes what is left over, and appends the line to `changes`.
+/// Throws WriteFailure.
+void write_update(const BaselineUpdate& update, const std::filesystem::path& folder,
+                  const std::filesystem::path& changes, const std::string& line);
+
+}  // namespace slipcheck

@@ -1,0 +1,197 @@
+#include "report/markdown.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+#include "report/expectation_rows.h"
+#include "report/findings.h"
+#include "report/selection.h"
+#include "report/text.h"
+
+namespace slipcheck {
+namespace {
+
+constexpr std::size_t kWorst = 5;
+constexpr std::size_t kMostRows = 8;  // of one run
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80) != 0; }
+
+/// What begins a list, a heading or a rule where it is the first of a line.
+bool begins_block(std::string_view text, std::size_t at) {
+  const char next = at + 1 < text.size() ? text[at + 1] : ' ';
+  if (at == 0)
+    return text[at] == '=' ||
+           ((text[at] == '-' || text[at] == '+') && (next == ' ' || next == text[at]));
+  return (text[at] == '.' || text[at] == ')') && next == ' ' &&
+         text.find_first_not_of("0123456789") == at;
+}
+
+std::string plural(std::size_t count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+/// "3 within, 1 deviates, 0 failed"
+std::string counts_text(const std::array<std::size_t, 3>& counts) {
+  return fmt::format("{} within tolerance, {} deviating, {} failed", counts[0], counts[1],
+                     counts[2]);
+}
+
+std::string head_of(const std::vector<SceneRecord>& scenes) {
+  std::array<std::size_t, 3> by_scene{}, by_run{};
+  std::size_t runs = 0, skipped = 0, without_engines = 0;
+  for (const SceneRecord& scene : scenes) {
+    if (scene.runs.empty()) {
+      ++without_engines;
+    } else {
+      ++by_scene[static_cast<std::size_t>(scene.verdict())];
+    }
+    for (const EngineRecord& run : scene.runs) {
+      ++runs;
+      if (const auto verdict = run.verdict())
+        ++by_run[static_cast<std::size_t>(*verdict)];
+      else
+        ++skipped;
+    }
+  }
+  const bool good = by_scene[1] + by_scene[2] == 0;
+  std::string text =
+      fmt::format("## {} Slipcheck: {}\n\n", good ? "✓" : "✗",
+                  good ? "all within tolerance"
+                       : fmt::format("{} of {} not within tolerance", by_scene[1] + by_scene[2],
+                                     plural(scenes.size(), "scene")));
+  text += fmt::format("{}: {}", plural(scenes.size(), "scene"), counts_text(by_scene));
+  if (without_engines > 0) text += fmt::format(", {} of the reference alone", without_engines);
+  text += fmt::format("  \n{}: {}", plural(runs, "engine run"), counts_text(by_run));
+  if (skipped > 0) text += fmt::format(", {} skipped", skipped);
+  return text + "\n";
+}
+
+std::string worst_part(const std::vector<SceneRecord>& scenes) {
+  const std::vector<Finding> findings = worst_findings(scenes, kWorst);
+  if (findings.empty()) return {};
+  std::vector<std::vector<std::string>> rows;
+  for (const Finding& finding : findings)
+    rows.push_back({finding.scene->scenario.name, run_label(*finding.run), finding.row.name,
+                    finding.row.reference, finding.row.median, finding.row.spread,
+                    finding.row.worst, finding.row.tolerance});
+  return "\n### Worst deviations\n\n" +
+         markdown_table({"scene", "run", "observable", "reference", "median", "min … max",
+                         "max error", "tolerance"},
+                        rows, {3, 4, 5, 6, 7});
+}
+
+/// A run that is not within, as rows of its scene's table; the worst of its observables.
+void add_rows(const SceneRecord& scene, const EngineRecord& run,
+              std::vector<std::vector<std::string>>& rows) {
+  const std::string label = run_label(run);
+  const bool ok = run.status == RunStatus::ok;
+  if (!ok || (run.expect && run.expect->status)) {
+    rows.push_back({"✗ " + label, finding_text(scene, run), "", "", "", "", ""});
+    return;
+  }
+  for (const ExpectationRow& row : expectation_rows(run))
+    if (!row.met)
+      rows.push_back({"✗ " + label, row.name + " " + row.statistic, "expected " + row.limits,
+                      row.value, "", "", ""});
+  std::vector<ComparisonRow> bad = comparison_rows(scene, run, shown_observables(scene, false));
+  std::erase_if(bad, [](const ComparisonRow& row) { return row.mark != Mark::deviates; });
+  const std::size_t count = bad.size();
+  bad = most_severe(std::move(bad), kMostRows);
+  for (const ComparisonRow& row : bad)
+    rows.push_back({"✗ " + label, row.note.empty() ? row.name : row.name + " (" + row.note + ")",
+                    row.reference, row.median, row.spread, row.worst, row.tolerance});
+  if (bad.size() < count)
+    rows.push_back({"✗ " + label, fmt::format("{} more", count - bad.size()), "", "", "", "", ""});
+}
+
+std::string scene_part(const SceneRecord& scene) {
+  std::vector<std::vector<std::string>> rows;
+  std::size_t bad = 0, counted = 0;
+  for (const EngineRecord& run : scene.runs) {
+    const std::optional<Verdict> verdict = run.verdict();
+    counted += verdict.has_value();
+    if (verdict.value_or(Verdict::within) == Verdict::within) continue;
+    ++bad;
+    add_rows(scene, run, rows);
+  }
+  std::string text = fmt::format("\n### ✗ {}\n\n", markdown_escaped(scene.scenario.name));
+  if (!scene.scenario.title.empty())
+    text += fmt::format("{}. ", markdown_escaped(scene.scenario.title));
+  text += fmt::format("{} of {} {}.\n\n", bad, plural(counted, "run"),
+                      scene.verdict() == Verdict::failed ? "failed or deviate" : "deviate");
+  return text + markdown_table({"run", "observable", "reference", "median", "min … max",
+                                "max error", "tolerance"},
+                               rows, {2, 3, 4, 5, 6});
+}
+
+/// The names of those scenes of which there is nothing more to say.
+std::string good_part(const std::vector<SceneRecord>& scenes) {
+  std::string names;
+  std::size_t count = 0;
+  for (const SceneRecord& scene : scenes) {
+    if (scene.verdict() != Verdict::within || scene.runs.empty()) continue;
+    names += (count++ > 0 ? ", " : "") + markdown_escaped(scene.scenario.name);
+  }
+  return count == 0 ? "" : fmt::format("\n**✓ {} within tolerance**: {}\n", count, names);
+}
+
+}  // namespace
+
+std::string markdown_escaped(const std::string& text) {
+  const std::string line = printable(text);
+  const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
+  const std::string_view rest = std::string_view(line).substr(first);
+  std::string result;
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    const char c = rest[k];
+    // Inside a word an underscore is one: i.sliding_time stays readable as plain text, too.
+    const bool inside =
+        k > 0 && k + 1 < rest.size() && is_word(rest[k - 1]) && is_word(rest[k + 1]);
+    if (std::string_view("\\`*[]<>#|~&$").find(c) != std::string_view::npos ||
+        (c == '_' && !inside) || begins_block(rest, k))
+      result += '\\';
+    result += c;
+    // Calls nobody.
+    if (c == '@') result += "<!-- -->";
+  }
+  return result;
+}
+
+std::string markdown_table(const std::vector<std::string>& headers,
+                           const std::vector<std::vector<std::string>>& rows,
+                           const std::vector<std::size_t>& right) {
+  const auto line = [](const std::vector<std::string>& cells) {
+    std::string text = "|";
+    for (const std::string& cell : cells) text += " " + markdown_escaped(cell) + " |";
+    return text + "\n";
+  };
+  std::string text = line(headers) + "|";
+  for (std::size_t k = 0; k < headers.size(); ++k)
+    text += std::find(right.begin(), right.end(), k) == right.end() ? " --- |" : " ---: |";
+  text += "\n";
+  for (const std::vector<std::string>& row : rows) text += line(row);
+  return text;
+}
+
+std::string markdown_of(const std::vector<SceneRecord>& scenes, std::size_t most) {
+  constexpr std::size_t kRoom = 120;  // for what is said about what is left out
+  std::string text = head_of(scenes) + worst_part(scenes);
+  std::vector<std::string> parts;
+  for (const SceneRecord& scene : scenes)
+    if (scene.verdict() != Verdict::within) parts.push_back(scene_part(scene));
+  // Bytes are counted, of which there are never fewer than characters.
+  std::size_t shown = 0;
+  while (shown < parts.size() && text.size() + parts[shown].size() + kRoom <= most)
+    text += parts[shown++];
+  if (shown < parts.size())
+    text += fmt::format("\n… and {} that deviate or failed; there is no room for them here.\n",
+                        plural(parts.size() - shown, "more scene"));
+  const std::string good = good_part(scenes);
+  return text.size() + good.size() <= most ? text + good : text;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,66 @@
+// Light or dark: the system's choice until the reader takes another.
+import { make } from './dom.js';
+
+const listeners = new Set();
+const system = window.matchMedia('(prefers-color-scheme: dark)');
+
+/** Calls `listener` whenever colours changed; returns a function that ends that. */
+export function on_theme(listener) {
+  listeners.add(listener);
+  return () => listeners.delete(listener);
+}
+
+export function is_dark() {
+  const chosen = document.documentElement.dataset.theme;
+  return chosen ? chosen === 'dark' : system.matches;
+}
+
+/** The style sheet's colours as they are now. */
+export function theme_colours() {
+  const style = getComputedStyle(document.documentElement);
+  const colour = (name, otherwise) => style.getPropertyValue(`--${name}`).trim() || otherwise;
+  return {
+    text: colour('text', '#1b1b1b'),
+    faint: colour('faint', '#5c5c5c'),
+    page: colour('page', '#ffffff'),
+    card: colour('card', '#f6f6f4'),
+    line: colour('line', '#d5d5d0'),
+    within: colour('within', '#0072b2'),
+    deviates: colour('deviates', '#d55e00'),
+    failed: colour('failed', '#cc79a7'),
+    band: colour('band', '#0072b2'),
+    truth: colour('truth', '#000000'),
+  };
+}
+
+export function make_theme_button() {
+  const button = make('button', { type: 'button', class: 'theme', onclick: toggle });
+  const name = () => { button.textContent = is_dark() ? '☀ Light' : '☾ Dark'; };
+  function toggle() {
+    document.documentElement.dataset.theme = is_dark() ? 'light' : 'dark';
+    remember(document.documentElement.dataset.theme);
+    changed();
+  }
+  on_theme(name);
+  name();
+  return button;
+}
+
+/** Takes the choice of an earlier visit and follows the system's. */
+export function start_theme() {
+  try {
+    const chosen = localStorage.getItem('slipcheck-theme');
+    if (chosen === 'light' || chosen === 'dark') document.documentElement.dataset.theme = chosen;
+  } catch { /* Storage may be forbidden to files. */ }
+  system.addEventListener('change', changed);
+}
+
+function remember(theme) {
+  try {
+    localStorage.setItem('slipcheck-theme', theme);
+  } catch { /* as above */ }
+}
+
+function changed() {
+  for (const listener of listeners) listener();
+}

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string_view>
+
+namespace slipcheck {
+
+/// The page's script with the libraries in it, and their licences; built from core/report/page.
+extern const std::string_view kPageScript;
+extern const std::string_view kPageLicences;
+
+}  // namespace slipcheck

@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+"""Runs `slipcheck report` and the outputs that it shares with `slipcheck run` as a user does.
+
+usage: report_test.py SLIPCHECK SOURCE_DIR
+"""
+import base64
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+import zlib
+from pathlib import Path
+
+SLIPCHECK, SOURCE = sys.argv[1], Path(sys.argv[2])
+SCENES = SOURCE / "scenarios"
+
+
+def run(*arguments, **options):
+    return subprocess.run([SLIPCHECK, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=600, **options)
+
+
+def page_data(page):
+    packed = re.search(r'id="slipcheck-data">([^<]*)<', page.read_text()).group(1)
+    return json.loads(zlib.decompress(base64.b64decode(packed)))
+
+
+class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.temporary.name)
+        cls.runs = cls.folder / "runs"
+        done = run("run", SCENES / "roll-to-rest.yaml", SCENES / "symmetric-30cms.yaml", "--phases",
+                   "4", "--out", cls.runs)
+        assert done.returncode == 1, done.stderr
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = Path(folder.name)
+
+    def test_the_page_is_that_of_the_run(self):
+        page = self.path / "page.html"
+        result = run("report", self.runs, "-o", page)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, f"{page}\n")
+        data, of_run = page_data(page), page_data(self.runs / "report.html")
+        # Motions are kept with nine digits.
+        for one, other in zip(data["scenes"], of_run["scenes"]):
+            motion, of_motion = one.pop("motion"), other.pop("motion")
+            self.assertEqual([(m["run"], m["role"], m["phase"]) for m in motion["runs"]],
+                             [(m["run"], m["role"], m["phase"]) for m in of_motion["runs"]])
+        self.assertEqual(data, of_run)
+        left_out = re.compile(r"<div><dt>(command|date)</dt><dd>[^<]*</dd></div>\n|"
+                              '(?<="slipcheck-data">)[^<]*')
+        self.assertEqual(left_out.sub("", page.read_text()),
+                         left_out.sub("", (self.runs / "report.html").read_text()))
+
+    def test_without_its_script_the_page_has_its_tables(self):
+        page = self.path / "page.html"
+        run("report", self.runs, "-o", page, "--without-script")
+        text = page.read_text()
+        self.assertNotIn("<script", text)
+        self.assertNotIn("script-src", text)
+        self.assertIn("default-src 'none'", text)
+        self.assertGreater(text.count("<table"), 10)
+
+    def test_every_format(self):
+        at = self.path.joinpath
+        result = run("report", self.runs, "-o", at("p.html"), "--csv", at("r.csv"), "--phases-csv",
+                     at("p.csv"), "--markdown", at("s.md"), "--junit", at("j.xml"), "--xyz",
+                     at("xyz"), "--vtk", at("vtk"), "--svg", at("svg"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        results = {name: json.loads((self.runs / f"{name}.json").read_text())
+                   for name in ("roll-to-rest", "symmetric-30cms")}
+
+        rows = list(csv.DictReader(at("r.csv").read_text().splitlines()))
+        for row in rows:
+            if not row["max_error"]:
+                continue
+            one = [r for r in results[row["scene"]]["runs"]
+                   if (r["engine"], r["precision"], r["profile"], r["rate"]) ==
+                   (row["engine"], row["precision"], row["profile"], float(row["rate"]))]
+            self.assertEqual(float(row["max_error"]),
+                             one[0]["errors"][row["observable"]]["max"])
+        self.assertEqual({row["scene"] for row in rows}, set(results))
+        with open(at("p.csv"), newline="") as table:
+            self.assertEqual({row["phase"] for row in csv.DictReader(table)
+                              if row["scene"] == "symmetric-30cms"}, {"0", "1", "2", "3"})
+
+        suites = xml.etree.ElementTree.parse(at("j.xml")).getroot()
+        cases = list(suites.iter("testcase"))
+        runs = [r for result in results.values() for r in result["runs"]]
+        self.assertEqual(len(cases), len(runs))
+        deviating = [r for r in runs if any(not e["within"] for e in r["errors"].values())]
+        self.assertEqual(len(list(suites.iter("failure"))), len(deviating))
+        self.assertIn("sliding_distance", at("s.md").read_text())
+
+        motion = json.loads((self.runs / "symmetric-30cms.motion.json").read_text())
+        lines = at("xyz/symmetric-30cms-reference.xyz").read_text().splitlines()
+        self.assertEqual(len(lines), len(motion["reference"]["time"]) * (2 + 2))
+        first = [float(number) for number in lines[2].split()[1:4]]
+        for written, kept in zip(first, motion["reference"]["position"][0][:3]):
+            self.assertAlmostEqual(written, kept, delta=1e-8)
+        collection = xml.etree.ElementTree.parse(at("vtk/symmetric-30cms-reference.pvd"))
+        files = [data.get("file") for data in collection.iter("DataSet")]
+        self.assertEqual(len(files), len(motion["reference"]["time"]))
+        for file in files:
+            piece = next(xml.etree.ElementTree.parse(at("vtk", file)).iter("Piece"))
+            self.assertEqual(piece.get("NumberOfPoints"), "2")
+        charts = sorted(at("svg").glob("*.svg"))
+        self.assertTrue(any("effective_restitution" in chart.name for chart in charts))
+        for chart in charts:
+            xml.etree.ElementTree.parse(chart)
+            self.assertTrue(chart.with_suffix(".gp").exists())
+
+    def test_studies_stand_on_the_same_page(self):
+        scene = SCENES / "symmetric-30cms.yaml"
+        common = ["--profiles", "default,tuned", "--precisions", "double", "--rates", "240,1000",
+                  "--phases", "2"]
+        precision, stability = self.path / "precision", self.path / "stability"
+        self.assertEqual(run("precision", scene, *common, "--iterations", "50", "--repeats", "1",
+                             "--out", precision).returncode, 0)
+        self.assertEqual(run("stability", scene, *common, "--out", stability).returncode, 1)
+        page = self.path / "page.html"
+        result = run("report", self.runs, precision, stability, "-o", page, "--svg",
+                     self.path / "svg")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        data = page_data(page)
+        study = json.loads((precision / "precision.json").read_text())["scenes"][0]["curves"]
+        self.assertEqual([scene["name"] for scene in data["precision"]], ["symmetric-30cms"])
+        shown = {curve["label"]: curve["points"] for curve in data["precision"][0]["curves"]}
+        for curve in study:
+            if curve["kind"] == "engine" and not curve.get("iterations"):
+                self.assertEqual([point["cost"] for point in shown[curve["method"]]],
+                                 [float(f"{point['cost']['cpu_per_simulated_second']:.5g}")
+                                  for point in curve["points"]])
+        text = page.read_text()
+        self.assertIn("Error against run time", text)
+        self.assertIn("Where it gets stiff", text)
+        self.assertTrue(list((self.path / "svg").glob("precision-*.svg")))
+
+    def test_what_cannot_be_read_is_told_and_nothing_is_written(self):
+        page = self.path / "page.html"
+        empty = self.path / "empty"
+        empty.mkdir()
+        broken = self.path / "broken.json"
+        broken.write_text("{\n  \"schema\": \n")
+        newer = self.path / "newer.json"
+        newer.write_text('{"schema": "slipcheck-result/2"}')
+        wrong = self.path / "wrong.json"
+        text = (self.runs / "symmetric-30cms.json").read_text()
+        wrong.write_text(text.replace('"rate": 240.0', '"rate": "fast"', 1))
+        for source, said in ((self.path / "nowhere", "nowhere"), (empty, "holds no result"),
+                             (broken, "broken.json"), (newer, "slipcheck-result/2"),
+                             (wrong, '"fast"')):
+            result = run("report", source, "-o", page)
+            self.assertEqual(result.returncode, 2, (source, result.stderr))
+            self.assertIn(said, result.stderr)
+            self.assertFalse(page.exists())
+        twice = run("report", self.runs, self.runs, "-o", page)
+        self.assertEqual(twice.returncode, 2)
+        self.assertIn("the scene roll-to-rest is in", twice.stderr)
+        self.assertEqual(run("report", self.runs).returncode, 2)
+        self.assertEqual(run("report", self.runs, "-o", self.path / "no" / "p.html").returncode, 2)
+
+    def test_without_gnuplot_it_says_so_and_leaves_no_chart(self):
+        nothing = self.path / "nothing"
+        nothing.mkdir()
+        result = run("report", self.runs, "-o", self.path / "p.html", "--svg", self.path / "svg",
+                     env=dict(os.environ, PATH=str(nothing)))
+        self.assertEqual(result.returncode, 4)
+        self.assertIn("gnuplot", result.stderr)
+        self.assertFalse(list(self.path.glob("svg/*")))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,0 +1,144 @@
+// Those parts of the page's script that need no browser: node --test parts_test.mjs
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { deflateSync } from 'node:zlib';
+import { count_of, read_data, values_of } from '../../core/report/page/src/data.js';
+import { escaped, number_text, prefixed, quantity_text } from '../../core/report/page/src/dom.js';
+import { empty_filter, name_passes, run_passes, scene_passes } from '../../core/report/page/src/filter.js';
+import { between, between_periodic, end_of, frame_at, orientations, turned } from '../../core/report/page/src/motion.js';
+import { border_of, borders_of, floor_of, range_of } from '../../core/report/page/src/scales.js';
+import { number_of, sorted_order } from '../../core/report/page/src/sort.js';
+
+const close = (a, b, tolerance = 1e-12) => assert(Math.abs(a - b) <= tolerance, `${a} is not ${b}`);
+
+test('a channel is a running sum; null holds no value but the sum goes on', () => {
+  assert.deepEqual(values_of({ o: 10, s: 0.5, q: [2, 4, null, -6] }, 4), [11, 13, NaN, 10]);
+  assert.deepEqual(values_of(3, 2), [3, 3]);
+  assert.deepEqual(values_of(null, 2), [NaN, NaN]);
+  assert.equal(count_of({ o: 0, s: 1, q: [1, 1, 1] }), 3);
+  assert.equal(count_of(5, 7), 7);
+});
+
+test('data come deflated, in base64', async () => {
+  const textContent = `\n${deflateSync('{"name": "Kügelchen"}').toString('base64')}\n`;
+  assert.deepEqual(await read_data({ textContent }), { name: 'Kügelchen' });
+  assert.equal(await read_data(null), null);
+});
+
+test('numbers of cells, in base units', () => {
+  const expected = { '3 µs': 3e-6, '1.5 ms': 1.5e-3, '−2 mm': -2e-3, '12 %': 0.12, '4e-3 s': 4e-3, '2·10^-3': 2e-3,
+    '7': 7, '0.5 kHz': 500, '30 cm/s': 0.3, '5 apples': 5, '1.2 ms (3 of 4)': 1.2e-3 };
+  for (const [text, number] of Object.entries(expected)) close(number_of(text), number, 1e-15 + 1e-12 * Math.abs(number));
+  for (const text of ['', '–', 'default', 'within 3']) assert(Number.isNaN(number_of(text)), text);
+});
+
+test('rows are ordered by size, not by digits; cells without a value stay last', () => {
+  const texts = ['1 ms', '–', '20 µs', '3 ns', ''];
+  assert.deepEqual(sorted_order(texts, false), [3, 2, 0, 1, 4]);
+  assert.deepEqual(sorted_order(texts, true), [0, 2, 3, 1, 4]);
+  assert.deepEqual(sorted_order(['b10', 'b9', 'a'], false), [2, 1, 0]);
+  assert.deepEqual(sorted_order(['same', 'same'], true), [0, 1]);
+});
+
+test('numbers as people write them', () => {
+  assert.equal(number_text(0.357142857), '0.3571');
+  assert.equal(number_text(-12), '−12');
+  assert.equal(number_text(0), '0');
+  assert.equal(number_text(2.05e-4, 3), '2.05·10⁻⁴');
+  assert.equal(number_text(1e-10), '10⁻¹⁰');
+  assert.equal(number_text(NaN), '–');
+  assert.equal(quantity_text(2.5, 'mm'), '2.5 mm');
+  assert.deepEqual(prefixed('m/s', 0.3), { factor: 1e-3, unit: 'mm/s' });
+  assert.deepEqual(prefixed('s', 2), { factor: 1, unit: 's' });
+  assert.deepEqual(prefixed('J', 0), { factor: 1, unit: 'J' });
+  assert.equal(escaped('<b a="1">&\''), '&lt;b a=&quot;1&quot;&gt;&amp;&#39;');
+});
+
+test('the filter', () => {
+  const run = { engine: 'bullet', precision: 'double', profile: 'tuned', rate: 240, verdict: 'within' };
+  const filter = empty_filter();
+  assert(run_passes(filter, run));
+  assert(run_passes({ ...filter, rate: '240' }, run));
+  assert(!run_passes({ ...filter, rate: '24' }, run));
+  assert(!run_passes({ ...filter, verdicts: new Set(['failed']) }, run));
+  assert(name_passes({ ...filter, name: ' 30CMS sym' }, 'symmetric-30cms'));
+  assert(!name_passes({ ...filter, name: 'sym box' }, 'symmetric-30cms'));
+  assert(scene_passes(filter, { name: 'alone', runs: [] }));
+  assert(!scene_passes({ ...filter, engine: 'bullet' }, { name: 'alone', runs: [] }));
+});
+
+test('frames and what is between them', () => {
+  const times = [1, 2, 4];
+  assert.deepEqual(frame_at(times, 0), [0, 0]);
+  assert.deepEqual(frame_at(times, 3), [1, 0.5]);
+  assert.deepEqual(frame_at(times, 2), [1, 0]);
+  assert.deepEqual(frame_at(times, 9), [2, 0]);
+  assert.deepEqual(frame_at([5], 9), [0, 0]);
+  assert.equal(between([10, 20, 40], [1, 0.25]), 25);
+  assert.equal(between([10, NaN], [0, 0.5]), 10);
+  close(between_periodic([0.9, 0.1], [0, 0.5], 1), 1.0);
+});
+
+test('a run that goes on far beyond the reference is cut off', () => {
+  const run = (number, end) => ({ run: number, time: [0, end] });
+  assert.equal(end_of([run(-1, 10), run(0, 100)]), 14);
+  assert.equal(end_of([run(-1, 10), run(0, 12)]), 12);
+  assert.equal(end_of([run(0, 3), run(1, 100)]), 100);
+});
+
+test('a ball that rolls a quarter of its circumference along x has turned by 90° about y', () => {
+  // Ω = v/R about +y carries the top towards +x: what was on top now points along x.
+  const quarter = Math.PI / 2, count = 10;
+  const time = Array.from({ length: count + 1 }, (_, k) => k / count);
+  const q = orientations(time, [time.map(() => 0), time.map(() => quarter), time.map(() => 0)])[count];
+  const s = Math.sin(quarter / 2), c = Math.cos(quarter / 2);
+  [0, s, 0, c].forEach((part, k) => close(q[k], part));
+});
+
+test('turns about different axes are of the laboratory, the later one last', () => {
+  // 90° about z, then 90° about x, as matrices on (1, 0, 0): to (0, 1, 0), to (0, 0, 1).
+  const q = turned(turned([0, 0, 0, 1], [0, 0, Math.PI / 2]), [Math.PI / 2, 0, 0]);
+  const [x, y, z, w] = q;
+  const image = [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)];
+  [0, 0, 1].forEach((part, k) => close(image[k], part));
+  assert.deepEqual(turned([0, 0, 0, 1], [0, 0, 0]), [0, 0, 0, 1]);
+});
+
+test('spin that grows evenly: the angle is half of Ω t', () => {
+  const time = [0, 0.5, 1], w = time.map((t) => 3 * t);
+  const [, , z, cosine] = orientations(time, [[0, 0, 0], [0, 0, 0], w])[2];
+  close(2 * Math.atan2(z, cosine), 1.5);
+});
+
+test('an axis shows its landmarks, and far values do not squeeze the others', () => {
+  const values = [...Array(50).fill(0).map((_, k) => 1 + k / 100), 1000];
+  const { low, high } = range_of(values, [1.2, null, 0.9]);
+  assert(low < 0.9 && high > 1.47 && high < 3, `${low} to ${high}`);
+  const all = range_of([1, 2, 3], []);
+  assert(all.low < 1 && all.high > 3);
+  const one = range_of([], [5]);
+  assert(one.low < 5 && one.high > 5);
+  assert.deepEqual(range_of([], []), { low: 0, high: 1 });
+});
+
+test('borders of cells lie half way, on a logarithmic axis at the geometric mean', () => {
+  assert.deepEqual(borders_of([1, 2, 3], false), [0.5, 1.5, 2.5, 3.5]);
+  const expected = [10 ** -0.5, 10 ** 0.5, 10 ** 1.5];
+  borders_of([1, 10], true).forEach((border, k) => close(border, expected[k]));
+  assert.deepEqual(borders_of([4], false), [3.5, 4.5]);
+});
+
+test('no error is drawn below the least error', () => {
+  assert.equal(floor_of([3e-9, 0, null, 1]), 1e-10);
+  assert.equal(floor_of([0, null]), 1e-16);
+});
+
+test('limits: the bar is of one kind where all or nothing works', () => {
+  assert.equal(border_of({ good: 1, bad: 4, low: 0.1, high: 10 }, false), 2);
+  assert.equal(border_of({ good: 4, bad: 1, low: 0.1, high: 10 }, true), 2);
+  const all = { good: 1, bad: null, low: 0.1, high: 10 }, none = { good: null, bad: 1, low: 0.1, high: 10 };
+  assert.equal(border_of(all, false), 10);
+  assert.equal(border_of(none, false), 0.1);
+  assert.equal(border_of(all, true), 0.1);
+  assert.equal(border_of(none, true), 10);
+});

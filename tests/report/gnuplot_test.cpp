@@ -1,0 +1,281 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <pugixml.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "records.h"
+#include "report/files.h"
+#include "report/gnuplot_charts.h"
+#include "study_records.h"
+#include "text_search.h"
+
+namespace slipcheck::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Gnuplot : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "slipcheck-gnuplot-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    path_ = std::getenv("PATH");
+  }
+  void TearDown() override {
+    ::setenv("PATH", path_.c_str(), 1);
+    fs::remove_all(folder_);
+  }
+
+  fs::path charts() const { return folder_ / "charts"; }
+  /// Draws and gives a chart back.
+  pugi::xml_document drawn(const ReportContent& content, const std::string& name) const {
+    write_gnuplot_charts(charts(), content);
+    pugi::xml_document document;
+    const fs::path svg = charts() / (name + ".svg");
+    EXPECT_TRUE(document.load_file(svg.c_str())) << svg;
+    return document;
+  }
+  std::string failure(const ReportContent& content) const {
+    try {
+      write_gnuplot_charts(charts(), content);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "no failure";
+  }
+
+  fs::path folder_;
+  std::string path_;
+};
+
+/// Points that are drawn, those of the key among them.
+std::size_t points(const pugi::xml_document& svg) {
+  return svg.select_nodes("//use[@transform and not(@id)]").size();
+}
+
+bool shows(const pugi::xml_document& svg, const std::string& text) {
+  for (const pugi::xpath_node& node : svg.select_nodes("//text"))
+    if (contains(node.node().text().get(), text)) return true;
+  return false;
+}
+
+ReportContent content_of(const SceneRecord& scene) {
+  ReportContent content;
+  content.scenes = {scene};
+  return content;
+}
+
+TEST(GnuplotText, QuotesAndKeepsNoControls) {
+  EXPECT_EQ(gnuplot_text("it's `date` \"x\"\n\x01"), "'it''s `date` \"x\" \uFFFD'");
+  EXPECT_EQ(gnuplot_number(1.0 / 3), "0.3333333333333333");
+  EXPECT_EQ(gnuplot_number(kNaN), "NaN");
+  EXPECT_EQ(gnuplot_number(kInfinity), "NaN");
+}
+
+TEST_F(Gnuplot, APointForEachPhaseWithinOutsideAndBeyond) {
+  SceneRecord scene = lottery_scene(16);
+  // Far beyond all others, which lie from 0.358 to 0.498.
+  scene.runs[0].observables["i-j.effective_restitution"].values[3] = 1e6;
+  const pugi::xml_document svg =
+      drawn(content_of(scene), "phases-symmetric-steel-i-j.effective_restitution");
+  EXPECT_EQ(points(svg), 2u * 16 + 3);  // and three in the key
+  EXPECT_TRUE(shows(svg, "bullet double default 240 Hz"));
+  EXPECT_TRUE(shows(svg, "tolerance 0.005"));
+  EXPECT_TRUE(shows(svg, "i-j.effective_restitution"));
+  for (const char* end : {".gp", ".csv", ".svg"})
+    EXPECT_TRUE(
+        fs::exists(charts() / (std::string("phases-symmetric-steel-i.sliding_time") + end)));
+}
+
+TEST_F(Gnuplot, APhaseWithoutAValueHasNoPoint) {
+  SceneRecord scene = lottery_scene(16);
+  scene.runs.resize(1);
+  scene.runs[0].observables["i.sliding_time"].values[5] = kNaN;
+  EXPECT_EQ(points(drawn(content_of(scene), "phases-symmetric-steel-i.sliding_time")), 15u + 3);
+}
+
+TEST_F(Gnuplot, NamesAreShownAndNothingOfThemIsRun) {
+  const std::string trap = (folder_ / "trap").string();
+  SceneRecord scene = lottery_scene(4);
+  scene.runs.resize(1);
+  scene.runs[0].profile = "a_b^c{d}' @unit <&>";
+  scene.scenario.name = "x'\n`touch " + trap + "`";
+  std::vector<GnuplotChart> made = gnuplot_charts(content_of(scene));
+  ASSERT_FALSE(made.empty());
+  pugi::xml_document svg = drawn(content_of(scene), made[0].name);
+  EXPECT_TRUE(shows(svg, "bullet double a_b^c{d}' @unit <&> 240 Hz"));
+  EXPECT_TRUE(shows(svg, "x' `touch " + trap + "`"));
+
+  // Too long a name is cut, or there would be no room for the plot.
+  scene.runs[0].profile = "'; system('touch " + trap + "'); `touch " + trap + "` 0123456789";
+  made = gnuplot_charts(content_of(scene));
+  svg = drawn(content_of(scene), made[0].name);
+  EXPECT_TRUE(shows(svg, "bullet double '; system('touch "));
+  EXPECT_FALSE(shows(svg, "0123456789"));
+  EXPECT_FALSE(fs::exists(trap));
+}
+
+TEST_F(Gnuplot, AScriptDrawsAgainInItsFolder) {
+  SceneRecord scene = lottery_scene(4);
+  write_gnuplot_charts(charts(), content_of(scene));
+  for (const GnuplotChart& chart : gnuplot_charts(content_of(scene))) {
+    EXPECT_FALSE(contains(chart.script, folder_.string()));
+    EXPECT_TRUE(contains(chart.script, "set output '" + chart.name + ".svg'"));
+    for (const auto& [name, text] : chart.data) EXPECT_TRUE(contains(chart.script, name));
+  }
+}
+
+/// A ball that slides at 1 m/s and slows down evenly to 0.5 m/s within 10 frames.
+RecordedMotion sliding(const std::string& role, std::size_t bodies) {
+  RecordedMotion motion;
+  motion.role = role;
+  for (int k = 0; k < 10; ++k) {
+    MotionFrame frame;
+    frame.time = 0.01 * k;
+    for (std::size_t b = 0; b < bodies; ++b) {
+      BodyState state;
+      state.position = Vector3(static_cast<double>(b), 0, 0.002);
+      state.velocity = Vector3(1 - 0.05 * k, 0, 0);
+      frame.bodies.push_back(state);
+    }
+    motion.frames.push_back(frame);
+  }
+  return motion;
+}
+
+TEST_F(Gnuplot, MotionHasAPanelEachForSlipSpeedAndEnergy) {
+  SceneRecord scene = lottery_scene(4);
+  scene.scenario.surroundings = Substrate{};
+  scene.reference.motion = sliding("reference", 2);
+  scene.runs[0].motions = {sliding("nearest", 2), sliding("median", 2)};
+  const pugi::xml_document svg = drawn(content_of(scene), "motion-symmetric-steel");
+  for (const char* text : {"slip velocity [m/s]", "speed [m/s]", "kinetic energy", "time [ms]",
+                           "reference", "bullet double default 240 Hz", "i", "j"})
+    EXPECT_TRUE(shows(svg, text)) << text;
+  EXPECT_FALSE(shows(svg, "bullet double default 4000 Hz"));  // nothing is recorded of it
+  std::ifstream data(charts() / "motion-symmetric-steel.csv");
+  std::string line;
+  std::size_t lines = 0;
+  while (std::getline(data, line)) ++lines;
+  EXPECT_EQ(lines, 1u + 2 * 2 * 10);
+}
+
+TEST_F(Gnuplot, ABoxHasItsSeries) {
+  const pugi::xml_document svg = drawn(content_of(box_scene(40)), "series-symmetric-steel");
+  EXPECT_TRUE(shows(svg, "H [mm]"));
+  EXPECT_TRUE(shows(svg, "collisions [1/s]"));
+  EXPECT_FALSE(shows(svg, "R ["));  // all zero
+}
+
+TEST_F(Gnuplot, StudiesHaveTheirCharts) {
+  ReportContent content;
+  content.precision = {precision_scene()};
+  content.limits = limit_results();
+  write_gnuplot_charts(charts(), content);
+  std::set<std::string> svgs;
+  for (const auto& entry : fs::directory_iterator(charts()))
+    if (entry.path().extension() == ".svg") {
+      svgs.insert(entry.path().stem().string());
+      pugi::xml_document document;
+      EXPECT_TRUE(document.load_file(entry.path().c_str())) << entry.path();
+    }
+  const std::set<std::string> expected = {"limit-stable_step-held-ball",
+                                          "limit-stable_step-steel-pair",
+                                          "map-speed-restitution-bullet-double-default",
+                                          "precision-symmetric-steel-i-j.effective_restitution",
+                                          "precision-symmetric-steel-trajectory",
+                                          "step-symmetric-steel-i-j.effective_restitution",
+                                          "step-symmetric-steel-trajectory"};
+  EXPECT_EQ(svgs, expected);
+
+  pugi::xml_document map;
+  map.load_file((charts() / "map-speed-restitution-bullet-double-default.svg").c_str());
+  EXPECT_TRUE(shows(map, "where h v = R"));
+  for (const char* letter : {"A", "d", "T", "N", "E"}) EXPECT_TRUE(shows(map, letter)) << letter;
+  // Of two of the methods nothing is said: iterations that are not the profile's own.
+  pugi::xml_document work;
+  work.load_file((charts() / "precision-symmetric-steel-trajectory.svg").c_str());
+  for (const char* label : {"bullet single default", "bullet double tuned", "contact", "event"})
+    EXPECT_TRUE(shows(work, label)) << label;
+  EXPECT_FALSE(shows(work, "50 iterations"));
+}
+
+/// Charts whose values are missing, alone or far off: gnuplot gives up on some of these by itself.
+TEST_F(Gnuplot, PoorDataAreDrawnToo) {
+  ReportContent content;
+  SceneRecord scene = lottery_scene(1);
+  scene.scenario.surroundings = Substrate{};
+  for (EngineRecord& run : scene.runs)
+    for (auto& [name, ensemble] : run.observables) ensemble.values = {kInfinity};
+  RecordedMotion instant = sliding("median", 2);
+  instant.frames.resize(1);
+  for (BodyState& state : instant.frames[0].bodies) state.position.z() = 1;  // no slip there
+  scene.runs[0].motions = {instant};
+  content.scenes.push_back(scene);
+  SceneRecord level = box_scene(2);
+  level.scenario.name = "level";
+  level.reference.box->series.height = {0.01, 0.01};
+  content.scenes.push_back(level);
+
+  PrecisionScene one = precision_scene("one");
+  one.curves = {one.curves[0]};
+  one.curves[0].points.resize(1);
+  one.curves[0].points[0].errors["i-j.effective_restitution"].worst = 1e9;
+  content.precision = {one};
+  content.limits = limit_results();
+  content.limits.limits[0].good.reset();
+  OutcomeMap& map = content.limits.maps[0];
+  map.x.values = {1};
+  map.y.values = {0.5};
+  map.outcome = {Outcome::crashed};
+  map.worst_error.clear();
+  write_gnuplot_charts(charts(), content);
+  for (const GnuplotChart& chart : gnuplot_charts(content)) {
+    pugi::xml_document svg;
+    EXPECT_TRUE(svg.load_file((charts() / (chart.name + ".svg")).c_str())) << chart.name;
+    EXPECT_FALSE(svg.select_nodes("//text").empty()) << chart.name;
+  }
+}
+
+TEST_F(Gnuplot, NothingToDrawMakesAnEmptyFolder) {
+  write_gnuplot_charts(charts(), {});
+  EXPECT_TRUE(fs::is_empty(charts()));
+}
+
+TEST_F(Gnuplot, WithoutGnuplotItSaysWhatToInstall) {
+  ::setenv("PATH", folder_.c_str(), 1);
+  EXPECT_EQ(failure(content_of(lottery_scene(4))),
+            "charts as SVG are drawn by gnuplot, which is not there: install gnuplot-nox (Debian) "
+            "or gnuplot");
+  EXPECT_FALSE(fs::exists(charts()));
+}
+
+TEST_F(Gnuplot, WhenGnuplotFailsItsMessageIsTold) {
+  const fs::path fake = folder_ / "gnuplot";
+  std::ofstream(fake) << "#!/bin/sh\necho 'out of ink' >&2\nexit 3\n";
+  fs::permissions(fake, fs::perms::owner_all);
+  ::setenv("PATH", (folder_.string() + ":" + path_).c_str(), 1);
+  EXPECT_EQ(failure(content_of(lottery_scene(4))), "gnuplot failed: out of ink");
+  EXPECT_FALSE(fs::exists(charts()));
+
+  std::ofstream(fake) << "#!/bin/sh\n";
+  EXPECT_TRUE(failure(content_of(lottery_scene(4))).starts_with("gnuplot has not drawn phases-"));
+  EXPECT_FALSE(fs::exists(charts()));
+}
+
+TEST_F(Gnuplot, AFolderThatCannotBeMadeIsAWriteFailure) {
+  std::ofstream(folder_ / "charts") << "a file\n";
+  EXPECT_THROW(write_gnuplot_charts(charts() / "inside", content_of(lottery_scene(4))),
+               WriteFailure);
+}
+
+}  // namespace
+}  // namespace slipcheck::testing
