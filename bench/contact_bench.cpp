@@ -36,7 +36,8 @@ TangentialForce viscous() {
 }
 
 /// Steps of a pair; `steps` of them in one collision, or all while the spheres slide apart.
-void run_steps(benchmark::State& state, const ContactScene& scene, bool in_contact) {
+void run_steps(benchmark::State& state, const ContactScene& scene, bool in_contact,
+               bool general = false) {
   const double step = kCollisionTime / kStepsPerCollision;
   const double duration = in_contact ? 0.99 * kCollisionTime : 100 * kCollisionTime;
   std::vector<BodyState> start = scene.hard.initial;
@@ -47,7 +48,7 @@ void run_steps(benchmark::State& state, const ContactScene& scene, bool in_conta
     }
   std::size_t steps = 0;
   for (auto _ : state) {
-    StepSolver solver(scene, start, {step});
+    StepSolver solver(scene, start, {.step = step, .general = general});
     steps += solver.run({Run::Until::time, duration, duration}, nullptr).steps;
     benchmark::DoNotOptimize(solver.now());
   }
@@ -77,6 +78,22 @@ void BM_StepOfPairInContactOnFullSubstrate(benchmark::State& state) {
   run_steps(state, meeting(viscous(), true), true);
 }
 BENCHMARK(BM_StepOfPairInContactOnFullSubstrate);
+
+/// A smooth pair on a substrate without friction that it cannot leave: no rolling, spin, drilling
+/// or lift-off. The loop made for it (0) and the one that has everything (1).
+void BM_StepOfBarePair(benchmark::State& state) {
+  ContactScene scene = meeting(NoTangentialForce{}, false);
+  scene.hard.confined = true;
+  scene.hard.substrate[0].static_friction = scene.hard.substrate[0].kinetic_friction = 0;
+  run_steps(state, scene, true, state.range(0) == 1);
+}
+BENCHMARK(BM_StepOfBarePair)->Arg(0)->Arg(1);
+
+/// K's pair, sliding, in the loop that has everything: against BM_StepOfPairInContact.
+void BM_StepOfPairInContactInGeneralLoop(benchmark::State& state) {
+  run_steps(state, meeting(viscous(), false), true, true);
+}
+BENCHMARK(BM_StepOfPairInContactInGeneralLoop);
 
 /// The truth: K's pair from before the collision until both roll, at a tolerance of 1e-12.
 void BM_TwoBodyTruth(benchmark::State& state) {

@@ -42,7 +42,7 @@ class BulletEngine final : public Engine {
     world_.reset();
     setup_.emplace(Setup{scene, settings, time_step});
     start(scene.initial, 0);
-    return {world_->applied(), not_represented(scene, settings, time_step)};
+    return {world_->applied(), not_represented(scene, settings, time_step), world_->left_out()};
   }
 
   void start(std::span<const BodyState> states, double time) override {

@@ -15,6 +15,7 @@
 #include "bullet_backend/convert.h"
 #include "bullet_backend/dynamics_world.h"
 #include "bullet_backend/flush_denormals.h"
+#include "bullet_backend/leave_outs.h"
 #include "bullet_backend/margins.h"
 #include "bullet_backend/next_contact.h"
 #include "bullet_backend/surfaces.h"
@@ -27,6 +28,19 @@ std::vector<BodyState> to_world(std::span<const BodyState> states, const WorldUn
   std::vector<BodyState> made;
   for (const BodyState& state : states) made.push_back(units.to_world(state));
   return made;
+}
+
+BulletSettings in_force(BulletSettings settings, const LeaveOuts& leaves) {
+  if (leaves.line) settings.two_friction_directions = false;
+  return settings;
+}
+
+/// Bullet lays its one row of friction along y.
+WorldUnits turned(WorldUnits units, const LeaveOuts& leaves) {
+  if (!leaves.line) return units;
+  const Vector2& line = *leaves.line;
+  units.turn << line.y(), -line.x(), 0, line.x(), line.y(), 0, 0, 0, 1;
+  return units;
 }
 
 /// Gap that counts as touching where steps end at contacts: what Bullet would process, but neither
@@ -46,13 +60,15 @@ constexpr double kImpactStep = 1e-6;
 struct BulletWorld::Parts {
   Parts(const HardScene& scene_in_si, const BulletSettings& chosen, double step,
         std::span<const BodyState> states, double time)
-      : settings(chosen),
-        units(world_units(scene_in_si, chosen)),
+      : leaves(find_leave_outs(scene_in_si, states, chosen)),
+        settings(in_force(chosen, leaves)),
+        flush_denormals(settings.flush_denormals),
+        units(turned(world_units(scene_in_si, chosen), leaves)),
         scene(in_world_units(scene_in_si, units)),
         time_step(step * units.time),
         start_time(time * units.time),
         coefficients(scene, settings, time_step),
-        dynamics(settings, margin_scale(scene)),
+        dynamics(settings, margin_scale(scene), leaves),
         surfaces(dynamics.world(), scene, units, settings),
         balls(make_balls(dynamics.world(), scene, to_world(states, units), settings)) {
     dynamics.world().setGravity(
@@ -103,7 +119,9 @@ struct BulletWorld::Parts {
     advance(from, end - from);
   }
 
+  LeaveOuts leaves;
   BulletSettings settings;
+  FlushDenormals flush_denormals;  // once for all: for each step it would cost a hundredth
   WorldUnits units;
   HardScene scene;
   double time_step, start_time;
@@ -142,7 +160,6 @@ BulletWorld::~BulletWorld() = default;
 
 void BulletWorld::step() {
   Parts& parts = *parts_;
-  const FlushDenormals while_stepping(parts.settings.flush_denormals);
   parts.frames.clear();
   const int substeps = parts.settings.substeps;
   const double length = parts.time_step / substeps;
@@ -172,6 +189,10 @@ Settings BulletWorld::applied() const {
   const Parts& parts = *parts_;
   return applied_settings(parts.dynamics.world(), parts.scene, parts.settings, parts.units,
                           parts.time_step);
+}
+
+std::vector<std::string> BulletWorld::left_out() const {
+  return bullet::left_out(parts_->leaves, parts_->scene, parts_->settings);
 }
 
 std::string bullet_version() {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "bullet_backend/settings.h"
 #include "engine/engine.h"
@@ -10,7 +11,8 @@
 namespace slipcheck::bullet {
 
 /// One Bullet world: the scene's spheres on a plane, or in a box, where they stay in the plane
-/// y = 0 and spin about y alone.
+/// y = 0 and spin about y alone. While it lives this thread flushes denormal numbers to zero, where
+/// the settings ask for it.
 class BulletWorld {
  public:
   /// `scene` and the states are SI; the states are those at `time` [s], by which surfaces move;
@@ -31,6 +33,9 @@ class BulletWorld {
 
   /// The settings in force, see applied.h.
   Settings applied() const;
+
+  /// What Bullet leaves out, each with the reason, see leave_outs.h.
+  std::vector<std::string> left_out() const;
 
  private:
   struct Parts;

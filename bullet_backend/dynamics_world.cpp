@@ -17,24 +17,70 @@
 namespace slipcheck::bullet {
 namespace {
 
-/// With the margins of margins.h.
+btDefaultCollisionConstructionInfo memory_for(const std::optional<int>& pairs) {
+  btDefaultCollisionConstructionInfo info;
+  if (pairs) {
+    info.m_defaultMaxPersistentManifoldPoolSize = *pairs;
+    info.m_defaultMaxCollisionAlgorithmPoolSize = *pairs;
+  }
+  return info;
+}
+
+/// With the margins of margins.h, and without what is left out. The last object is a ball.
 template <class Base>
 class World final : public Base {
  public:
   template <class Solver>
-  World(btScalar body_margin, btDispatcher* dispatcher, btBroadphaseInterface* broadphase,
-        Solver* solver, btCollisionConfiguration* configuration)
-      : Base(dispatcher, broadphase, solver, configuration), body_margin_(body_margin) {}
+  World(btScalar body_margin, const LeaveOuts& leaves, btDispatcher* dispatcher,
+        btBroadphaseInterface* broadphase, Solver* solver, btCollisionConfiguration* configuration)
+      : Base(dispatcher, broadphase, solver, configuration),
+        body_margin_(body_margin),
+        leaves_(leaves) {}
 
   void updateAabbs() override {
+    is_broad_ = !leaves_.broadphase || !has_plain_box();
+    if (!is_broad_) return;
     // The same number is elsewhere a factor on the size of a shape, and there it stays.
     const btScalar as_a_factor = std::exchange(gContactBreakingThreshold, body_margin_);
     Base::updateAabbs();
     gContactBreakingThreshold = as_a_factor;
   }
 
+  void computeOverlappingPairs() override {
+    if (is_broad_) Base::computeOverlappingPairs();
+  }
+
+ protected:
+  void predictUnconstraintMotion(btScalar time_step) override {
+    if (!leaves_.predictions) return Base::predictUnconstraintMotion(time_step);
+    // Multibodies are not among these, and their bounding boxes are of where they are.
+    for (int k = 0; k < this->m_nonStaticRigidBodies.size(); ++k) {
+      btRigidBody& body = *this->m_nonStaticRigidBodies[k];
+      if (body.isStaticOrKinematicObject()) continue;
+      const btVector3& now = body.getCenterOfMassPosition();
+      body.getInterpolationWorldTransform().setOrigin(now + body.getLinearVelocity() * time_step);
+    }
+  }
+
+  void createPredictiveContacts(btScalar time_step) override {
+    if (!leaves_.sweeps) Base::createPredictiveContacts(time_step);
+  }
+
  private:
+  /// Whether the ball is far from where Bullet takes its bounding box, of a diagonal of 1e6, for an
+  /// error and halts it, and from where half-spaces end for it, 1e18 away.
+  bool has_plain_box() const {
+    constexpr btScalar kFar = 1e4;
+    const btCollisionObject* ball = this->m_collisionObjects[this->m_collisionObjects.size() - 1];
+    const auto* shape = static_cast<const btSphereShape*>(ball->getCollisionShape());
+    const btVector3& now = ball->getWorldTransform().getOrigin();
+    const btVector3& then = ball->getInterpolationWorldTransform().getOrigin();
+    return shape->getRadius() < kFar && now.length2() < kFar * kFar && then.length2() < kFar * kFar;
+  }
+
   btScalar body_margin_;  // [m]
+  LeaveOuts leaves_;
+  bool is_broad_ = true;
 };
 
 /// The method of a solver of mixed linear complementarity problems; none for the others.
@@ -103,7 +149,10 @@ void set_up(btContactSolverInfo& info, const BulletSettings& settings) {
 }  // namespace
 
 struct DynamicsWorld::Parts {
-  explicit Parts(SolverKind kind) : dispatcher(&configuration), method(make_method(kind)) {}
+  Parts(SolverKind kind, const LeaveOuts& leaves)
+      : configuration(memory_for(leaves.most_pairs)),
+        dispatcher(&configuration),
+        method(make_method(kind)) {}
 
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher;
@@ -113,13 +162,14 @@ struct DynamicsWorld::Parts {
   std::unique_ptr<btDiscreteDynamicsWorld> world;
 };
 
-DynamicsWorld::DynamicsWorld(const BulletSettings& settings, double margin_scale)
-    : parts_(std::make_unique<Parts>(settings.solver)) {
+DynamicsWorld::DynamicsWorld(const BulletSettings& settings, double margin_scale,
+                             const LeaveOuts& leaves)
+    : parts_(std::make_unique<Parts>(settings.solver, leaves)) {
   Parts& parts = *parts_;
   const auto margin = static_cast<btScalar>(settings.breaking_threshold * margin_scale);
   const auto make = [&]<class Base>(std::type_identity<Base>, auto solver) {
-    parts.world = std::make_unique<World<Base>>(margin, &parts.dispatcher, &parts.broadphase,
-                                                solver.get(), &parts.configuration);
+    parts.world = std::make_unique<World<Base>>(
+        margin, leaves, &parts.dispatcher, &parts.broadphase, solver.get(), &parts.configuration);
     parts.solver = std::move(solver);
   };
   if (settings.body == BodyKind::rigid)

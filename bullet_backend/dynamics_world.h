@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "bullet_backend/leave_outs.h"
 #include "bullet_backend/settings.h"
 
 class btDiscreteDynamicsWorld;
@@ -15,7 +16,7 @@ namespace slipcheck::bullet {
 class DynamicsWorld {
  public:
   /// `margin_scale` as in margins.h. Throws Refused where Bullet has no such solver.
-  DynamicsWorld(const BulletSettings& settings, double margin_scale);
+  DynamicsWorld(const BulletSettings& settings, double margin_scale, const LeaveOuts& leaves);
   ~DynamicsWorld();
   DynamicsWorld(const DynamicsWorld&) = delete;
   DynamicsWorld& operator=(const DynamicsWorld&) = delete;

@@ -293,7 +293,10 @@ std::vector<Row> motion_rows() {
                  "step before (a motion state's), of this one, or that at its end"),
       flag("flush_denormals", &S::flush_denormals)
           .try_each({})
-          .about("denormal numbers are flushed to zero while Bullet steps"),
+          .about("denormal numbers are flushed to zero"),
+      flag("leaves_out", &S::leaves_out)
+          .try_each({})
+          .about("work that the scene does not need is left out of a step; off: as Bullet ships"),
       flag("update_all_aabbs", &S::update_all_aabbs)
           .try_each({})
           .about("bounding boxes of sleeping and static bodies too"),

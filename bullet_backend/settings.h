@@ -32,7 +32,8 @@ enum class SurfaceVelocity {
 
 enum class BeyondReach { tell, refuse };
 
-/// Everything that a profile can choose; the values here are Bullet's own. Meaning, unit and range
+/// Everything that a profile can choose; the values here are Bullet's own, but for the last
+/// three, which change none of its results. Meaning, unit and range
 /// stand once, in setting_table(). Lengths, times and masses are Bullet's, which differ from SI
 /// where the profile scales them (world_units.h).
 struct BulletSettings {
@@ -78,7 +79,7 @@ struct BulletSettings {
   double scale_radius_to = 0, scale_mass_to = 0, scale_gravity_to = 0;
   Tilt tilt = Tilt::gravity;
   SurfaceVelocity surface_velocity = SurfaceVelocity::step_before;
-  bool flush_denormals = false, update_all_aabbs = true;
+  bool flush_denormals = true, update_all_aabbs = true, leaves_out = true;
 };
 
 /// What this engine takes.

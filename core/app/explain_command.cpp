@@ -31,7 +31,9 @@ namespace {
 
 void print_solver(const ContactScene& scene, const ReferenceSolver& solver) {
   const std::string text =
-      solver.is_resolved()
+      solver.is_stepped()
+          ? fmt::format("contacts last; in steps of {}", in_unit(solver.step(), "s"))
+      : solver.is_resolved()
           ? (scene.is_hard() ? "asked for by compare.reference; collisions are instants"
                              : "contacts last; all forces are integrated in time")
       : !scene.is_hard() ? "asked for by compare.reference; soft contacts become hard ones"
@@ -159,6 +161,7 @@ void print_engine(const EngineRecord& run, const HardScene& scene) {
     const Applied applied = engine.configure(scene, run.settings, 1 / run.rate);
     for (const std::string& missing : applied.not_represented)
       fmt::print("    not represented: {}\n", missing);
+    for (const std::string& text : applied.left_out) fmt::print("    left out: {}\n", text);
     for (const auto& [name, setting] : applied.settings)
       fmt::print("    {:<36} {}\n", name, text_of(setting));
   } catch (const Refused& refused) {
@@ -191,11 +194,12 @@ void explain_in_box(const Scenario& scenario, const ContactScene& scene) {
   explain_contacts(scenario, scene, std::nullopt, speed > 0 ? speed : 1);
 }
 
-void explain_on_substrate(const Scenario& scenario, const ContactScene& scene) {
-  const ReferenceSolver solver(scene, scenario.compare.reference);
+void explain_on_substrate(const Scenario& scenario, const ContactScene& scene, bool general) {
+  const ReferenceSolver solver(scene, reference_settings(scenario, general));
   const RunEnd end = run_end(scenario);
   const auto meeting = first_meeting(scene, end.until == Run::Until::time ? end.time : end.limit);
   print_solver(scene, solver);
+  fmt::print("  loop: {}\n", fmt::join(solver.loop(), "; "));
   print_features(solver.scene());
   explain_bodies(scenario, scene.hard);
   print_substrate(scenario, scene.hard);
@@ -205,13 +209,14 @@ void explain_on_substrate(const Scenario& scenario, const ContactScene& scene) {
   print_expectations(scenario, scene, solver);
 }
 
-void explain(const Scenario& scenario, const std::vector<EngineRecord>& runs) {
+void explain(const Scenario& scenario, const std::vector<EngineRecord>& runs, bool general) {
   fmt::print("{}  {}\n", scenario.name, scenario.title);
   if (!scenario.source.empty()) fmt::print("  source: {}\n", scenario.source);
   ContactScene scene;
   try {
     scene = make_contact_scene(scenario);
-    scene.hard.box ? explain_in_box(scenario, scene) : explain_on_substrate(scenario, scene);
+    scene.hard.box ? explain_in_box(scenario, scene)
+                   : explain_on_substrate(scenario, scene, general);
   } catch (const Unsupported& unsupported) {
     fmt::print("\n  No solver for this scene:\n{}\n", unsupported.what());
     return;
@@ -227,12 +232,14 @@ void add_explain_command(CLI::App& app, int& exit_code) {
       "explain", "Tell what a scene needs, what is left out and what is expected; runs nothing");
   auto files = std::make_shared<std::vector<std::string>>();
   command->add_option("FILE", *files, "Scenario files")->required();
+  auto general = std::make_shared<bool>(false);
+  add_general_option(*command, *general);
   accept_quiet(*command);
   command->footer("Example:\n  slipcheck explain scenarios/symmetric-30cms.yaml");
-  command->callback([files, &exit_code] {
+  command->callback([files, general, &exit_code] {
     const std::vector<Scenario> scenarios = load_files(*files);
     const auto runs = requested_runs(scenarios);
-    for (std::size_t s = 0; s < scenarios.size(); ++s) explain(scenarios[s], runs[s]);
+    for (std::size_t s = 0; s < scenarios.size(); ++s) explain(scenarios[s], runs[s], *general);
     exit_code = kWithinTolerance;
   });
 }

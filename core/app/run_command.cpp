@@ -102,6 +102,7 @@ int run(RunArguments& arguments) {
   std::string command = fmt::format("slipcheck run {} --phases {}", fmt::join(arguments.files, " "),
                                     arguments.options.phases);
   for (const std::string& setting : arguments.settings) command += " --set " + setting;
+  if (arguments.options.general) command += " --general";
   content.commands = {command};
   write_results(arguments, content);
   const std::vector<SceneRecord>& scenes = content.scenes;
@@ -151,6 +152,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(16, 1 << 20))
       ->capture_default_str();
   add_set_option(*command, arguments->settings);
+  add_general_option(*command, arguments->options.general);
   command->add_flag("--all", arguments->all,
                     "Show every observable, not only those with a tolerance");
   command->add_flag("--summary", arguments->summary,

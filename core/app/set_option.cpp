@@ -41,4 +41,10 @@ Settings parse_settings(const std::vector<std::string>& written) {
   return settings;
 }
 
+void add_general_option(CLI::App& command, bool& general) {
+  command.add_flag("--general", general,
+                   "Run loops that leave out nothing of what a scene may have, to check those "
+                   "that do");
+}
+
 }  // namespace slipcheck

@@ -15,4 +15,7 @@ void add_set_option(CLI::App& command, std::vector<std::string>& written);
 /// Throws BadOption for what is not of this form and for names that are given twice.
 Settings parse_settings(const std::vector<std::string>& written);
 
+/// --general: loops that leave out nothing of what a scene may have.
+void add_general_option(CLI::App& command, bool& general);
+
 }  // namespace slipcheck

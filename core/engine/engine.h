@@ -46,6 +46,7 @@ struct SettingInfo {
 struct Applied {
   Settings settings;                         ///< SI
   std::vector<std::string> not_represented;  ///< what of the scene the engine cannot express
+  std::vector<std::string> left_out;  ///< work that the scene does not need, each with the reason
 };
 
 /// What an engine is.

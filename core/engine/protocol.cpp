@@ -171,7 +171,8 @@ json to_json(const Welcome& reply) {
 json to_json(const Configured& reply) {
   return {{"type", "configured"},
           {"settings", settings_to_json(reply.applied.settings)},
-          {"not_represented", reply.applied.not_represented}};
+          {"not_represented", reply.applied.not_represented},
+          {"left_out", reply.applied.left_out}};
 }
 json to_json(const Refusal& reply) { return {{"type", "refused"}, {"reason", reply.reason}}; }
 json to_json(const Started&) { return {{"type", "started"}}; }
@@ -237,7 +238,8 @@ Reply decode_reply(std::span<const std::uint8_t> body) {
   }
   if (type == "configured") {
     return Configured{
-        {settings_from_json(fields.object("settings")), fields.texts("not_represented")}};
+        {settings_from_json(fields.object("settings")), fields.texts("not_represented"),
+         fields.has("left_out") ? fields.texts("left_out") : std::vector<std::string>{}}};
   }
   if (type == "refused") return Refusal{fields.text("reason")};
   if (type == "started") return Started{};

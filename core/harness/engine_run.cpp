@@ -128,32 +128,60 @@ std::size_t steps_at_once(double expected_time, double step) {
 
 }  // namespace
 
-void run_ensemble(RemoteEngine& engine, const EnsembleTask& task, EngineRecord& record) {
+std::vector<PhaseShare> phase_shares(std::size_t phases, std::size_t count) {
+  std::vector<PhaseShare> shares(std::clamp<std::size_t>(count, 1, phases));
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    shares[k].first = phases * k / shares.size();
+    shares[k].last = phases * (k + 1) / shares.size();
+  }
+  return shares;
+}
+
+void run_phases(RemoteEngine& engine, const EnsembleTask& task, const EngineRecord& record,
+                PhaseShare& share) {
   const double step = 1 / record.rate;
-  record.version = engine.info().version;
-  record.applied = engine.configure(task.solver->scene().hard, record.settings, step);
+  share.version = engine.info().version;
+  share.applied = engine.configure(task.solver->scene().hard, record.settings, step);
 
   const auto names = body_names(*task.scenario);
   const auto starts = phase_starts(task.reference->first_contact, step, task.phases);
   const std::size_t chunk = steps_at_once(task.reference->run.end_time, step);
-  std::vector<std::map<std::string, double>> seen;
-  std::size_t unfinished = 0;
   try {
-    for (double start : starts) {
-      PhaseRun run(task, step, start);
-      engine.start(task.solver->states_at(start), start);
+    for (std::size_t p = share.first; p < std::min(share.last, starts.size()); ++p) {
+      PhaseRun run(task, step, starts[p]);
+      engine.start(task.solver->states_at(starts[p]), starts[p]);
       while (!run.ended() || run.wants_more()) {
-        record.cpu_seconds += engine.advance(chunk, [&](const Frame& frame) { run.take(frame); });
-        record.steps += chunk;
+        share.cpu_seconds += engine.advance(chunk, [&](const Frame& frame) { run.take(frame); });
+        share.steps += chunk;
       }
-      if (!run.reached()) ++unfinished;
-      seen.push_back(named_values(run.observables(), names));
-      ++record.phases;
+      if (!run.reached()) ++share.unfinished;
+      share.seen.push_back(named_values(run.observables(), names));
     }
   } catch (const Unstable& unstable) {
-    record.status = EngineRecord::Status::unstable;
-    record.reason = unstable.reason;
-    return;
+    share.unstable = unstable.reason;
+  }
+}
+
+void finish_ensemble(const EnsembleTask& task, const std::vector<PhaseShare>& shares,
+                     EngineRecord& record) {
+  const double step = 1 / record.rate, first_contact = task.reference->first_contact;
+  const std::size_t phases = phase_starts(first_contact, step, task.phases).size();
+  std::vector<std::map<std::string, double>> seen;
+  std::size_t unfinished = 0;
+  record.version = shares.front().version;
+  record.applied = shares.front().applied;
+  for (const PhaseShare& share : shares) {
+    record.cpu_seconds += share.cpu_seconds;
+    record.steps += share.steps;
+    unfinished += share.unfinished;
+    seen.insert(seen.end(), share.seen.begin(), share.seen.end());
+    record.phases = seen.size();
+    if (!share.unstable.empty()) {
+      record.status = EngineRecord::Status::unstable;
+      record.reason = share.unstable;
+      return;
+    }
+    if (seen.size() < std::min(share.last, phases)) return;  // the worker failed
   }
   record.status = EngineRecord::Status::ok;
   record.observables = ensemble_values(seen);
@@ -161,7 +189,6 @@ void run_ensemble(RemoteEngine& engine, const EnsembleTask& task, EngineRecord& 
   if (unfinished > 0)
     record.warnings.push_back(fmt::format("{} of {} phases had not ended at the limit of {} s",
                                           unfinished, seen.size(), task.scenario->run.limit));
-  const double first_contact = task.reference->first_contact;
   if (first_contact == 0)
     record.warnings.push_back("the first contact is there from the start: it has one phase only");
   else if (std::isfinite(first_contact) && first_contact < step)

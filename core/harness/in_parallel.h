@@ -12,18 +12,22 @@
 namespace slipcheck {
 
 /// Calls `work` with 0 … count − 1, each once, on `threads` threads (0: one for each core), and
-/// returns when all have returned. What one of them throws is thrown on then, of several any.
+/// returns when all have returned. What one of them throws is thrown on then, of several that of
+/// the lowest number.
 inline void in_parallel(std::size_t count, std::size_t threads,
                         const std::function<void(std::size_t)>& work) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
   std::atomic<std::size_t> next = 0;
   std::exception_ptr failure;
+  std::size_t failed = count;
   std::mutex failing;
   const auto take_turns = [&] {
     for (std::size_t k = next++; k < count; k = next++) try {
         work(k);
       } catch (...) {
         const std::scoped_lock lock(failing);
+        if (k >= failed) continue;
+        failed = k;
         failure = std::current_exception();
       }
   };

@@ -3,14 +3,15 @@
 #include <utility>
 
 #include "harness/box_run.h"
+#include "harness/in_parallel.h"
 
 namespace slipcheck {
 namespace {
 
 std::variant<ReferenceSolver, BoxSolver> solver_of(const Scenario& scenario,
-                                                   const ContactScene& scene) {
+                                                   const ContactScene& scene, bool general) {
   if (scene.hard.box) return BoxSolver(scene, scenario.compare.reference, scenario.run.most_events);
-  return ReferenceSolver(scene, scenario.compare.reference, scenario.run.most_events);
+  return ReferenceSolver(scene, reference_settings(scenario, general));
 }
 
 ReferenceResult reference_of(const ReferenceSolver& solver, const Scenario& scenario) {
@@ -22,17 +23,20 @@ ReferenceResult reference_of(const BoxSolver& solver, const Scenario& scenario) 
 
 }  // namespace
 
-std::vector<PreparedScene> prepare_scenes(std::vector<Scenario> scenarios) {
+std::vector<PreparedScene> prepare_scenes(std::vector<Scenario> scenarios, bool general,
+                                          std::size_t threads) {
   std::vector<PreparedScene> scenes;
   scenes.reserve(scenarios.size());
   for (Scenario& scenario : scenarios) {
     auto contact = std::make_unique<const ContactScene>(make_contact_scene(scenario));
-    auto solver = solver_of(scenario, *contact);
+    auto solver = solver_of(scenario, *contact, general);
     scenes.push_back({std::move(scenario), std::move(contact), std::move(solver), {}});
   }
-  for (PreparedScene& scene : scenes)
+  in_parallel(scenes.size(), threads, [&](std::size_t k) {
+    PreparedScene& scene = scenes[k];
     scene.reference = std::visit(
         [&](const auto& solver) { return reference_of(solver, scene.scenario); }, scene.solver);
+  });
   return scenes;
 }
 

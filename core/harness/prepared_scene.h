@@ -20,8 +20,10 @@ struct PreparedScene {
   ReferenceResult reference;
 };
 
-/// Solves these scenes in their order. Throws Unsupported where no solver knows a model, before any
-/// is run.
-std::vector<PreparedScene> prepare_scenes(std::vector<Scenario> scenarios);
+/// Solves these scenes, as many at once as there are threads (0: one for each core); how many
+/// changes no bit. Throws Unsupported where no solver knows a model, before any is run. general: as
+/// of ReferenceSettings.
+std::vector<PreparedScene> prepare_scenes(std::vector<Scenario> scenarios, bool general = false,
+                                          std::size_t threads = 1);
 
 }  // namespace slipcheck

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -33,33 +35,67 @@ EngineRecord::Status status_of(JobResult::Status status) {
   return EngineRecord::Status::crashed;
 }
 
-void run_task(const ReferenceSolver& solver, RemoteEngine& engine, const EngineTask& task,
-              const RunOptions& options) {
-  const PreparedScene& scene = *task.scene;
-  EngineRecord& record = *task.record;
-  const HardScene& hard = solver.scene().hard;
-  EnsembleTask ensemble{&solver, &scene.reference, &scene.scenario, options.phases, task.watch};
-  if (!options.record_motion || task.watch || hard.bodies.size() > kMostRecordedBodies) {
-    run_ensemble(engine, ensemble, record);
-    return;
+/// A task as its workers see it: the phases of one ensemble are shared where nobody looks at all of
+/// them and there are more workers than tasks.
+class EngineWork {
+ public:
+  EngineWork(const EngineTask& task, const RunOptions& options, std::size_t workers)
+      : task_(&task), options_(&options) {
+    if (const auto* solver = std::get_if<ReferenceSolver>(&task.scene->solver)) {
+      ensemble_ = {solver, &task.scene->reference, &task.scene->scenario, options.phases,
+                   task.watch};
+      records_motion_ = options.record_motion && !task.watch &&
+                        solver->scene().hard.bodies.size() <= kMostRecordedBodies;
+      shares_ = phase_shares(options.phases, task.watch || records_motion_ ? 1 : workers);
+    }
   }
-  MotionRecorder recorder(hard);
-  ensemble.watch = &recorder;
-  try {
-    run_ensemble(engine, ensemble, record);
-  } catch (const WorkerFailure&) {
-    record.motions = recorder.last_seen();
-    throw;
+
+  std::size_t parts() const { return shares_.empty() ? 1 : shares_.size(); }
+  EngineRecord& record() const { return *task_->record; }
+
+  void run(RemoteEngine& engine, std::size_t part) {
+    engine.limit_run(options_->time_limit);
+    if (const auto* box = std::get_if<BoxSolver>(&task_->scene->solver)) {
+      run_box_ensemble(engine,
+                       {box, &task_->scene->reference, &task_->scene->scenario, options_->phases},
+                       record());
+      return;
+    }
+    if (records_motion_) recorder_.emplace(ensemble_.solver->scene().hard);
+    EnsembleTask ensemble = ensemble_;
+    if (recorder_) ensemble.watch = &*recorder_;
+    run_phases(engine, ensemble, record(), shares_[part]);
   }
-  record.motions =
-      record.status == EngineRecord::Status::ok
-          ? recorder.picked(phase_errors(scene.scenario, scene.reference, record.observables))
-          : recorder.last_seen();
-}
-void run_task(const BoxSolver& solver, RemoteEngine& engine, const EngineTask& task,
-              const RunOptions& options) {
-  run_box_ensemble(engine, {&solver, &task.scene->reference, &task.scene->scenario, options.phases},
-                   *task.record);
+
+  /// All parts have come to an end, one way or another.
+  void finish() {
+    if (shares_.empty()) return;
+    finish_ensemble(ensemble_, shares_, record());
+    if (!recorder_) return;
+    record().motions = record().status == EngineRecord::Status::ok
+                           ? recorder_->picked(phase_errors(
+                                 *ensemble_.scenario, *ensemble_.reference, record().observables))
+                           : recorder_->last_seen();
+  }
+
+ private:
+  const EngineTask* task_;
+  const RunOptions* options_;
+  EnsembleTask ensemble_;
+  bool records_motion_ = false;
+  std::vector<PhaseShare> shares_;  ///< none in a box
+  std::optional<MotionRecorder> recorder_;
+};
+
+/// The first part that did not come to its end tells the record's status.
+void note_failure(const JobResult& result, std::size_t phases, EngineRecord& record) {
+  if (result.status == JobResult::Status::ok) return;
+  // A fault of ours is no result of an engine.
+  if (result.status == JobResult::Status::failed) std::rethrow_exception(result.error);
+  record.status = status_of(result.status);
+  record.reason = result.reason;
+  if (record.phases > 0)
+    record.reason += fmt::format(" (in phase {} of {})", record.phases + 1, phases);
 }
 
 void record_motion_of(PreparedScene& scene) {
@@ -72,8 +108,11 @@ void record_motion_of(PreparedScene& scene) {
 
 void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
   const std::vector<EngineExecutable> installed = find_engines();
+  const WorkerPool pool(options.workers, options.limits);
+  const std::size_t workers =
+      (pool.threads() + tasks.size() - 1) / std::max<std::size_t>(tasks.size(), 1);
+  std::deque<EngineWork> works;
   std::vector<EngineJob> jobs;
-  std::vector<EngineRecord*> records;  // of each job
   for (const EngineTask& task : tasks) {
     EngineRecord& record = *task.record;
     const auto executable = std::ranges::find_if(installed, [&](const EngineExecutable& each) {
@@ -84,34 +123,31 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
           fmt::format("slipcheck-engine-{}-{} is not installed", record.engine, record.precision);
       continue;
     }
-    jobs.push_back({executable->path, [&task, &options](RemoteEngine& engine) {
-                      engine.limit_run(options.time_limit);
-                      std::visit(
-                          [&](const auto& solver) { run_task(solver, engine, task, options); },
-                          task.scene->solver);
-                    }});
-    records.push_back(&record);
+    EngineWork& work = works.emplace_back(task, options, workers);
+    for (std::size_t part = 0; part < work.parts(); ++part)
+      jobs.push_back(
+          {executable->path, [&work, part](RemoteEngine& engine) { work.run(engine, part); }});
   }
 
-  const WorkerPool pool(options.workers, options.limits);
   const std::vector<JobResult> results = pool.run_all(jobs, options.progress, options.stop);
-  for (std::size_t k = 0; k < results.size(); ++k) {
-    // The record says more than the pool where the job itself came to an end.
-    if (results[k].status == JobResult::Status::ok) continue;
-    // A fault of ours is no result of an engine.
-    if (results[k].status == JobResult::Status::failed) std::rethrow_exception(results[k].error);
-    records[k]->status = status_of(results[k].status);
-    records[k]->reason = results[k].reason;
-    if (records[k]->phases > 0)
-      records[k]->reason +=
-          fmt::format(" (in phase {} of {})", records[k]->phases + 1, options.phases);
+  auto result = results.begin();
+  for (EngineWork& work : works) {
+    work.finish();
+    const auto end = result + static_cast<std::ptrdiff_t>(work.parts());
+    const auto failed = std::find_if(
+        result, end, [](const JobResult& each) { return each.status != JobResult::Status::ok; });
+    // What an unstable phase before it says stands.
+    if (failed != end && work.record().status != EngineRecord::Status::unstable)
+      note_failure(*failed, options.phases, work.record());
+    result = end;
   }
 }
 
 std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOptions& options) {
   std::vector<std::vector<EngineRecord>> runs =
       requested_runs(scenarios, options.limits, options.stop, options.settings);
-  std::vector<PreparedScene> prepared = prepare_scenes(std::move(scenarios));
+  std::vector<PreparedScene> prepared =
+      prepare_scenes(std::move(scenarios), options.general, options.workers);
   std::vector<EngineTask> tasks;
   for (std::size_t s = 0; s < prepared.size(); ++s)
     for (EngineRecord& record : runs[s])

@@ -181,7 +181,7 @@ std::vector<PrecisionScene> run_precision(std::vector<Scenario> scenarios,
   std::vector<Scenario> asked = scenarios;
   for (Scenario& scenario : asked) ask_for(scenario, grid.engines, grid.rates);
   const auto records = requested_runs(asked, options.limits, options.stop, options.settings);
-  std::vector<PreparedScene> prepared = prepare_scenes(std::move(scenarios));
+  std::vector<PreparedScene> prepared = prepare_scenes(std::move(scenarios), false, options.workers);
 
   OwnIterations own(options);
   std::vector<Work> works(prepared.size());

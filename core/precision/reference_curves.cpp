@@ -10,9 +10,11 @@
 
 #include "harness/comparison.h"
 #include "harness/observer.h"
-#include "reference/impact.h"
+#include "physics/numbers.h"
 #include "reference/initial_contacts.h"
+#include "reference/step_length.h"
 #include "reference/step_solver.h"
+#include "reference/steps_as_events.h"
 
 namespace slipcheck {
 namespace {
@@ -32,36 +34,6 @@ constexpr double kPatience = 1.5;
 const ReferenceSolver& solver_of(const PreparedScene& scene) {
   return std::get<ReferenceSolver>(scene.solver);
 }
-
-/// Shows an observer the fixed steps as events. StepSolver tells what touches at the end of a step;
-/// but a contact that ends inside a step pushes once more, by what it lasted too long, half of it
-/// in that step and half in the next. So a contact is shown for two steps more, and its times are
-/// known to so much.
-class StepsAsEvents final : public FrameSink {
- public:
-  explicit StepsAsEvents(FrameSink& next) : next_(next) {}
-
-  void take(double time, const Frame& frame) override {
-    shown_ = frame;
-    for (const Touch& touch : before_) add(touch);
-    for (const Touch& touch : long_before_) add(touch);
-    long_before_ = std::move(before_);
-    before_ = frame.touches;
-    next_.take(time, shown_);
-  }
-
- private:
-  void add(const Touch& touch) {
-    if (touch.second != kSubstrate && std::ranges::none_of(shown_.touches, [&](const Touch& there) {
-          return there.first == touch.first && there.second == touch.second;
-        }))
-      shown_.touches.push_back(touch);
-  }
-
-  FrameSink& next_;
-  Frame shown_;
-  std::vector<Touch> before_, long_before_;
-};
 
 /// A solver's runs on one scene turned into points.
 class Curves {
@@ -161,8 +133,8 @@ MethodCurve Curves::event() const {
     return curve;
   }
   try {
-    const ReferenceSolver solver(*scene_.contact, Compare::Reference::event,
-                                 scene_.scenario.run.most_events);
+    const ReferenceSolver solver(*scene_.contact,
+                                 {Compare::Reference::event, scene_.scenario.run.most_events});
     if (!solver.is_exact())
       return skipped(curve, "phases between the collisions are integrated: see contact");
     curve.points.push_back(solved_point(solver, 0));
@@ -176,8 +148,8 @@ MethodCurve Curves::contact(std::span<const double> tolerances) const {
   MethodCurve curve;
   curve.kind = Kind::contact;
   try {
-    const ReferenceSolver solver(*scene_.contact, Compare::Reference::contact,
-                                 scene_.scenario.run.most_events);
+    const ReferenceSolver solver(*scene_.contact,
+                                 {Compare::Reference::contact, scene_.scenario.run.most_events});
     for (const double tolerance : tolerances)
       curve.points.push_back(solved_point(solver, tolerance));
   } catch (const std::exception& error) {
@@ -188,23 +160,12 @@ MethodCurve Curves::contact(std::span<const double> tolerances) const {
 
 /// [s]; infinite where no two bodies have a contact that lasts.
 double Curves::shortest_contact() const {
-  double shortest = std::numeric_limits<double>::infinity();
+  double shortest = kNever;
   for (const auto& [name, value] : scene_.reference.observables)
     if (name.ends_with(".contact_time") && value.value > 0)
       shortest = std::min(shortest, value.value);
-  if (std::isfinite(shortest)) return shortest;
   // None ended in the run: those of collisions along the line of centres.
-  const HardScene& hard = scene_.contact->hard;
-  const double speed = speed_scale(*scene_.contact);
-  for (std::size_t j = 1; j < hard.bodies.size(); ++j)
-    for (std::size_t i = 0; i < j; ++i) {
-      const std::optional<SoftContact>& soft = scene_.contact->between(i, j);
-      if (!soft || !(speed > 0)) continue;
-      const double mass =
-          hard.bodies[i].mass * hard.bodies[j].mass / (hard.bodies[i].mass + hard.bodies[j].mass);
-      shortest = std::min(shortest, impact(soft->normal, mass, speed, soft->end, 1e-6).duration);
-    }
-  return shortest;
+  return std::isfinite(shortest) ? shortest : shortest_collision(*scene_.contact);
 }
 
 WorkPrecision Curves::stepped_point(double step) const {

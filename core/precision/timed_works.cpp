@@ -60,8 +60,8 @@ TimedWork timed_steps(const PreparedScene& scene, const ReferenceSolver& solver,
 /// A run of the event or the contact solver as a whole.
 TimedWork timed_run(const PreparedScene& scene, MethodCurve::Kind kind, WorkPrecision& point) {
   const auto asked = kind == Kind::event ? Compare::Reference::event : Compare::Reference::contact;
-  const auto solver =
-      std::make_shared<ReferenceSolver>(*scene.contact, asked, scene.scenario.run.most_events);
+  const auto solver = std::make_shared<ReferenceSolver>(
+      *scene.contact, ReferenceSettings{asked, scene.scenario.run.most_events});
   const RunEnd end = patient_end(scene);
   SolverAccuracy accuracy;
   if (kind == Kind::contact) accuracy.tolerance = point.knob;

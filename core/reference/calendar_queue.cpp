@@ -14,6 +14,11 @@ namespace {
 /// that the ends of all lists together stay in a cache.
 constexpr double kGoal = 48;
 
+/// No finer than what times about `now` can tell apart.
+double finest_width(double now) {
+  return 1e3 * std::numeric_limits<double>::epsilon() * std::abs(now);
+}
+
 constexpr auto kLater = [](const QueuedEvent& a, const QueuedEvent& b) { return b < a; };
 
 }  // namespace
@@ -44,8 +49,9 @@ void CalendarQueue::set(std::uint32_t body, double time) {
 }
 
 QueuedEvent CalendarQueue::first() {
+  if (!is_started_) start();
   // A new width costs as much as some events of every body: not too often.
-  if (placed_ > 32 * std::max<std::size_t>(time_.size(), 64) && !heap_.empty())
+  if (placed_ > 8 * std::max<std::size_t>(time_.size(), 256) && !heap_.empty())
     adapt(heap_.front().time);
   while (true) {
     while (!heap_.empty() && !holds(heap_.front())) {
@@ -98,6 +104,23 @@ void CalendarQueue::rebuild(double base, double width) {
   for (std::uint32_t i = 0; i < time_.size(); ++i) place({time_[i], i});
 }
 
+/// The first width, from the times that the bodies begin with: half of them have theirs before the
+/// median, and each event places about two entries.
+void CalendarQueue::start() {
+  is_started_ = true;
+  std::vector<double> times;
+  for (double time : time_)
+    if (time < kNever) times.push_back(time);
+  if (times.empty()) return;
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  const double first = *std::min_element(times.begin(), middle + 1);
+  const double width = kGoal * (*middle - first) / static_cast<double>(times.size());
+  placed_ = advances_ = 0;
+  looked_at_ = first;
+  if (width > finest_width(*middle)) rebuild(first, width);
+}
+
 void CalendarQueue::adapt(double now) {
   const auto placed = static_cast<double>(placed_);
   const double per_stretch = placed / static_cast<double>(std::max<std::size_t>(advances_, 1));
@@ -105,9 +128,7 @@ void CalendarQueue::adapt(double now) {
   placed_ = advances_ = 0;
   looked_at_ = now;
   if (per_stretch > kGoal / 3 && per_stretch < 3 * kGoal) return;
-  // No finer than what times can tell apart.
-  const double finest = 1e3 * std::numeric_limits<double>::epsilon() * std::abs(now);
-  const double width = std::max(kGoal * elapsed / placed, finest);
+  const double width = std::max(kGoal * elapsed / placed, finest_width(now));
   if (width > 0) rebuild(now, width);
 }
 

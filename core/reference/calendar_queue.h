@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace slipcheck {
@@ -32,6 +33,15 @@ class CalendarQueue {
   /// The body with the earliest time. Where that is infinite, any.
   QueuedEvent first();
 
+  /// Number of the stretch of time that first() is in. It may begin again.
+  std::int64_t stretch() const { return current_; }
+  /// Entries of the k-th stretch from there, in [0, 16), some of them replaced; more may come.
+  std::span<const QueuedEvent> in_stretch(std::int64_t k) const {
+    if (k == 0) return heap_;
+    return wheel_[static_cast<std::size_t>(current_ + k) & (wheel_.size() - 1)];
+  }
+  void prefetch(std::uint32_t body) const { __builtin_prefetch(&time_[body]); }
+
  private:
   bool holds(const QueuedEvent& entry) const { return time_[entry.body] == entry.time; }
   /// Of a time in stretches since `base_`; as a double, for it may be huge.
@@ -39,6 +49,7 @@ class CalendarQueue {
   void place(const QueuedEvent& entry);
   void advance();
   void jump();
+  void start();
   void rebuild(double base, double width);
   void adapt(double now);
 
@@ -52,6 +63,7 @@ class CalendarQueue {
   // Since the width was last looked at:
   std::size_t placed_ = 0, advances_ = 0;
   double looked_at_ = 0;
+  bool is_started_ = false;
 };
 
 }  // namespace slipcheck

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace slipcheck {
@@ -18,6 +20,23 @@ class CellGrid {
     double x = 0, y = 0;  ///< [m]
   };
 
+  /// A body near another one.
+  struct Near {
+    std::uint32_t body;
+    std::uint32_t cell;  ///< of the nine around the other: an index of Around::shift
+  };
+  /// The bodies near one, in memory that is used again for the next: of n bodies at most n − 1, and
+  /// behind them whatever was written without asking.
+  struct Around {
+    explicit Around(std::size_t n) : near(n + kInCell) {}
+    std::span<const Near> bodies() const { return {near.data(), count}; }
+
+    std::vector<Near> near;
+    std::size_t count = 0;
+    std::array<Shift, 9> shift{};
+    bool is_shifted = false;  ///< any of these is not zero
+  };
+
   /// Cells of width_x by width_y [m] for n bodies, folded after nx and ny in [4, 65536) cells;
   /// periodic: the plane repeats itself there.
   CellGrid(std::size_t n, double width_x, double width_y, std::uint32_t nx, std::uint32_t ny,
@@ -27,7 +46,7 @@ class CellGrid {
         nx_(nx),
         ny_(ny),
         period_{periodic_x ? width_x * nx : 0, periodic_y ? width_y * ny : 0},
-        head_(static_cast<std::size_t>(nx) * ny, kNone),
+        cells_(static_cast<std::size_t>(nx) * ny),
         nodes_(n) {}
 
   double width_x() const { return width_x_; }
@@ -55,24 +74,57 @@ class CellGrid {
     link(body);
   }
 
+  // Into the caches: the cell that a body is in, by number, and the cells around it.
+  void prefetch(std::uint32_t i) const { __builtin_prefetch(&nodes_[i]); }
+  void prefetch_cells(std::uint32_t i) const {
+    const Node& node = nodes_[i];
+    for (int dy = -1; dy <= 1; ++dy) {
+      const Cell* row = &cells_[cell_at(0, step(node.y, dy, ny_))];
+      __builtin_prefetch(row + step(node.x, -1, nx_));
+      __builtin_prefetch(row + step(node.x, +1, nx_));
+    }
+  }
+
   /// f(j, shift) for every other body in the cell of i and the eight around it.
   template <class F>
   void for_each_near(std::uint32_t i, F f) const {
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) visit(i, dx, dy, f);
   }
+  /// The same bodies in the same order. What is looked up for each cell does not depend on how many
+  /// it holds: whether it is empty is a coin toss, and a branch that fails costs more than a look.
+  void find_near(std::uint32_t i, Around& around) const {
+    const Node& node = nodes_[i];
+    set_shifts(node, around);
+    Near* end = around.near.data();
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) end = collect(i, dx, dy, end);
+    around.count = static_cast<std::size_t>(end - around.near.data());
+  }
   /// The same in the three cells that have come near by a move by (dx, dy), one of which is 0.
   template <class F>
   void for_each_newly_near(std::uint32_t i, int dx, int dy, F f) const {
     for (int k = -1; k <= 1; ++k) visit(i, dx == 0 ? k : dx, dy == 0 ? k : dy, f);
   }
+  void find_newly_near(std::uint32_t i, int dx, int dy, Around& around) const {
+    set_shifts(nodes_[i], around);
+    Near* end = around.near.data();
+    for (int k = -1; k <= 1; ++k) end = collect(i, dx == 0 ? k : dx, dy == 0 ? k : dy, end);
+    around.count = static_cast<std::size_t>(end - around.near.data());
+  }
 
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::size_t kInCell = 3;
 
+  /// The latest that came is first; those that came before the last three are in a list.
+  struct alignas(16) Cell {
+    std::array<std::uint32_t, kInCell> body{kNone, kNone, kNone};
+    std::uint32_t more = kNone;
+  };
   /// Small, so that the nodes of neighbours, which are close in number too, share cache lines.
   struct Node {
-    std::uint32_t after = kNone;
+    std::uint32_t after = kNone;  ///< in the list of its cell
     std::uint16_t x = 0, y = 0;
   };
 
@@ -85,38 +137,78 @@ class CellGrid {
     if (d > 0) return i + 1 == n ? 0 : i + 1;
     return i;
   }
-  std::size_t cell(std::uint32_t x, std::uint32_t y) const {
+  std::size_t cell_at(std::uint32_t x, std::uint32_t y) const {
     return static_cast<std::size_t>(y) * nx_ + x;
   }
 
+  Shift shift_of(const Node& node, int dx, int dy) const {
+    const bool is_x = dx < 0 ? node.x == 0 : dx > 0 && node.x + 1u == nx_;
+    const bool is_y = dy < 0 ? node.y == 0 : dy > 0 && node.y + 1u == ny_;
+    return {is_x ? dx * period_.x : 0, is_y ? dy * period_.y : 0};
+  }
+  void set_shifts(const Node& node, Around& around) const {
+    if (period_.x == 0 && period_.y == 0) return;
+    const bool is_shifted = node.x == 0 || node.x + 1u == nx_ || node.y == 0 || node.y + 1u == ny_;
+    if (!is_shifted && !around.is_shifted) return;
+    around.is_shifted = is_shifted;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) around.shift[number(dx, dy)] = shift_of(node, dx, dy);
+  }
+  /// Of the nine cells around.
+  static std::uint32_t number(int dx, int dy) {
+    return static_cast<std::uint32_t>(3 * (dy + 1) + dx + 1);
+  }
   template <class F>
   void visit(std::uint32_t i, int dx, int dy, F& f) const {
     const Node& node = nodes_[i];
-    const std::uint32_t x = step(node.x, dx, nx_), y = step(node.y, dy, ny_);
-    Shift shift;
-    if (dx != 0 && static_cast<int>(x) - static_cast<int>(node.x) != dx) shift.x = dx * period_.x;
-    if (dy != 0 && static_cast<int>(y) - static_cast<int>(node.y) != dy) shift.y = dy * period_.y;
-    for (std::uint32_t j = head_[cell(x, y)]; j != kNone; j = nodes_[j].after)
+    const Cell& cell = cells_[cell_at(step(node.x, dx, nx_), step(node.y, dy, ny_))];
+    const Shift shift = shift_of(node, dx, dy);
+    for (const std::uint32_t j : cell.body)
+      if (j != kNone && j != i) f(j, shift);
+    for (std::uint32_t j = cell.more; j != kNone; j = nodes_[j].after)
       if (j != i) f(j, shift);
   }
+  Near* collect(std::uint32_t i, int dx, int dy, Near* end) const {
+    const Node& node = nodes_[i];
+    const Cell& cell = cells_[cell_at(step(node.x, dx, nx_), step(node.y, dy, ny_))];
+    for (const std::uint32_t j : cell.body) {
+      *end = {j, number(dx, dy)};
+      end += static_cast<int>(j != kNone) & static_cast<int>(j != i);
+    }
+    for (std::uint32_t j = cell.more; j != kNone; j = nodes_[j].after)
+      if (j != i) *end++ = {j, number(dx, dy)};
+    return end;
+  }
   void link(std::uint32_t body) {
-    Node& node = nodes_[body];
-    std::uint32_t& head = head_[cell(node.x, node.y)];
-    node.after = head;
-    head = body;
+    const Node& node = nodes_[body];
+    Cell& cell = cells_[cell_at(node.x, node.y)];
+    const std::uint32_t last = cell.body.back();
+    for (std::size_t k = kInCell - 1; k > 0; --k) cell.body[k] = cell.body[k - 1];
+    cell.body.front() = body;
+    if (last == kNone) return;
+    nodes_[last].after = cell.more;
+    cell.more = last;
   }
   void unlink(std::uint32_t body) {
     const Node& node = nodes_[body];
-    // There are few bodies in a cell.
-    std::uint32_t* link = &head_[cell(node.x, node.y)];
-    while (*link != body) link = &nodes_[*link].after;
-    *link = node.after;
+    Cell& cell = cells_[cell_at(node.x, node.y)];
+    std::size_t k = 0;
+    while (k < kInCell && cell.body[k] != body) ++k;
+    if (k == kInCell) {
+      std::uint32_t* link = &cell.more;
+      while (*link != body) link = &nodes_[*link].after;
+      *link = node.after;
+      return;
+    }
+    for (; k + 1 < kInCell; ++k) cell.body[k] = cell.body[k + 1];
+    cell.body.back() = cell.more;
+    if (cell.more != kNone) cell.more = nodes_[cell.more].after;
   }
 
   double width_x_, width_y_;
   std::uint32_t nx_, ny_;
   Shift period_;
-  std::vector<std::uint32_t> head_;
+  std::vector<Cell> cells_;
   std::vector<Node> nodes_;
 };
 

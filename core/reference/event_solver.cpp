@@ -215,10 +215,28 @@ class EventSolver::EngineOf final : public Engine {
   std::size_t certain_collisions_ = 0;  ///< so many there will be before the limit
 };
 
+namespace {
+
+bool needs_cells(const HardScene& scene, const EventSettings& settings) {
+  return scene.bodies.size() > settings.most_without_cells || scene.periodic != Vector2::Zero();
+}
+bool has_plain_phases(const HardScene& scene, const EventSettings& settings) {
+  return EventSolver::is_exact(scene) && !settings.general;
+}
+
+}  // namespace
+
+std::vector<std::string> EventSolver::features(const HardScene& scene,
+                                               const EventSettings& settings) {
+  return {
+      has_plain_phases(scene, settings) ? "phases on a level, still plane" : "phases on any plane",
+      needs_cells(scene, settings) ? "neighbours in cells, a calendar queue"
+                                   : "all pairs, a scan for the next event"};
+}
+
 EventSolver::EventSolver(const HardScene& scene, std::span<const BodyState> initial,
                          const EventSettings& settings) {
-  const bool has_cells =
-      initial.size() > settings.most_without_cells || scene.periodic != Vector2::Zero();
+  const bool has_cells = needs_cells(scene, settings);
   const LeastSpeeds least = least_speeds(scene, initial, settings);
   const auto make = [&]<class Phase>(std::type_identity<Phase>) -> std::unique_ptr<Engine> {
     if (has_cells)
@@ -227,8 +245,8 @@ EventSolver::EventSolver(const HardScene& scene, std::span<const BodyState> init
     return std::make_unique<EngineOf<SubstrateWorld<Phase, AllPairs>, ScanQueue>>(
         scene, initial, settings, least, settings.start);
   };
-  engine_ = is_exact(scene) ? make(std::type_identity<SubstratePhase>{})
-                            : make(std::type_identity<DrivenPhase>{});
+  engine_ = has_plain_phases(scene, settings) ? make(std::type_identity<SubstratePhase>{})
+                                              : make(std::type_identity<DrivenPhase>{});
 }
 
 EventSolver::EventSolver(const EventSolver& other) : engine_(other.engine_->copy()) {}

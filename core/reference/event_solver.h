@@ -30,6 +30,8 @@ struct EventSettings {
   double most_events = 1e7;
   /// Looked at over so many events, and 1000 for each body, that no harmless burst counts; > 0.
   std::size_t burst = 1'000'000;
+  /// Takes the phases of a tilted and moving plane on any plane.
+  bool general = false;
   /// Up to this many bodies on an unbounded plane are each other's neighbours; more have cells.
   std::size_t most_without_cells = 24;
 };
@@ -84,6 +86,8 @@ class EventSolver {
   /// All bodies' states now.
   std::vector<BodyState> states() const;
   double now() const;
+  /// What the loop for this scene is made for: "phases on a level, still plane", ...
+  static std::vector<std::string> features(const HardScene& scene, const EventSettings& settings);
 
  private:
   class Engine;

@@ -157,6 +157,8 @@ class Collision {
         break;
       case Mode::viscous:
         value[1] = viscous().viscous(std::abs(y[kSlip])) - viscous().cap(force);
+        // The cap falls to 0 and rises again, maybe within one step.
+        value[2] = -force_sign_ * force;
         break;
       case Mode::capped:
         value[1] = viscous().friction * force_sign_ * force - viscous().viscous(std::abs(y[kSlip]));
@@ -190,7 +192,7 @@ class Collision {
       case Mode::smooth:
         break;
       case Mode::viscous:
-        force_sign_ = force < 0 ? -1 : 1;
+        force_sign_ = k == 2 ? -force_sign_ : force < 0 ? -1 : 1;
         mode_ = Mode::capped;
         break;
       case Mode::capped:
@@ -258,17 +260,10 @@ PairCollision collide_freely(const SoftContact& contact, const Sphere& first, co
   const double mass = effective_mass(first, second);
   const double tangential_mass = tangential_mass_ratio(first, second) * mass;
   Collision collision(contact, mass, tangential_mass, normal_speed, tangential_speed, tolerance);
-  PairCollision result;
-  result.duration = collision.run();
-  if (std::isfinite(result.duration))
-    result.normal_restitution = -collision.overlap_rate() / normal_speed;
-  result.tangential_restitution = collision.slip() / tangential_speed;
-  const auto change = [](double m, double before, double ratio) {
-    return 0.5 * m * before * before * (ratio - 1) * (ratio + 1);
-  };
-  result.energy_change = change(mass, normal_speed, result.normal_restitution) +
-                         change(tangential_mass, tangential_speed, result.tangential_restitution);
-  return result;
+  const double duration = collision.run();
+  const double restitution = std::isfinite(duration) ? -collision.overlap_rate() / normal_speed : 0;
+  return pair_collision(mass, tangential_mass, normal_speed, tangential_speed, restitution,
+                        collision.slip() / tangential_speed, duration);
 }
 
 }  // namespace slipcheck

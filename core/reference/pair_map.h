@@ -13,6 +13,19 @@ struct PairCollision {
   double energy_change = 0;           ///< kinetic, after minus before [J]
 };
 
+/// The collision of these masses m_eff and κ m_eff [kg] that had these speeds [m/s], > 0, and has
+/// these restitutions and this duration [s].
+inline PairCollision pair_collision(double mass, double tangential_mass, double normal_speed,
+                                    double tangential_speed, double normal_restitution,
+                                    double tangential_restitution, double duration) {
+  const auto change = [](double m, double before, double ratio) {
+    return 0.5 * m * before * before * (ratio - 1) * (ratio + 1);
+  };
+  return {normal_restitution, tangential_restitution, duration,
+          change(mass, normal_speed, normal_restitution) +
+              change(tangential_mass, tangential_speed, tangential_restitution)};
+}
+
 /// A collision without substrate and gravity in which the line of centres keeps its direction, the
 /// limit of a contact much shorter than the time in which the spheres pass each other (B, Sec. IV):
 ///   ξ̈ = −F_N/m_eff,  u̇ = F_T/(κ m_eff)  (elastic_pair.h),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <type_traits>
 
 namespace slipcheck {
 
@@ -25,10 +26,37 @@ PlanarSolver::PlanarSolver(const HardScene& scene, std::span<const BodyState> in
       settings_(settings),
       world_(scene, initial, settings.collapse_fraction * planar_speed_scale(scene, initial),
              settings.landing_fraction * planar_speed_scale(scene, initial)),
-      scheduler_(world_, 0),
       first_energy_(world_.energy_at(0)),
       first_momentum_(world_.momentum_at(0)) {
   assert(PlanarWorld::is_planar(scene, initial));
+  choose_loop();
+}
+
+void PlanarSolver::choose_loop() {
+  const PlanarFeatures has = PlanarWorld::features(*scene_);
+  if (settings_.general || has.radii)
+    loop_.emplace<General>(world_);
+  else if (has.box)
+    loop_.emplace<OneRadius>(world_);
+  else if (has.spin)
+    loop_.emplace<Plane>(world_);
+  else
+    loop_.emplace<SmoothPlane>(world_);
+}
+
+std::vector<std::string> PlanarSolver::left_out() const {
+  return std::visit(
+      []<class Chosen>(const Chosen&) {
+        std::vector<std::string> out;
+        if constexpr (!std::is_same_v<Chosen, std::monostate>) {
+          constexpr PlanarFeatures kHas = Chosen::kFeatures;
+          if (!kHas.box) out.push_back("gravity and walls");
+          if (!kHas.radii) out.push_back("different radii");
+          if (!kHas.spin) out.push_back("friction and spin");
+        }
+        return out;
+      },
+      loop_);
 }
 
 void PlanarSolver::show(double time, FrameSink* sink) {
@@ -39,6 +67,19 @@ void PlanarSolver::show(double time, FrameSink* sink) {
 }
 
 PlanarRun PlanarSolver::run(const RunEnd& end, FrameSink* sink, double sample_interval) {
+  return std::visit(
+      [&]<class Chosen>(Chosen& chosen) {
+        if constexpr (std::is_same_v<Chosen, std::monostate>)
+          return PlanarRun{};
+        else
+          return run(chosen.scheduler, end, sink, sample_interval);
+      },
+      loop_);
+}
+
+template <class Scheduler>
+PlanarRun PlanarSolver::run(Scheduler& scheduler, const RunEnd& end, FrameSink* sink,
+                            double sample_interval) {
   PlanarRun run;
   const double last = end.until == Run::Until::time ? end.time : end.limit;
   const auto bodies = static_cast<double>(world_.size());
@@ -49,14 +90,14 @@ PlanarRun PlanarSolver::run(const RunEnd& end, FrameSink* sink, double sample_in
   double next_sample = 0;
   run.reached = true;
   while (true) {
-    const double next = scheduler_.next_time();
+    const double next = scheduler.next_time();
     while (sink && next_sample <= std::min(next, last)) {
       show(next_sample, sink);
       next_sample = static_cast<double>(++samples) * sample_interval;
     }
     if (!(next <= last)) break;
-    scheduler_.step();
-    now_ = scheduler_.now();
+    scheduler.step();
+    now_ = scheduler.now();
     if (++run.events % window == 0) {
       const double passed = now_ - window_start;
       if (static_cast<double>(window) > settings_.most_events * bodies * passed) {

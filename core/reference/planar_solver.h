@@ -3,10 +3,13 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "physics/frame.h"
 #include "reference/event_solver.h"
+#include "reference/planar_loop.h"
 #include "reference/planar_world.h"
 
 namespace slipcheck {
@@ -19,6 +22,8 @@ struct PlanarSettings {
   /// More events for each body and simulated second [1/s], > 0, than any rule for collapse can
   /// still be said to keep finite: the run stops with a reason.
   double most_events = 1e7;
+  /// The loop over events that leaves out nothing, whatever the scene lacks: the same results.
+  bool general = false;
 };
 
 /// What a run in the plane came to, beside what every event-driven run tells.
@@ -46,14 +51,35 @@ class PlanarSolver {
   /// All bodies' states now, the end of the last run.
   std::vector<BodyState> states() const;
   const PlanarWorld& world() const { return world_; }
+  /// What the loop over events leaves out because the scene lacks it, in words; maybe nothing.
+  std::vector<std::string> left_out() const;
 
  private:
+  /// A scheduler whose loop knows what its scenes have.
+  template <PlanarFeatures kHas>
+  struct Loop {
+    explicit Loop(PlanarWorld& world) : loop(world), scheduler(loop, 0) {}
+    Loop(const Loop&) = delete;  // the scheduler looks at the loop
+    Loop& operator=(const Loop&) = delete;
+
+    static constexpr PlanarFeatures kFeatures = kHas;
+    PlanarLoop<kHas> loop;
+    EventScheduler<PlanarLoop<kHas>> scheduler;
+  };
+  using General = Loop<PlanarFeatures{}>;
+  using OneRadius = Loop<PlanarFeatures{.radii = false}>;
+  using Plane = Loop<PlanarFeatures{.box = false, .radii = false}>;
+  using SmoothPlane = Loop<PlanarFeatures{.box = false, .radii = false, .spin = false}>;
+
+  template <class Scheduler>
+  PlanarRun run(Scheduler& scheduler, const RunEnd& end, FrameSink* sink, double sample_interval);
+  void choose_loop();
   void show(double time, FrameSink* sink);
 
   const HardScene* scene_;
   PlanarSettings settings_;
   PlanarWorld world_;
-  EventScheduler<PlanarWorld> scheduler_;
+  std::variant<std::monostate, General, OneRadius, Plane, SmoothPlane> loop_;
   double now_ = 0;
   double first_energy_;
   Vector2 first_momentum_;

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "physics/numbers.h"
-#include "physics/planar_collision.h"
 #include "physics/sphere.h"
 #include "reference/cell_grid.h"
 #include "reference/event_scheduler.h"
@@ -15,9 +15,20 @@
 
 namespace slipcheck {
 
+/// What a scene in a plane may have. A loop over events for scenes that lack something leaves out
+/// what cannot change a bit of their results.
+struct PlanarFeatures {
+  bool box = true;    ///< gravity in the plane, walls, floor and lid
+  bool radii = true;  ///< more than one
+  bool spin = true;   ///< friction between bodies
+
+  bool operator==(const PlanarFeatures&) const = default;
+};
+
 /// Hard spheres in a plane for EventScheduler: L's vertical box, where they fly on parabolas, or a
 /// horizontal plane without friction, which may repeat itself. What is asked for each collision
-/// lies in one cache line for each body.
+/// lies in one cache line for each body, with its plans; what only its own events ask for in
+/// another.
 ///
 /// The plane is (x, y) with gravity along −y and spins counterclockwise: the box's (x, z) with
 /// spins about −y, or the substrate's own plane with spins about z.
@@ -31,39 +42,27 @@ class PlanarWorld {
   /// Whether bodies of this scene stay in one plane in which only their collisions act on them.
   static bool is_planar(const HardScene& scene, std::span<const BodyState> initial);
 
-  // --- for EventScheduler ---
+  /// What a scene has, of those that there is a loop for.
+  static PlanarFeatures features(const HardScene& scene);
+
+  // --- for EventScheduler; planar_loop.h has what is not here ---
   std::size_t size() const { return bodies_.size(); }
+  EventPlan& plan(std::uint32_t i) { return bodies_[i].plan; }
+  // Into the caches: a body, and the cells around it.
+  void prefetch(std::uint32_t i) const {
+    __builtin_prefetch(&bodies_[i]);
+    __builtin_prefetch(&matter_[i]);
+    grid_.prefetch(i);
+  }
+  void prefetch_cells(std::uint32_t i) const { grid_.prefetch_cells(i); }
+  template <PlanarFeatures kHas = PlanarFeatures{}>
   double own_event_time(std::uint32_t i, double now);
+  template <PlanarFeatures kHas = PlanarFeatures{}>
   BodyChange do_own_event(std::uint32_t i, double now);
+  template <PlanarFeatures kHas = PlanarFeatures{}>
   std::span<const std::uint32_t> collide(std::uint32_t i, std::uint32_t j, double now);
-
-  double collision_time(std::uint32_t i, std::uint32_t j, double now,
-                        const CellGrid::Shift& shift) {
-    const Body& a = moved_to(i, now);
-    const Body& b = bodies_[j];
-    // Both fall alike, so that they approach each other on straight lines.
-    const double dt = now - b.time;
-    const double dx = a.x - (b.x + shift.x + b.vx * dt);
-    const double dy = a.y - (b.y + shift.y + (b.vy - 0.5 * gravity_ * dt) * dt);
-    const double dvx = a.vx - b.vx, dvy = a.vy - (b.vy - gravity_ * dt);
-    const double approach = dx * dvx + dy * dvy;
-    if (approach >= 0) return kNever;
-    const double contact = a.radius + b.radius;
-    const double gap = dx * dx + dy * dy - contact * contact;
-    if (gap <= 0) return now;
-    const double square = approach * approach - (dvx * dvx + dvy * dvy) * gap;
-    if (square < 0) return kNever;
-    return now + gap / (std::sqrt(square) - approach);
-  }
-
-  template <class F>
-  void for_each_near(std::uint32_t i, F f) const {
-    grid_.for_each_near(i, f);
-  }
-  template <class F>
-  void for_each_newly_near(std::uint32_t i, F f) const {
-    grid_.for_each_newly_near(i, moved_x_, moved_y_, f);
-  }
+  template <PlanarFeatures kHas = PlanarFeatures{}>
+  EventPlan first_collision(std::uint32_t i, double now, double before, Neighbourhood neighbours);
 
   // --- for whoever looks on ---
   /// The state of the scene's i-th body; the world has an order of its own.
@@ -87,43 +86,72 @@ class PlanarWorld {
   enum class Own : std::uint8_t { none, left, right, down, up, left_wall, right_wall, floor, lid };
 
   struct alignas(64) Body {
-    double x, y, vx, vy, spin;
+    double x, y, vx, vy;
     double time;  ///< of this state [s]
-    double radius;
-    std::int32_t ix, iy;  ///< cell; folded where the plane repeats itself
+    EventPlan plan;
   };
-  /// What only a collision asks for.
-  struct Matter {
-    double mass, shape_factor;
-    double last_collision;  ///< [s]
-    std::int32_t image_x = 0, image_y = 0;
+  static_assert(sizeof(Body) == 64);
+  /// What only events of the body itself ask for.
+  struct alignas(64) Matter {
+    double spin;
+    double radius, mass, shape_factor;
+    double last_collision;                  ///< [s]
+    std::int32_t ix, iy;                    ///< cell; folded where the plane repeats itself
+    std::int32_t image_x = 0, image_y = 0;  ///< periods that were folded away
     std::uint32_t material;
+    Own own = Own::none;  ///< what its next own event is
   };
+  static_assert(sizeof(Matter) == 64);
+  /// Collisions that do not dissipate, as the TC model has them.
+  static const PairContact kElastic;
   struct Surface {
     double n_x, n_y;  ///< towards the body
     double velocity;  ///< along y [m/s]
     const std::vector<PairContact>* contacts;
   };
 
+  template <PlanarFeatures kHas>
   Body& moved_to(std::uint32_t i, double now) {
     Body& body = bodies_[i];
     const double dt = now - body.time;
     if (dt == 0) return body;
     body.x += body.vx * dt;
-    body.y += (body.vy - 0.5 * gravity_ * dt) * dt;
-    body.vy -= gravity_ * dt;
+    if constexpr (kHas.box) {
+      body.y += (body.vy - 0.5 * gravity_ * dt) * dt;
+      body.vy -= gravity_ * dt;
+    } else {
+      body.y += body.vy * dt;
+    }
     body.time = now;
     return body;
   }
+  /// When they touch [s], absolute, or infinite; a has moved to `now`.
+  template <PlanarFeatures kHas>
+  double collision_time(std::uint32_t i, std::uint32_t j, double now,
+                        const CellGrid::Shift& shift) const;
   const PairContact& between(std::uint32_t i, std::uint32_t j) const {
     const std::size_t kinds = scene_->substrate.size();
     return scene_->pairs[matter_[i].material * kinds + matter_[j].material];
   }
-  CellGrid::Shift nearest_image(const Body& a, const Body& b) const;
-  bool has_elastic_rule() const;  ///< that of the TC model
-  bool is_in_quick_succession(std::uint32_t i, double now) const;
+  /// What to add to b's position so that it is near a.
+  CellGrid::Shift nearest_image(const Body& a, const Body& b) const {
+    const auto shift = [](double distance, double period) {
+      return std::abs(distance) > 0.25 * period ? period * std::round(distance / period) : 0;
+    };
+    const CellGrid::Shift& period = grid_.period();
+    return {period.x > 0 ? shift(a.x - b.x, period.x) : 0,
+            period.y > 0 ? shift(a.y - b.y, period.y) : 0};
+  }
+  bool has_elastic_rule() const {  ///< that of the TC model
+    return scene_->collapse.model == CollapseRule::Model::contact_time;
+  }
+  bool is_in_quick_succession(std::uint32_t i, double now) const {
+    return now - matter_[i].last_collision < scene_->collapse.contact_time;
+  }
   /// Of two bodies that touch, or nearly; how fast they approached [m/s].
+  template <PlanarFeatures kHas>
   double exchange_impulse(std::uint32_t i, std::uint32_t j, const PairContact& contact);
+  BodyChange meet_wall(std::uint32_t i, double now);
   void meet(std::uint32_t i, const Surface& surface, double now);
   void resolve_cluster(double now);
   void find_wall_event(std::uint32_t i, double now, double& earliest, Own& own) const;
@@ -137,7 +165,9 @@ class PlanarWorld {
   std::vector<std::uint32_t> place_;  ///< of the scene's bodies; neighbours lie close in memory
   std::vector<Body> bodies_;
   std::vector<Matter> matter_;
-  std::vector<Own> own_;           ///< what each body's next own event is
+  std::vector<double> radii_;
+  double contact_square_;  ///< of the distance at contact, where all radii are the same [m²]
+  CellGrid::Around around_;
   int moved_x_ = 0, moved_y_ = 0;  ///< of the body whose cell changed last
   std::vector<std::uint32_t> changed_;
   std::size_t collisions_ = 0, collapses_ = 0, contacts_ = 0;

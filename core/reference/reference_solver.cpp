@@ -1,8 +1,21 @@
 #include "reference/reference_solver.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "physics/numbers.h"
 #include "reference/initial_contacts.h"
+#include "reference/step_length.h"
+#include "reference/step_solver.h"
+#include "reference/steps_as_events.h"
 
 namespace slipcheck {
+namespace {
+
+/// Bodies in soft contacts that `automatic` leaves to ContactSolver, whose steps all bodies share.
+constexpr std::size_t kMostIntegrated = 200;
+
+}  // namespace
 
 bool has_exact_phases(const HardScene& scene) {
   return EventSolver::can_solve(scene) && EventSolver::is_exact(scene);
@@ -14,12 +27,15 @@ bool runs_in_phases(const HardScene& scene) {
   return EventSolver::can_solve(scene) && (EventSolver::is_exact(scene) || is_large);
 }
 
-ReferenceSolver::ReferenceSolver(const ContactScene& scene, Compare::Reference asked,
-                                 double most_events)
-    : scene_(&scene), most_events_(most_events) {
+ReferenceSolver::ReferenceSolver(const ContactScene& scene, const ReferenceSettings& settings)
+    : scene_(&scene), settings_(settings) {
   const bool soft = !scene.is_hard();
-  resolved_ =
-      asked == Compare::Reference::contact || (asked == Compare::Reference::automatic && soft);
+  const bool automatic = settings.asked == Compare::Reference::automatic;
+  const bool periodic = !scene.hard.periodic.isZero(0);
+  const bool stepped =
+      settings.asked == Compare::Reference::steps ||
+      (automatic && soft && (periodic || scene.hard.bodies.size() > kMostIntegrated));
+  resolved_ = stepped || settings.asked == Compare::Reference::contact || (automatic && soft);
   if (!resolved_ && soft) {
     if (!initial_contacts(scene, scene.hard.initial).empty())
       throw Unsupported("bodies that overlap at the start can only be solved with soft contacts");
@@ -27,14 +43,56 @@ ReferenceSolver::ReferenceSolver(const ContactScene& scene, Compare::Reference a
     hardened_->soft.assign(scene.soft.size(), std::nullopt);
   }
   phases_ = !resolved_ && runs_in_phases(scene.hard);
+  if (!stepped && !phases_ && periodic)
+    throw Unsupported(
+        "the integrator knows no images across a periodic plane's edges; compare.reference may be "
+        "steps, or event where every contact is hard");
+  if (!stepped) return;
+  const double collision = shortest_collision(scene);
+  if (collision == kNever)
+    throw Unsupported(
+        "steps of fixed length need a collision to be measured by: no two bodies have a soft "
+        "contact and move");
+  step_ = collision / settings.steps_per_contact;
+  StepSolver(scene, scene.hard.initial, {.step = step_, .general = settings.general});
+}
+
+ReferenceSettings reference_settings(const Scenario& scenario, bool general) {
+  return {scenario.compare.reference, scenario.run.most_events, scenario.compare.steps_per_contact,
+          general};
+}
+
+EventSettings ReferenceSolver::event_settings() const {
+  EventSettings settings;
+  settings.most_events = settings_.most_events;
+  settings.general = settings_.general;
+  return settings;
+}
+
+SolvedRun ReferenceSolver::run_steps(const RunEnd& end, FrameSink* sink, double factor) const {
+  double step = factor * step_;
+  // The last step ends where the run does.
+  if (end.until == Run::Until::time && end.time > 0)
+    step = end.time / std::max(1.0, std::round(end.time / step));
+  StepSolver solver(scene(), scene().hard.initial, {.step = step, .general = settings_.general});
+  std::optional<StepsAsEvents> events;
+  if (sink) events.emplace(*sink);
+  const StepRun run = solver.run(end, events ? &*events : nullptr);
+  SolvedRun solved;
+  solved.end_time = run.end_time;
+  solved.reached = run.reached;
+  solved.reason = run.reason;
+  solved.events = solved.collisions = run.collisions;
+  solved.steps = run.steps;
+  return solved;
 }
 
 SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
                                const SolverAccuracy& accuracy) const {
+  if (is_stepped()) return run_steps(end, sink, accuracy.step);
   const std::vector<BodyState>& initial = scene().hard.initial;
   if (phases_) {
-    EventSettings settings;
-    settings.most_events = most_events_;
+    EventSettings settings = event_settings();
     settings.collapse_fraction *= accuracy.cut_offs;
     settings.landing_fraction *= accuracy.cut_offs;
     const EventRun run = EventSolver(scene().hard, initial, settings).run(end, sink);
@@ -47,6 +105,14 @@ SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
   const ContactRun run = ContactSolver(scene(), initial, settings).run(end, sink);
   return {run.end_time,   run.reached,   run.failed, run.reason, run.events,
           run.collisions, run.collapses, run.steps,  run.balance};
+}
+
+std::vector<std::string> ReferenceSolver::loop() const {
+  if (is_stepped())
+    return StepSolver(scene(), scene().hard.initial, {.step = step_, .general = settings_.general})
+        .features();
+  if (!phases_) return {"all bodies in one system, integrated from event to event"};
+  return EventSolver::features(scene().hard, event_settings());
 }
 
 double ReferenceSolver::first_contact(double limit, double tolerance) const {
@@ -85,16 +151,28 @@ std::vector<std::vector<BodyState>> walk(Solver solver, std::span<const double> 
   return states;
 }
 
+/// Between two steps on straight lines: the error is that of half a step of acceleration.
+std::vector<std::vector<BodyState>> walk_in_steps(StepSolver solver,
+                                                  std::span<const double> times) {
+  std::vector<std::vector<BodyState>> states;
+  states.reserve(times.size());
+  for (const double time : times) {
+    solver.run({Run::Until::time, time, time}, nullptr);
+    states.push_back(solver.states());
+    for (BodyState& state : states.back()) state.position -= (solver.now() - time) * state.velocity;
+  }
+  return states;
+}
+
 }  // namespace
 
 std::vector<std::vector<BodyState>> ReferenceSolver::states_along(
     std::span<const double> times) const {
   const std::vector<BodyState>& initial = scene().hard.initial;
-  if (phases_) {
-    EventSettings settings;
-    settings.most_events = most_events_;
-    return walk(EventSolver(scene().hard, initial, settings), times);
-  }
+  if (phases_) return walk(EventSolver(scene().hard, initial, event_settings()), times);
+  if (is_stepped())
+    return walk_in_steps(
+        StepSolver(scene(), initial, {.step = step_, .general = settings_.general}), times);
   return walk(ContactSolver(scene(), initial), times);
 }
 

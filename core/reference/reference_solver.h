@@ -27,6 +27,17 @@ struct SolvedRun {
 struct SolverAccuracy {
   double tolerance = 1e-13;  ///< of the integrator
   double cut_offs = 1;       ///< factor on what counts as no rebound
+  double step = 1;           ///< factor on the step of `steps`
+};
+
+/// How the solver is chosen and what it keeps to.
+struct ReferenceSettings {
+  Compare::Reference asked = Compare::Reference::automatic;
+  double most_events = Run{}.most_events;                  ///< [1/s], as of Run
+  double steps_per_contact = Compare{}.steps_per_contact;  ///< as of Compare
+  /// Takes the loops that leave out nothing of what a scene may have: they give the same, to the
+  /// last bit or to rounding.
+  bool general = false;
 };
 
 /// The solver that is the truth for a scene, chosen once.
@@ -35,16 +46,24 @@ struct SolverAccuracy {
 /// substrate, to DrivenPhase's bound for many bodies on others. Few bodies on a tilted or moving
 /// substrate have their phases integrated (ContactSolver), as do laws without phases; collisions
 /// are instants.
-/// contact: soft contacts resolved in time.
+/// contact: soft contacts resolved in time, to a tolerance.
+/// steps: the same in steps of fixed length (StepSolver); for scenes of so many bodies that
+/// `contact` would not come to an end, which `automatic` leaves to it.
 class ReferenceSolver {
  public:
-  /// `scene` must outlive the solver. most_events [1/s] as of Run.
-  ReferenceSolver(const ContactScene& scene, Compare::Reference asked,
-                  double most_events = Run{}.most_events);
+  /// `scene` must outlive the solver. Throws Unsupported.
+  ReferenceSolver(const ContactScene& scene, const ReferenceSettings& settings = {});
+  ReferenceSolver(const ContactScene& scene, Compare::Reference asked)
+      : ReferenceSolver(scene, ReferenceSettings{.asked = asked}) {}
 
-  const char* name() const { return resolved_ ? "contact" : "event"; }
+  const char* name() const { return is_stepped() ? "steps" : resolved_ ? "contact" : "event"; }
   bool is_exact() const { return phases_; }       ///< no integrator is needed
   bool is_resolved() const { return resolved_; }  ///< contacts of bodies last
+  bool is_stepped() const { return step_ > 0; }
+  double step() const { return step_; }  ///< of `steps` [s], else 0
+  const ReferenceSettings& settings() const { return settings_; }
+  /// What the loop that runs the scene was made for, in a few words each.
+  std::vector<std::string> loop() const;
   /// Contacts that last are taken as instants: `event` was asked for.
   bool hardens() const { return hardened_.has_value(); }
   const ContactScene& scene() const { return hardened_ ? *hardened_ : *scene_; }
@@ -64,11 +83,18 @@ class ReferenceSolver {
                         double slowest) const;
 
  private:
+  EventSettings event_settings() const;
+  SolvedRun run_steps(const RunEnd& end, FrameSink* sink, double factor) const;
+
   const ContactScene* scene_;
   std::optional<ContactScene> hardened_;  ///< event asked for a scene of soft contacts
+  ReferenceSettings settings_;
   bool resolved_, phases_;
-  double most_events_;
+  double step_ = 0;  ///< [s]
 };
+
+/// What a scene asks for.
+ReferenceSettings reference_settings(const Scenario& scenario, bool general = false);
 
 /// Whether EventSolver has an exact solution for what bodies do between collisions.
 bool has_exact_phases(const HardScene& scene);

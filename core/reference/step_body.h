@@ -46,6 +46,8 @@ struct StepSurroundings {
   bool confined = false;
 };
 
+/// A level, still substrate without friction that no body leaves.
+struct BareSubstrate {};
 /// A level, still substrate with Coulomb friction alone.
 struct PlainSubstrate {};
 /// Everything: tilt, motion, rolling and drilling friction.
@@ -76,13 +78,13 @@ inline double towards_zero(double rate, double lost) {
                                        double load, Vector3& v, Vector3& w) {
   const SubstrateContact& c = *b.contact;
   const double ux = v.x() - b.radius * w.y(), uy = v.y() + b.radius * w.x();
-  const double slip2 = ux * ux + uy * uy;
+  const double stop_x = b.share * ux, stop_y = b.share * uy;
   const double per_slip = load * b.inverse_mass;  // (1+A) times this is taken from the slip
   const double cap = (b.sticks ? c.static_friction : c.kinetic_friction) * per_slip;
-  b.sticks = slip2 * b.share * b.share <= cap * cap;
+  b.sticks = stop_x * stop_x + stop_y * stop_y <= cap * cap;
   if (b.sticks) {
-    v.x() -= b.share * ux;
-    v.y() -= b.share * uy;
+    v.x() -= stop_x;
+    v.y() -= stop_y;
     w.x() = -v.y() * b.inverse_radius;
     w.y() = v.x() * b.inverse_radius;
     return;
@@ -128,7 +130,8 @@ inline void rub(StepBody& b, const StepSurroundings& s, FullSubstrate, double lo
   const Vector2 rolling = rolling_change(b, held, load);
   // Rolling friction that ends where the body slips cannot break it loose.
   const Vector2 load_on_stick = c.rolling_while_sliding ? Vector2(sticking + rolling) : sticking;
-  b.sticks = load_on_stick.norm() <= held_by * per_slip;
+  const double cap = held_by * per_slip;
+  b.sticks = load_on_stick.squaredNorm() <= cap * cap;
   if (b.sticks) {
     const Vector2 relative = held + rolling;
     v.head<2>() = s.velocity + relative;
@@ -157,23 +160,37 @@ inline void rub(StepBody& b, const StepSurroundings& s, FullSubstrate, double lo
       friction *= shared.force;
       drilling = c.kinetic_friction * load * c.coupled_radius * shared.torque;
     }
-    Vector2 change = Vector2::Zero();
-    if (friction >= b.share * u.norm()) {
-      change = -b.share * u;
+    // As much along `direction` as PlainSubstrate takes, with the same roundings.
+    double change = 0;
+    if (friction * friction >= (b.share * u).squaredNorm()) {
+      direction = u;
+      change = b.share;
       b.sticks = !shares_friction;
     } else if (size > 0) {
-      change = (-friction / size) * direction;
+      change = friction * (1 / size);
     }
-    v.head<2>() += change;
-    w.x() += b.turn * change.y();
-    w.y() -= b.turn * change.x();
+    const double turn = change * b.turn;
+    v.head<2>() -= change * direction;
+    w.x() -= turn * direction.y();
+    w.y() += turn * direction.x();
   }
   w.z() = towards_zero(w.z(), drilling * b.inverse_inertia);
 }
 
-/// The velocities of a body dt later, under the forces of now.
+[[gnu::always_inline]] inline void kick_freely(StepBody& b, double dt) {
+  const Vector3 w = b.angular_velocity + (dt * b.inverse_inertia) * b.torque;
+  const double vx = b.velocity.x() + (dt * b.inverse_mass) * b.force.x();
+  const double vy = b.velocity.y() + (dt * b.inverse_mass) * b.force.y();
+  b.normal_impulse = std::abs(b.weight - b.force.z()) * dt;
+  b.velocity_change = Vector3(vx, vy, 0) - b.velocity;
+  b.angular_velocity_change = w - b.angular_velocity;
+  b.velocity = {vx, vy, 0};
+  b.angular_velocity = w;
+  b.sticks = vx == b.radius * w.y() && vy == -b.radius * w.x();
+}
+
 template <class Substrate>
-[[gnu::always_inline]] inline void kick(StepBody& b, const StepSurroundings& s, double dt) {
+[[gnu::always_inline]] inline void kick_and_rub(StepBody& b, const StepSurroundings& s, double dt) {
   Vector3 v = b.velocity + (dt * b.inverse_mass) * b.force;
   Vector3 w = b.angular_velocity + (dt * b.inverse_inertia) * b.torque;
   if constexpr (std::is_same_v<Substrate, FullSubstrate>) v.head<2>() += dt * s.downhill;
@@ -195,6 +212,15 @@ template <class Substrate>
   b.angular_velocity_change = w - b.angular_velocity;
   b.velocity = v;
   b.angular_velocity = w;
+}
+
+/// The velocities of a body dt later, under the forces of now.
+template <class Substrate>
+[[gnu::always_inline]] inline void kick(StepBody& b, const StepSurroundings& s, double dt) {
+  if constexpr (std::is_same_v<Substrate, BareSubstrate>)
+    kick_freely(b, dt);
+  else
+    kick_and_rub<Substrate>(b, s, dt);
 }
 
 /// A body that came down on the substrate within the last step lands, in the substrate's frame.

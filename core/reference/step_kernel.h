@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "physics/frame.h"
@@ -44,11 +46,15 @@ class StepKernel {
   /// Whether `stop`, not StepStop::never, is met now.
   virtual bool is_met(const StepWorld& world, StepStop stop) const = 0;
   /// The world at the time of the positions; touches are those of the step around it.
-  virtual void show(const StepWorld& world, Frame& frame) const = 0;
+  virtual void show(const StepWorld& world, Frame& frame) = 0;
+  /// What the loop was made for, in a few words each: "linear normal force", ...
+  virtual std::vector<std::string> features() const = 0;
 };
 
-/// The loop that leaves out what the scene lacks. Throws Unsupported where bodies could meet whose
-/// contact is hard.
-std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene);
+/// The loop that leaves out what the scene lacks; `general`: the one that has everything, between
+/// all pairs. Throws Unsupported where bodies could meet whose contact is hard, and for a periodic
+/// plane where the loop cannot be GrainLoop.
+std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
+                                             std::span<const BodyState> initial, bool general);
 
 }  // namespace slipcheck

@@ -1,8 +1,11 @@
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "reference/grain_loop.h"
 #include "reference/step_kernel.h"
 #include "reference/step_loop.h"
 
@@ -46,19 +49,60 @@ bool is_plain(const HardScene& scene) {
   return true;
 }
 
+/// Without friction, and so that no body leaves the plane: it may not, or nothing pushes it up.
+bool is_bare(const ContactScene& contacts, std::span<const BodyState> initial) {
+  const HardScene& scene = contacts.hard;
+  if (!is_plain(scene)) return false;
+  for (std::size_t material : scene.material)
+    if (scene.substrate[material].kinetic_friction > 0) return false;
+  if (scene.confined) return true;
+  for (const auto& contact : contacts.soft)
+    if (contact && !std::holds_alternative<NoTangentialForce>(contact->tangential)) return false;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (scene.bodies[i].radius != scene.bodies[0].radius ||
+        initial[i].position.z() != scene.bodies[i].radius || initial[i].velocity.z() != 0)
+      return false;
+  return true;
+}
+
+const char* name_of(const NormalForce& force) {
+  static constexpr const char* kNames[] = {"linear normal force", "Hertz's normal force",
+                                           "power law as normal force", "viscoelastic normal force",
+                                           "compact viscoelastic normal force"};
+  return kNames[force.index()];
+}
+const char* name_of(const Tangential& law) {
+  static constexpr const char* kNames[] = {"no tangential force, no torque",
+                                           "viscous tangential force with Coulomb's cap",
+                                           "printed asperities", "passive asperities"};
+  return kNames[law.index()];
+}
+
+/// More are GrainLoop's.
+constexpr std::size_t kMostInAllPairs = 24;
+
 template <class Normal, class Tangential_>
 std::unique_ptr<StepKernel> make(std::vector<StepLaw<Normal, Tangential_>> laws,
-                                 const HardScene& scene) {
+                                 const ContactScene& contacts, std::span<const BodyState> initial,
+                                 bool general, std::vector<std::string> features) {
+  const HardScene& scene = contacts.hard;
+  const auto loop = [&](auto substrate, const char* name) -> std::unique_ptr<StepKernel> {
+    features.emplace_back(name);
+    return std::make_unique<StepLoop<Normal, Tangential_, decltype(substrate)>>(
+        std::move(laws), scene.material, scene.substrate.size(), std::move(features));
+  };
+  if (general) return loop(FullSubstrate{}, "any substrate");
+  if (is_bare(contacts, initial))
+    return loop(BareSubstrate{}, "level, still substrate without friction or lift-off");
   if (is_plain(scene))
-    return std::make_unique<StepLoop<Normal, Tangential_, PlainSubstrate>>(
-        std::move(laws), scene.material, scene.substrate.size());
-  return std::make_unique<StepLoop<Normal, Tangential_, FullSubstrate>>(
-      std::move(laws), scene.material, scene.substrate.size());
+    return loop(PlainSubstrate{}, "level, still substrate with Coulomb friction");
+  return loop(FullSubstrate{}, "any substrate");
 }
 
 }  // namespace
 
-std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene) {
+std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
+                                             std::span<const BodyState> initial, bool general) {
   const HardScene& hard = scene.hard;
   const std::size_t materials = hard.substrate.size();
   const SoftContact* some = nullptr;
@@ -75,6 +119,13 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene) {
                         tangential_of(*some).index() != tangential_of(*contact).index());
       some = &*contact;
     }
+  const std::string not_grains = GrainSolver::refusal(scene, initial);
+  const bool periodic = !hard.periodic.isZero(0);
+  if (not_grains.empty() && !general && (periodic || hard.bodies.size() > kMostInAllPairs))
+    return std::make_unique<GrainLoop>(scene);
+  if (periodic)
+    throw Unsupported("a periodic plane has no steps of fixed length" +
+                      (general ? std::string(" in the general loop") : ": " + not_grains));
   // One body alone: any law will do.
   const SoftContact none{LinearForce{}, ContactEnd::zero_overlap, NoTangentialForce{}};
   if (!some) some = &none;
@@ -89,13 +140,13 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene) {
       }
     return table;
   };
-  if (mixed) {
+  if (mixed || general) {
     using Law = StepLaw<AnyNormalForce, AnyPair>;
     return make(laws(Law{},
                      [](const SoftContact& contact) {
                        return Law{{contact.normal}, {tangential_of(contact)}, false};
                      }),
-                hard);
+                scene, initial, general, {"any normal force", "any tangential force"});
   }
   return std::visit(
       [&](const auto& normal, const auto& tangential) {
@@ -107,7 +158,7 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene) {
                            return Law{std::get<Normal>(contact.normal),
                                       std::get<Surface>(tangential_of(contact)), false};
                          }),
-                    hard);
+                    scene, initial, false, {name_of(some->normal), name_of(tangential_of(*some))});
       },
       some->normal, tangential_of(*some));
 }

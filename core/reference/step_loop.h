@@ -33,8 +33,10 @@ class StepLoop final : public StepKernel {
   using Law = StepLaw<Normal, Tangential>;
 
   /// laws: by material × material; material: of each body.
-  StepLoop(std::vector<Law> laws, std::vector<std::size_t> material, std::size_t materials)
-      : laws_(std::move(laws)),
+  StepLoop(std::vector<Law> laws, std::vector<std::size_t> material, std::size_t materials,
+           std::vector<std::string> features)
+      : features_(std::move(features)),
+        laws_(std::move(laws)),
         material_(std::move(material)),
         materials_(materials),
         pairs_(material_.size() * (material_.size() - 1) / 2) {}
@@ -54,7 +56,9 @@ class StepLoop final : public StepKernel {
     }
   }
 
-  void show(const StepWorld& world, Frame& frame) const override {
+  std::vector<std::string> features() const override { return features_; }
+
+  void show(const StepWorld& world, Frame& frame) override {
     frame.bodies.resize(world.bodies.size());
     frame.touches.clear();
     StepSurroundings around = world.around;
@@ -85,10 +89,21 @@ class StepLoop final : public StepKernel {
   }
 
  private:
+  /// On the first of two bodies, and of that the part across the line of centres, which alone turns
+  /// them [N].
+  struct Force {
+    Vector3 all = Vector3::Zero(), across = Vector3::Zero();
+
+    Force operator+(const Force& other) const { return {all + other.all, across + other.across}; }
+    Force operator-(const Force& other) const { return {all - other.all, across - other.across}; }
+    friend Force operator*(double factor, const Force& force) {
+      return {factor * force.all, factor * force.across};
+    }
+  };
   struct Pair {
     bool touching = false;
-    double normal_force = 0;          ///< F_N [N]
-    Vector3 force = Vector3::Zero();  ///< on the first [N]
+    double normal_force = 0;  ///< F_N [N]
+    Force force;
     [[no_unique_address]] typename Tangential::History history;
   };
 
@@ -136,22 +151,24 @@ class StepLoop final : public StepKernel {
     return dv + closing * n - turning.cross(n);
   }
 
-  static void push(StepBody& a, StepBody& b, const Vector3& force, const Vector3& n) {
-    a.force += force;
-    b.force -= force;
+  static void push(StepBody& a, StepBody& b, const Force& force, const Vector3& n) {
+    a.force += force.all;
+    b.force -= force.all;
     if constexpr (Tangential::kRubs) {
-      const Vector3 lever = force.cross(n);
+      const Vector3 lever = force.across.cross(n);
       a.torque += a.radius * lever;
       b.torque += b.radius * lever;
     }
   }
 
-  Vector3 force_of(const Law& law, const Pair& pair, double normal, const Vector3& slip,
-                   const Vector3& n) const {
-    if constexpr (Tangential::kRubs)
-      return normal * n + law.tangential.force(pair.history, normal, slip);
-    else
-      return normal * n;
+  Force force_of(const Law& law, const Pair& pair, double normal, const Vector3& slip,
+                 const Vector3& n) const {
+    if constexpr (Tangential::kRubs) {
+      const Vector3 across = law.tangential.force(pair.history, normal, slip);
+      return {normal * n + across, across};
+    } else {
+      return {normal * n, Vector3::Zero()};
+    }
   }
 
   /// Two bodies that overlap.
@@ -166,7 +183,7 @@ class StepLoop final : public StepKernel {
     if ((law.clamped && normal <= 0) || (overlap <= 0 && closing <= 0)) [[unlikely]] {
       if (pair.touching) {
         const double left = normal < 0 ? pair.normal_force / (pair.normal_force - normal) : 1;
-        end(a, b, pair, left, Vector3::Zero(), n);
+        end(a, b, pair, left, {}, n);
       }
       return;
     }
@@ -200,7 +217,7 @@ class StepLoop final : public StepKernel {
         law.clamped ? std::max(0.0, law.normal(0, closing)) : law.normal(0, closing);
     if constexpr (Tangential::kRubs)
       law.tangential.begin(pair.history, 0.5 * h, part * h, slip_now, n);
-    const Vector3 first_force = force_of(law, pair, first, slip_now, n);
+    const Force first_force = force_of(law, pair, first, slip_now, n);
     if constexpr (Tangential::kRubs)
       law.tangential.advance(pair.history, 0.5 * h, normal, slip_now, n);
     pair.force = force_of(law, pair, normal, slip_now, n);
@@ -230,11 +247,15 @@ class StepLoop final : public StepKernel {
   /// The contact lasted for `part` of the step before now and should have had part h ½ (F + F_end)
   /// there; it had h/2 F. What is taken back from a body that the other pressed down was borne by
   /// the substrate and must not lift it.
-  void end(StepBody& a, StepBody& b, Pair& pair, double part, const Vector3& last_force,
+  void end(StepBody& a, StepBody& b, Pair& pair, double part, const Force& last_force,
            const Vector3& n) {
+    const double before_a = a.force.z(), before_b = b.force.z();
     push(a, b, 0.5 * (part * (pair.force + last_force) - pair.force), n);
-    for (StepBody* body : {&a, &b})
-      if (body->supported) body->force.z() = std::min(body->force.z(), body->weight);
+    const auto keep_down = [](StepBody& body, double before) {
+      if (body.supported) body.force.z() = before + std::min(body.force.z() - before, body.weight);
+    };
+    keep_down(a, before_a);
+    keep_down(b, before_b);
     pair.touching = false;
   }
 
@@ -248,11 +269,13 @@ class StepLoop final : public StepKernel {
     for (StepBody& b : world.bodies) {
       kick<Substrate>(b, s, dt);
       b.position += h * b.velocity;
+      if constexpr (std::is_same_v<Substrate, BareSubstrate>) continue;
       if (!b.supported && b.position.z() < b.radius && b.velocity.z() < 0) [[unlikely]]
         land_after_drift(b, s, world.slowest_rebound);
     }
   }
 
+  std::vector<std::string> features_;
   std::vector<Law> laws_;
   std::vector<std::size_t> material_;
   std::size_t materials_;

@@ -53,7 +53,7 @@ StepBody make_body(const HardScene& scene, std::size_t i, const BodyState& state
 class StepSolver::Impl {
  public:
   Impl(const ContactScene& scene, std::span<const BodyState> initial, const StepSettings& settings)
-      : scene_(&scene), kernel_(make_step_kernel(scene)) {
+      : scene_(&scene), kernel_(make_step_kernel(scene, initial, settings.general)) {
     assert(settings.step > 0 && initial.size() == scene.hard.bodies.size());
     const HardScene& hard = scene.hard;
     world_.step = settings.step;
@@ -114,6 +114,7 @@ class StepSolver::Impl {
   }
 
   double now() const { return world_.time(); }
+  std::vector<std::string> features() const { return kernel_->features(); }
 
   double energy() {
     const HardScene& hard = scene_->hard;
@@ -179,6 +180,7 @@ StepRun StepSolver::run(const RunEnd& end, FrameSink* sink) { return impl_->run(
 std::vector<BodyState> StepSolver::states() { return impl_->states(); }
 double StepSolver::now() const { return impl_->now(); }
 double StepSolver::energy() { return impl_->energy(); }
+std::vector<std::string> StepSolver::features() const { return impl_->features(); }
 
 double step_limit(double omega0, double gamma) {
   // √(1 + ε²) − ε without the difference of like numbers.

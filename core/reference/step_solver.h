@@ -17,6 +17,9 @@ struct StepSettings {
   /// A landing that would rebound slower than this fraction of the scene's speed does not; nor does
   /// one slower than what gravity adds in a step.
   double landing_fraction = 1e-10;
+  /// Takes the loop that leaves out nothing. Between all pairs the results are the same to the last
+  /// bit; GrainLoop adds in another order.
+  bool general = false;
 };
 
 struct StepRun {
@@ -35,12 +38,13 @@ struct StepRun {
 /// The substrate's friction acts by impulses that may stop the slip within a step but never reverse
 /// it, so that a body sticks exactly; when it begins or ends to stick is known to a step.
 ///
-/// The normal and tangential law and whether the substrate is more than a level plane at rest with
-/// Coulomb friction are chosen once, into a loop that has no trace of what the scene lacks.
+/// The normal and tangential law and whether the substrate is one without friction, a level plane
+/// at rest with Coulomb friction or more are chosen once, into a loop that has no trace of what the
+/// scene lacks; many bodies in a plane go to GrainLoop.
 class StepSolver {
  public:
   /// The scene must outlive the solver. Throws Unsupported where bodies could meet whose contact is
-  /// hard.
+  /// hard, or on a periodic plane with what GrainLoop has not.
   StepSolver(const ContactScene& scene, std::span<const BodyState> initial,
              const StepSettings& settings);
   ~StepSolver();
@@ -55,6 +59,8 @@ class StepSolver {
   double now() const;
   /// Kinetic energy and that of gravity and of elastic contacts, now [J].
   double energy();
+  /// What the loop was made for: "linear normal force", ...
+  std::vector<std::string> features() const;
 
  private:
   class Impl;

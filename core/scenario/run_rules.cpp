@@ -173,8 +173,12 @@ Rule<Compare> compare_rule() {
       .key("reference", &Compare::reference,
            choice<Reference>({{"auto", Reference::automatic},
                               {"event", Reference::event},
-                              {"contact", Reference::contact}}),
+                              {"contact", Reference::contact},
+                              {"steps", Reference::steps}}),
            optional, "solver of the reference; auto: event where all contacts are hard")
+      .key("steps_per_contact", &Compare::steps_per_contact,
+           number(kPureNumber, {10, {}, 1e6, {}}), optional,
+           "steps in the shortest collision, of the reference steps")
       .key("engines", &Compare::engines, list(engine_rule(), 0), optional,
            "what is held against it")
       .key("tolerance", &Compare::tolerance, tolerances_rule(), optional,

@@ -256,8 +256,9 @@ struct EngineRequest {
 };
 
 struct Compare {
-  enum class Reference { automatic, event, contact };
+  enum class Reference { automatic, event, contact, steps };  ///< steps: an extension
   Reference reference = Reference::automatic;
+  double steps_per_contact = 200;  ///< of the reference `steps` [-], >= 10; an extension
   std::vector<EngineRequest> engines;
   std::map<std::string, Tolerance> tolerance;  ///< by observable, without the body's name
 };

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "bullet_run.h"
+#include "same_bits.h"
 
 namespace slipcheck {
 namespace {
@@ -24,19 +24,6 @@ HardScene crowd() {
     scene.material.push_back(0);
   }
   return scene;
-}
-
-void expect_same_bits(const std::vector<Frame>& a, const std::vector<Frame>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t n = 0; n < a.size(); ++n) {
-    ASSERT_EQ(a[n].bodies.size(), b[n].bodies.size());
-    const std::size_t bytes = a[n].bodies.size() * sizeof(BodyState);
-    ASSERT_EQ(std::memcmp(a[n].bodies.data(), b[n].bodies.data(), bytes), 0) << "frame " << n;
-    ASSERT_EQ(a[n].touches.size(), b[n].touches.size());
-    for (std::size_t k = 0; k < a[n].touches.size(); ++k) {
-      ASSERT_EQ(a[n].touches[k].normal_impulse, b[n].touches[k].normal_impulse);
-    }
-  }
 }
 
 class BulletWorldTest : public ::testing::TestWithParam<const char*> {};

@@ -265,6 +265,54 @@ TEST(PlanarSolver, BothQueuesServeTheSameEvents) {
   }
 }
 
+/// A loop that leaves out what the scene lacks gives the bits of the one that leaves out nothing.
+TEST(PlanarSolver, LeavingOutWhatASceneLacksChangesNoBit) {
+  struct Case {
+    HardScene scene;
+    double time;
+    std::vector<std::string> left_out;
+  };
+  HardScene unlike = test::shaken_box(40, 1, contact(0.9, 0.2, 0.3));
+  unlike.bodies[7].radius *= 0.7;
+  HardScene clustered = test::smooth_gas(100, 0.4, contact(0.5));
+  clustered.collapse = {CollapseRule::Model::largest_velocity, 1e-4};
+  HardScene spinning = test::smooth_gas(100, 0.3, contact(0.95));
+  for (std::size_t i = 0; i < 100; ++i)
+    spinning.initial[i].angular_velocity.z() = std::cos(static_cast<double>(i));
+  const std::vector<std::string> smooth{"gravity and walls", "different radii",
+                                        "friction and spin"};
+  const std::vector<std::string> rough{"gravity and walls", "different radii"};
+  const std::vector<Case> cases{
+      {test::smooth_gas(300, 0.2, contact(1)), 40, smooth},
+      {spinning, 40, smooth},
+      {clustered, 40, smooth},
+      {test::smooth_gas(300, 0.3, contact(0.95, 0.1, 0.4)), 40, rough},
+      {test::shaken_box(50, 1, contact(0.9, 0.2, 0.3)), 0.5, {"different radii"}},
+      {unlike, 0.5, {}}};
+  for (const Case& c : cases) {
+    PlanarSettings settings;
+    settings.general = true;
+    PlanarSolver general(c.scene, c.scene.initial, settings), chosen(c.scene, c.scene.initial);
+    EXPECT_TRUE(general.left_out().empty());
+    EXPECT_EQ(chosen.left_out(), c.left_out);
+    const PlanarRun all = general.run(until(c.time), nullptr, 1);
+    const PlanarRun less = chosen.run(until(c.time), nullptr, 1);
+    EXPECT_GT(all.collisions, c.scene.bodies.size());
+    EXPECT_EQ(all.collisions, less.collisions);
+    EXPECT_EQ(all.collapses, less.collapses);
+    EXPECT_EQ(all.events, less.events);
+    EXPECT_EQ(all.energy, less.energy);
+    EXPECT_EQ(all.dissipated, less.dissipated);
+    const std::vector<BodyState> states = general.states(), other = chosen.states();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      EXPECT_EQ(std::memcmp(states[i].position.data(), other[i].position.data(), 24), 0);
+      EXPECT_EQ(std::memcmp(states[i].velocity.data(), other[i].velocity.data(), 24), 0);
+      EXPECT_EQ(
+          std::memcmp(states[i].angular_velocity.data(), other[i].angular_velocity.data(), 24), 0);
+    }
+  }
+}
+
 TEST(PlanarSolver, WhatIsShownDoesNotChangeTheRun) {
   const HardScene scene = test::shaken_box(20, 1, contact(0.9, 0.2, 0.3));
   struct : FrameSink {

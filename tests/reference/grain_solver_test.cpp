@@ -1,0 +1,222 @@
+#include "reference/grain_solver.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "planar_scenes.h"
+#include "reference/step_solver.h"
+#include "step_scenes.h"
+
+namespace slipcheck {
+namespace {
+
+using namespace test;
+
+constexpr double kRadius = 0.002;
+constexpr double kStep = kCollisionTime / 50;
+
+struct Laws {
+  std::string name;
+  NormalForce normal;
+  ContactEnd end;
+  bool rubs, on_plane;
+};
+
+std::string name_of(const testing::TestParamInfo<Laws>& info) { return info.param.name; }
+
+/// Steel balls that fly into each other from a jittered lattice, fast and with spins.
+ContactScene cluster(const Laws& laws, std::size_t side) {
+  HardScene hard = steel_scene(side * side);
+  hard.confined = true;
+  if (!laws.on_plane) hard.substrate[0].static_friction = hard.substrate[0].kinetic_friction = 0;
+  std::mt19937_64 random(7);
+  const auto symmetric = [&] { return 2 * uniform(random) - 1; };
+  for (std::size_t k = 0; k < hard.initial.size(); ++k) {
+    BodyState& state = hard.initial[k];
+    const double x = static_cast<double>(k % side) - 0.5 * static_cast<double>(side - 1);
+    const double y = static_cast<double>(k / side) - 0.5 * static_cast<double>(side - 1);
+    state.position = {2.2 * kRadius * (x + 0.03 * symmetric()),
+                      2.2 * kRadius * (y + 0.03 * symmetric()), kRadius};
+    state.velocity = {-x + 0.3 * symmetric(), -y + 0.3 * symmetric(), 0};
+    if (laws.rubs) state.angular_velocity.z() = 300 * symmetric();
+    if (laws.on_plane) state.angular_velocity.head<2>() = Vector2(symmetric(), symmetric()) * 100;
+  }
+  SoftContact contact{laws.normal, laws.end, NoTangentialForce{}};
+  const double reduced = 0.5 * hard.bodies[0].mass;
+  if (laws.rubs) contact.tangential = ViscousForce{reduced * 0.1 / kCollisionTime, 0.3};
+  return with_contact(std::move(hard), contact);
+}
+
+double largest_difference(const std::vector<BodyState>& a, const std::vector<BodyState>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest = std::max({largest, (a[i].position - b[i].position).norm() / kRadius,
+                        (a[i].velocity - b[i].velocity).norm(),
+                        kRadius * (a[i].angular_velocity - b[i].angular_velocity).norm()});
+  return largest;
+}
+
+class GrainLaws : public testing::TestWithParam<Laws> {};
+
+/// Every step of both solvers is the same but for rounding. Each collision multiplies differences
+/// by the mean free path over the radius, here a few; 1e-16 grows to 1e-12 in the collisions that
+/// 16 balls have with each other.
+TEST_P(GrainLaws, StepsAsStepSolverDoes) {
+  const ContactScene scene = cluster(GetParam(), 4);
+  ASSERT_EQ(GrainSolver::refusal(scene, scene.hard.initial), "");
+  GrainSolver grains(scene, scene.hard.initial, kStep);
+  StepSolver steps(scene, scene.hard.initial, {kStep});
+  Frame frame;
+  std::size_t n = 0;
+  for (const std::size_t count : {2, 7, 100, 400, 400}) {
+    n += count;
+    grains.advance(count);
+    // What begins now is counted with the next step, by StepSolver with the last one.
+    const double t = static_cast<double>(n) * kStep;
+    const std::size_t collisions = steps.run(until(t - kStep), nullptr).collisions;
+    ASSERT_EQ(steps.run(until(t), nullptr).steps, n);
+    grains.show(frame);
+    EXPECT_LT(largest_difference(frame.bodies, steps.states()), 1e-11) << n;
+    EXPECT_EQ(grains.collisions(), collisions) << n;
+  }
+  EXPECT_GT(grains.collisions(), 20u);
+}
+
+const double kMass = 7850 * 4 * M_PI / 3 * kRadius * kRadius * kRadius;
+const NormalForce kLinear =
+    linear_contact(0.5 * kMass, 0.9, kCollisionTime, ContactEnd::zero_overlap).normal;
+const NormalForce kClamped =
+    linear_contact(0.5 * kMass, 0.6, kCollisionTime, ContactEnd::zero_force).normal;
+/// As stiff at 1 % of the radius.
+const double kModulus = std::get<LinearForce>(kLinear).stiffness / std::sqrt(0.01 * kRadius);
+
+INSTANTIATE_TEST_SUITE_P(
+    All, GrainLaws,
+    testing::Values(Laws{"smooth", kLinear, ContactEnd::zero_overlap, false, false},
+                    Laws{"smooth_clamped", kClamped, ContactEnd::zero_force, false, false},
+                    Laws{"smooth_on_plane", kLinear, ContactEnd::zero_overlap, false, true},
+                    Laws{"rough", kLinear, ContactEnd::zero_overlap, true, false},
+                    Laws{"rough_on_plane", kLinear, ContactEnd::zero_overlap, true, true},
+                    Laws{"clamped_on_plane", kClamped, ContactEnd::zero_force, true, true},
+                    Laws{"hertz", HertzForce{kModulus}, ContactEnd::zero_overlap, true, false},
+                    Laws{"viscoelastic_on_plane", ViscoelasticForce{kModulus, 1e-6},
+                         ContactEnd::zero_force, true, true},
+                    Laws{"compact", CompactViscoelasticForce{kModulus, 1e-6},
+                         ContactEnd::zero_force, false, true}),
+    name_of);
+
+ContactScene periodic_gas(std::size_t n, double fraction, bool on_plane, double restitution) {
+  ContactScene scene = with_contact(smooth_gas(n, fraction, {restitution, 0.0, -1.0}), {});
+  SoftContact& contact = *scene.soft[0];
+  contact = linear_contact(0.5, restitution, 1e-2, ContactEnd::zero_overlap);
+  if (on_plane) {
+    scene.hard.substrate[0].static_friction = scene.hard.substrate[0].kinetic_friction = 0.02;
+    contact.tangential = ViscousForce{5, 0.3};
+  }
+  return scene;
+}
+
+/// What happens does not depend on where the cell's edges lie. Shifting all positions changes their
+/// rounding, and each of the one or two collisions of a grain multiplies that by about 10.
+TEST(GrainSolver, EdgesOfThePeriodicCellAreNowhere) {
+  ContactScene scene = periodic_gas(300, 0.3, true, 0.9);
+  const Vector3 shift(0.37 * scene.hard.periodic.x(), 0.71 * scene.hard.periodic.y(), 0);
+  std::vector<BodyState> shifted = scene.hard.initial;
+  for (BodyState& state : shifted) state.position += shift;
+  GrainSolver here(scene, scene.hard.initial, 2e-4), there(scene, shifted, 2e-4);
+  here.advance(5000);
+  there.advance(5000);
+  EXPECT_GT(here.collisions(), 100u);
+  EXPECT_EQ(here.collisions(), there.collisions());
+  Frame a, b;
+  here.show(a);
+  there.show(b);
+  for (BodyState& state : b.bodies) state.position -= shift;
+  EXPECT_LT(largest_difference(a.bodies, b.bodies) * kRadius, 1e-10);
+}
+
+/// Forces between grains are equal and opposite, and without friction nothing else acts.
+TEST(GrainSolver, KeepsMomentum) {
+  const ContactScene scene = periodic_gas(1000, 0.6, false, 0.9);
+  GrainSolver solver(scene, scene.hard.initial, 2e-4);
+  Frame frame;
+  const auto momentum = [&] {
+    solver.show(frame);
+    Vector3 sum = Vector3::Zero();
+    for (const BodyState& state : frame.bodies) sum += state.velocity;
+    return sum;
+  };
+  const Vector3 before = momentum();
+  solver.advance(2000);
+  EXPECT_GT(solver.collisions(), 1000u);
+  // 1000 velocities of about 1, summed after some thousand roundings.
+  EXPECT_LT((momentum() - before).norm(), 1e-11);
+}
+
+/// Elastic contacts give back what they took: between collisions the energy is what it was, but for
+/// the error of a collision of 50 steps, of second order in the step and of either sign.
+TEST(GrainSolver, ElasticGasKeepsItsEnergyInSecondOrder) {
+  const ContactScene scene = periodic_gas(1000, 0.2, false, 1.0);
+  const auto loss = [&](double step) {
+    GrainSolver solver(scene, scene.hard.initial, step);
+    Frame frame;
+    const auto energy = [&] {
+      solver.show(frame);
+      double sum = 0;
+      for (const BodyState& state : frame.bodies) sum += 0.5 * state.velocity.squaredNorm();
+      for (const Touch& touch : frame.touches) {
+        if (touch.second == kSubstrate) continue;
+        const double force = touch.normal_impulse / step;
+        sum += 0.5 * force * force / std::get<LinearForce>(scene.soft[0]->normal).stiffness;
+      }
+      return sum;
+    };
+    const double before = energy();
+    solver.advance(static_cast<std::size_t>(std::round(1 / step)));
+    EXPECT_GT(solver.collisions(), 100u);
+    return std::abs(energy() / before - 1);
+  };
+  EXPECT_LT(loss(2e-4), 1e-4);
+  EXPECT_LT(loss(5e-5), 1e-5);
+}
+
+/// Every instruction set does the same operations on each grain.
+TEST(GrainSolver, SameBitsOnEveryInstructionSet) {
+  const ContactScene scene = periodic_gas(500, 0.6, true, 0.8);
+  const std::int64_t all = hwy::SupportedTargets();
+  std::vector<BodyState> first;
+  for (std::int64_t left = all; left != 0; left &= left - 1) {
+    hwy::SetSupportedTargetsForTest(left & -left);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    GrainSolver solver(scene, scene.hard.initial, 2e-4);
+    solver.advance(1500);
+    Frame frame;
+    solver.show(frame);
+    if (first.empty()) first = frame.bodies;
+    EXPECT_EQ(largest_difference(first, frame.bodies), 0) << hwy::TargetName(left & -left);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+TEST(GrainSolver, TellsWhatItDoesNotTake) {
+  const auto refusal = [](auto change) {
+    ContactScene scene = periodic_gas(9, 0.1, true, 0.9);
+    change(scene);
+    return GrainSolver::refusal(scene, scene.hard.initial);
+  };
+  EXPECT_EQ(refusal([](ContactScene&) {}), "");
+  EXPECT_THAT(refusal([](ContactScene& s) {
+                s.hard.downhill = {0, -1};
+              }),
+              testing::HasSubstr("tilted"));
+}
+
+}  // namespace
+}  // namespace slipcheck
