@@ -97,9 +97,7 @@ void BM_AtRest(benchmark::State& state, const std::string& precision, double rat
   state.counters["ratio"] = step[1] / step[0];
 }
 BENCHMARK_CAPTURE(BM_AtRest, double_240, "double", 240)->Iterations(5);
-BENCHMARK_CAPTURE(BM_AtRest, double_1000, "double", 1000)->Iterations(5);
 BENCHMARK_CAPTURE(BM_AtRest, single_240, "single", 240)->Iterations(5);
-BENCHMARK_CAPTURE(BM_AtRest, single_1000, "single", 1000)->Iterations(5);
 
 }  // namespace
 }  // namespace slipcheck

@@ -184,9 +184,10 @@ void print_engines(const Scenario& scenario, const HardScene& scene,
   }
 }
 
-void explain_in_box(const Scenario& scenario, const ContactScene& scene) {
-  const BoxSolver solver(scene, scenario.compare.reference, scenario.run.most_events);
+void explain_in_box(const Scenario& scenario, const ContactScene& scene, bool general) {
+  const BoxSolver solver(scene, reference_settings(scenario, general));
   print_solver(scene, solver);
+  fmt::print("  loop: {}\n", fmt::join(solver.loop(), "; "));
   print_features(solver.is_resolved() ? scene : with_hard_contacts(scene.hard));
   explain_bodies(scenario, scene.hard);
   explain_box(scenario, scene);
@@ -215,7 +216,7 @@ void explain(const Scenario& scenario, const std::vector<EngineRecord>& runs, bo
   ContactScene scene;
   try {
     scene = make_contact_scene(scenario);
-    scene.hard.box ? explain_in_box(scenario, scene)
+    scene.hard.box ? explain_in_box(scenario, scene, general)
                    : explain_on_substrate(scenario, scene, general);
   } catch (const Unsupported& unsupported) {
     fmt::print("\n  No solver for this scene:\n{}\n", unsupported.what());

@@ -10,7 +10,7 @@ namespace {
 
 std::variant<ReferenceSolver, BoxSolver> solver_of(const Scenario& scenario,
                                                    const ContactScene& scene, bool general) {
-  if (scene.hard.box) return BoxSolver(scene, scenario.compare.reference, scenario.run.most_events);
+  if (scene.hard.box) return BoxSolver(scene, reference_settings(scenario, general));
   return ReferenceSolver(scene, reference_settings(scenario, general));
 }
 

@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "reference/planar_solver.h"
 #include "reference/soft_box_solver.h"
 
 namespace slipcheck {
@@ -39,12 +38,28 @@ auto run_counting(Solver& solver, const RunEnd& end, double interval, FrameSink*
 
 }  // namespace
 
-BoxSolver::BoxSolver(const ContactScene& scene, Compare::Reference asked, double most_events)
+BoxSolver::BoxSolver(const ContactScene& scene, const ReferenceSettings& settings)
     : scene_(&scene),
-      resolved_(asked == Compare::Reference::contact ||
-                (asked == Compare::Reference::automatic && !scene.is_hard())),
-      most_events_(most_events) {
+      settings_(settings),
+      resolved_(settings.asked == Compare::Reference::contact ||
+                (settings.asked == Compare::Reference::automatic && !scene.is_hard())) {
+  if (settings.asked == Compare::Reference::steps)
+    throw Unsupported("a container has no steps of fixed length; compare.reference may be contact");
   if (resolved_) SoftBoxSolver(scene, scene.hard.initial);  // throws
+}
+
+std::vector<std::string> BoxSolver::loop() const {
+  if (resolved_) return {"free flight, and steps for bodies that touch"};
+  std::vector<std::string> loop = {"bodies on parabolas between walls"};
+  for (const std::string& left : planar_solver().left_out()) loop.push_back("without " + left);
+  return loop;
+}
+
+PlanarSolver BoxSolver::planar_solver() const {
+  PlanarSettings settings;
+  settings.most_events = settings_.most_events;
+  settings.general = settings_.general;
+  return PlanarSolver(scene_->hard, scene_->hard.initial, settings);
 }
 
 BoxRun BoxSolver::run(const RunEnd& end, double sample_interval, FrameSink* sink,
@@ -63,9 +78,7 @@ BoxRun BoxSolver::run(const RunEnd& end, double sample_interval, FrameSink* sink
             run.energy_error,
             std::numeric_limits<double>::quiet_NaN()};
   }
-  PlanarSettings settings;
-  settings.most_events = most_events_;
-  PlanarSolver solver(hard, hard.initial, settings);
+  PlanarSolver solver = planar_solver();
   const PlanarRun run = run_counting(solver, end, sample_interval, sink, collisions);
   return {run.end_time,   run.reached,   run.reason,       run.events,        0,
           run.collisions, run.collapses, run.energy_error, run.momentum_error};
@@ -78,9 +91,7 @@ std::vector<BodyState> BoxSolver::states_at(double time) const {
     solver.run(end, nullptr, 0);
     return solver.states();
   }
-  PlanarSettings settings;
-  settings.most_events = most_events_;
-  PlanarSolver solver(scene_->hard, scene_->hard.initial, settings);
+  PlanarSolver solver = planar_solver();
   solver.run(end, nullptr, 1);
   return solver.states();
 }

@@ -8,7 +8,8 @@
 #include "physics/frame.h"
 #include "reference/contact_scene.h"
 #include "reference/event_solver.h"
-#include "scenario/scenario.h"
+#include "reference/planar_solver.h"
+#include "reference/reference_settings.h"
 
 namespace slipcheck {
 
@@ -32,12 +33,14 @@ struct BoxRun {
 class BoxSolver {
  public:
   /// `scene` has a box and must outlive the solver. Throws Unsupported where contacts that last are
-  /// asked for and some are hard.
-  BoxSolver(const ContactScene& scene, Compare::Reference asked, double most_events);
+  /// asked for and some are hard, and for steps of fixed length.
+  BoxSolver(const ContactScene& scene, const ReferenceSettings& settings);
 
   const char* name() const { return resolved_ ? "contact" : "event"; }
   bool is_resolved() const { return resolved_; }  ///< contacts last
   const ContactScene& scene() const { return *scene_; }
+  /// What the loop that runs the scene was made for, in a few words each.
+  std::vector<std::string> loop() const;
 
   /// Runs to end.time [s] and shows `sink`, where given, the states at every multiple of
   /// `sample_interval` [s], > 0; `collisions` is then how many pairs have collided.
@@ -48,9 +51,11 @@ class BoxSolver {
   std::vector<BodyState> states_at(double time) const;
 
  private:
+  PlanarSolver planar_solver() const;
+
   const ContactScene* scene_;
+  ReferenceSettings settings_;
   bool resolved_;
-  double most_events_;
 };
 
 }  // namespace slipcheck

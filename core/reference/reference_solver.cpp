@@ -57,11 +57,6 @@ ReferenceSolver::ReferenceSolver(const ContactScene& scene, const ReferenceSetti
   StepSolver(scene, scene.hard.initial, {.step = step_, .general = settings.general});
 }
 
-ReferenceSettings reference_settings(const Scenario& scenario, bool general) {
-  return {scenario.compare.reference, scenario.run.most_events, scenario.compare.steps_per_contact,
-          general};
-}
-
 EventSettings ReferenceSolver::event_settings() const {
   EventSettings settings;
   settings.most_events = settings_.most_events;

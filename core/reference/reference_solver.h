@@ -7,6 +7,7 @@
 
 #include "reference/contact_solver.h"
 #include "reference/event_solver.h"
+#include "reference/reference_settings.h"
 
 namespace slipcheck {
 
@@ -28,16 +29,6 @@ struct SolverAccuracy {
   double tolerance = 1e-13;  ///< of the integrator
   double cut_offs = 1;       ///< factor on what counts as no rebound
   double step = 1;           ///< factor on the step of `steps`
-};
-
-/// How the solver is chosen and what it keeps to.
-struct ReferenceSettings {
-  Compare::Reference asked = Compare::Reference::automatic;
-  double most_events = Run{}.most_events;                  ///< [1/s], as of Run
-  double steps_per_contact = Compare{}.steps_per_contact;  ///< as of Compare
-  /// Takes the loops that leave out nothing of what a scene may have: they give the same, to the
-  /// last bit or to rounding.
-  bool general = false;
 };
 
 /// The solver that is the truth for a scene, chosen once.
@@ -92,9 +83,6 @@ class ReferenceSolver {
   bool resolved_, phases_;
   double step_ = 0;  ///< [s]
 };
-
-/// What a scene asks for.
-ReferenceSettings reference_settings(const Scenario& scenario, bool general = false);
 
 /// Whether EventSolver has an exact solution for what bodies do between collisions.
 bool has_exact_phases(const HardScene& scene);

@@ -57,8 +57,7 @@ compare:
 ReferenceResult run_reference_of(const std::string& text) {
   const Scenario scenario = parse_scenario(text, "box.yaml");
   const ContactScene scene = make_contact_scene(scenario);
-  return run_box_reference(
-      BoxSolver(scene, Compare::Reference::automatic, scenario.run.most_events), scenario);
+  return run_box_reference(BoxSolver(scene, reference_settings(scenario)), scenario);
 }
 
 std::vector<EngineRecord> run_engines(const std::string& text, std::size_t phases) {
@@ -130,7 +129,7 @@ class Sums final : public FrameSink {
 TEST(BoxRun, ItsMeansAreThoseOfTheFramesAtPhaseZero) {
   const Scenario scenario = parse_scenario(shaken_box(50, 100), "box.yaml");
   const ContactScene scene = make_contact_scene(scenario);
-  const BoxSolver solver(scene, Compare::Reference::automatic, scenario.run.most_events);
+  const BoxSolver solver(scene, reference_settings(scenario));
   const ReferenceResult result = run_box_reference(solver, scenario);
 
   Sums sums(scene.hard, 0.205);  // the look after 20 periods of 10 ms only begins the count
