@@ -239,7 +239,7 @@ void add_explain_command(CLI::App& app, int& exit_code) {
   command->footer("Example:\n  slipcheck explain scenarios/symmetric-30cms.yaml");
   command->callback([files, general, &exit_code] {
     const std::vector<Scenario> scenarios = load_files(*files);
-    const auto runs = requested_runs(scenarios);
+    const auto runs = requested_runs(scenarios, {}, nullptr, {}, *general);
     for (std::size_t s = 0; s < scenarios.size(); ++s) explain(scenarios[s], runs[s], *general);
     exit_code = kWithinTolerance;
   });

@@ -41,8 +41,9 @@ std::string no_profile(const EngineExecutable& executable, const std::string& as
 /// Finds, reads and checks the profiles of all scenes, each file and each engine once.
 class Profiles {
  public:
-  Profiles(const WorkerLimits& limits, const std::atomic<bool>* stop, const Settings& settings)
-      : limits_(limits), stop_(stop) {
+  Profiles(const WorkerLimits& limits, const std::atomic<bool>* stop, const Settings& settings,
+           bool general)
+      : limits_(limits), stop_(stop), general_(general) {
     over_.file = "--set";
     over_.settings = settings;
   }
@@ -61,6 +62,8 @@ class Profiles {
     choose_profile(scenario, key, executable, record);
     // Of both the setting that is given by hand holds.
     Settings settings = over_.settings;
+    if (general_ && executable && takes_leaves_out(executable->path))
+      settings.try_emplace("leaves_out", false);
     settings.merge(record.settings);
     record.settings = std::move(settings);
   }
@@ -136,6 +139,13 @@ class Profiles {
     }
   }
 
+  bool takes_leaves_out(const fs::path& executable) {
+    const EngineInfo* info = ask(executable);
+    return info && std::ranges::any_of(info->settings, [](const SettingInfo& setting) {
+             return setting.name == "leaves_out";
+           });
+  }
+
   const EngineInfo* ask(const fs::path& executable) {
     const auto [found, is_new] = infos_.try_emplace(executable);
     try {
@@ -148,6 +158,7 @@ class Profiles {
 
   WorkerLimits limits_;
   const std::atomic<bool>* stop_;
+  bool general_;
   Profile over_;  // over every other; its engine is that of the record at hand
   std::vector<std::string> engines_ = engine_names();
   std::map<fs::path, std::optional<Profile>> profiles_;
@@ -161,8 +172,8 @@ class Profiles {
 std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario>& scenarios,
                                                       const WorkerLimits& limits,
                                                       const std::atomic<bool>* stop,
-                                                      const Settings& settings) {
-  Profiles profiles(limits, stop, settings);
+                                                      const Settings& settings, bool general) {
+  Profiles profiles(limits, stop, settings, general);
   std::vector<std::vector<EngineRecord>> runs;
   for (const Scenario& scenario : scenarios) {
     std::vector<EngineRecord>& records = runs.emplace_back();

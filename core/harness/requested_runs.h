@@ -9,7 +9,8 @@
 namespace slipcheck {
 
 /// The runs that these scenes ask for in compare.engines, each engine at each of its rates, with
-/// the settings that their profiles choose, and these `settings` over them. A run whose profile is
+/// the settings that their profiles choose, and these `settings` over them. `general`: engines that
+/// have the setting `leaves_out` are to leave out nothing. A run whose profile is
 /// not shipped has its reason.
 ///
 /// A path of a profile is taken from the scene's own folder. Throws BadScenario with all that is
@@ -19,6 +20,7 @@ namespace slipcheck {
 std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario>& scenarios,
                                                       const WorkerLimits& limits = {},
                                                       const std::atomic<bool>* stop = nullptr,
-                                                      const Settings& settings = {});
+                                                      const Settings& settings = {},
+                                                      bool general = false);
 
 }  // namespace slipcheck

@@ -145,7 +145,7 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
 
 std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOptions& options) {
   std::vector<std::vector<EngineRecord>> runs =
-      requested_runs(scenarios, options.limits, options.stop, options.settings);
+      requested_runs(scenarios, options.limits, options.stop, options.settings, options.general);
   std::vector<PreparedScene> prepared =
       prepare_scenes(std::move(scenarios), options.general, options.workers);
   std::vector<EngineTask> tasks;

@@ -16,7 +16,7 @@ namespace slipcheck {
 struct RunOptions {
   std::size_t phases = 32;  ///< size of each engine's ensemble, >= 1
   Settings settings;        ///< of engines, over those of every profile
-  bool general = false;     ///< the reference's loops leave nothing out, as of ReferenceSettings
+  bool general = false;     ///< nothing is left out, as of ReferenceSettings and requested_runs()
   /// Of the reference and of what no EngineTask::watch looks at; not in a box, nor of more bodies
   /// than kMostRecordedBodies.
   bool record_motion = false;

@@ -248,6 +248,40 @@ class CommandLine(unittest.TestCase):
         report = json.loads(out.read_text())
         self.assertEqual([r["status"] for r in report["runs"]], ["ok", "skipped"])
 
+    def result_of(self, *arguments):
+        result = run("run", *arguments, "--json", "-")
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        return re.sub(r'"cpu_seconds": [^,\n]*', "", result.stdout)
+
+    def test_the_number_of_workers_changes_no_bit(self):
+        pair = self.scene("{engine: bullet, precision: double, rate: 240}")
+        for files in ([pair], [pair, SCENES / "slide-to-roll.yaml", SCENES / "three-ball-line.yaml"]):
+            alone = self.result_of(*files, "--phases", "7", "--workers", "1")
+            for workers in (2, 3, 16):
+                self.assertEqual(
+                    self.result_of(*files, "--phases", "7", "--workers", str(workers)), alone)
+
+    def test_general_loops_give_the_same(self):
+        # Steps of fixed length in the loop that has everything: the same to the last bit.
+        text = (SCENES / "rubbing-capped.yaml").read_text().replace(
+            "compare:", "compare:\n  reference: steps\n  steps_per_contact: 50")
+        file = self.path / "steps.yaml"
+        file.write_text(text)
+        special, general = (json.loads(self.result_of(file, *option))["reference"]["observables"]
+                            for option in ((), ("--general",)))
+        self.assertEqual(special, general)
+        self.assertGreater(len(special), 10)
+        # Bullet: likewise, frames and all.
+        pair = self.scene("{engine: bullet, precision: double, rate: 240}")
+        special, general = (json.loads(self.result_of(pair, *option))["runs"][0]["observables"]
+                            for option in ((), ("--general",)))
+        self.assertEqual(special, general)
+        self.assertIn("loop: phases on a level, still plane", run("explain", pair).stdout)
+        self.assertIn("left out: ", run("explain", pair).stdout)
+        text = run("explain", pair, "--general").stdout
+        self.assertIn("loop: phases on any plane", text)
+        self.assertNotIn("left out: ", text)
+
     def test_result_folder_and_same_inputs_same_bytes(self):
         file = self.scene("{engine: bullet, precision: double, rate: 240}")
         texts = []
