@@ -77,36 +77,27 @@ inline double towards_zero(double rate, double lost) {
 [[gnu::always_inline]] inline void rub(StepBody& b, const StepSurroundings&, PlainSubstrate,
                                        double load, Vector3& v, Vector3& w) {
   const SubstrateContact& c = *b.contact;
-  const double ux = v.x() - b.radius * w.y(), uy = v.y() + b.radius * w.x();
-  const double stop_x = b.share * ux, stop_y = b.share * uy;
+  const Vector2 u(v.x() - b.radius * w.y(), v.y() + b.radius * w.x());
+  const Vector2 stop = b.share * u;
   const double per_slip = load * b.inverse_mass;  // (1+A) times this is taken from the slip
   const double cap = (b.sticks ? c.static_friction : c.kinetic_friction) * per_slip;
-  b.sticks = stop_x * stop_x + stop_y * stop_y <= cap * cap;
+  b.sticks = stop.squaredNorm() <= cap * cap;
   if (b.sticks) {
-    v.x() -= stop_x;
-    v.y() -= stop_y;
-    w.x() = -v.y() * b.inverse_radius;
-    w.y() = v.x() * b.inverse_radius;
+    v.head<2>() -= stop;
+    w.head<2>() = Vector2(-v.y(), v.x()) * b.inverse_radius;
     return;
   }
   // Friction acts against the slip that the last step lets expect in the middle of this one, so
   // that a turning slip is followed to second order; where that says nothing, against the one at
   // hand. (It does not wait for the forces of now, and the square root is off the critical path.)
-  const double rx = b.velocity.x() + 0.5 * b.velocity_change.x();
-  const double ry = b.velocity.y() + 0.5 * b.velocity_change.y();
-  const double wx = b.angular_velocity.x() + 0.5 * b.angular_velocity_change.x();
-  const double wy = b.angular_velocity.y() + 0.5 * b.angular_velocity_change.y();
-  double dx = rx - b.radius * wy, dy = ry + b.radius * wx;
-  if (!(dx * ux + dy * uy > 0)) [[unlikely]] {
-    dx = ux;
-    dy = uy;
-  }
-  const double change = c.kinetic_friction * per_slip * (1 / std::sqrt(dx * dx + dy * dy));
-  const double turn = change * b.turn;
-  v.x() -= change * dx;
-  v.y() -= change * dy;
-  w.x() -= turn * dy;
-  w.y() += turn * dx;
+  const Vector3 velocity = b.velocity + 0.5 * b.velocity_change;
+  const Vector3 spin = b.angular_velocity + 0.5 * b.angular_velocity_change;
+  Vector2 direction(velocity.x() - b.radius * spin.y(), velocity.y() + b.radius * spin.x());
+  if (!(direction.dot(u) > 0)) [[unlikely]]
+    direction = u;
+  const double change = c.kinetic_friction * per_slip * (1 / direction.norm());
+  v.head<2>() -= change * direction;
+  w.head<2>() += (change * b.turn) * Vector2(-direction.y(), direction.x());
 }
 
 inline void rub(StepBody& b, const StepSurroundings& s, FullSubstrate, double load, Vector3& v,

@@ -175,10 +175,11 @@ class StepLoop final : public StepKernel {
   [[gnu::always_inline]] void meet(StepWorld& world, StepBody& a, StepBody& b, Pair& pair,
                                    const Law& law, const Vector3& between, double reach,
                                    double distance) {
-    const Vector3 n = between * (1 / distance);
-    const double overlap = reach - distance;
+    // Products first that need not wait for the root and the division.
     const Vector3 dv = (a.velocity - b.velocity) + 0.5 * (a.velocity_change - b.velocity_change);
-    const double closing = -n.dot(dv);
+    const double parting = between.dot(dv), inverse = 1 / distance;
+    const double overlap = reach - distance, closing = -parting * inverse;
+    const Vector3 n = between * inverse;
     const double normal = law.normal(overlap, closing);
     if ((law.clamped && normal <= 0) || (overlap <= 0 && closing <= 0)) [[unlikely]] {
       if (pair.touching) {
