@@ -44,7 +44,7 @@ def main():
     build = Path(sys.argv[1])
     if not shutil.which("lmp"):
         sys.exit("run.py: LAMMPS is not installed (apt-get install lammps)")
-    sizes = [(1000, 20000), (10000, 3000), (100000, 300)]
+    sizes = [(1000, 20000), (10000, 3000), (100000, 1000)]
     if "--quick" in sys.argv:
         sizes = [(1000, 4000), (10000, 1000)]
     print(f"{'grains':>10} {'fraction':>8} {'kind':>10} {'LAMMPS':>8} {'ours':>8} {'ratio':>6} "
