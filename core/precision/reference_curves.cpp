@@ -189,7 +189,14 @@ WorkPrecision Curves::stepped_point(double step) const {
     StepsAsEvents events(observer);
     SampledPath path(times_, &events);
     StepSolver solver(*scene_.contact, hard.initial, {h});
-    const StepRun run = solver.run(end_, &path);
+    StepRun run;
+    try {
+      run = solver.run(end_, &path);
+    } catch (const StepTooLong& too_long) {
+      point.status = RunStatus::unstable;
+      point.reason = too_long.what();
+      return point;
+    }
     path.stop_telling();
     if (path.centres.size() < times_.size())
       solver.run({Run::Until::time, times_.back(), times_.back()}, &path);

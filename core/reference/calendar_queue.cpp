@@ -26,6 +26,24 @@ constexpr auto kLater = [](const QueuedEvent& a, const QueuedEvent& b) { return 
 CalendarQueue::CalendarQueue(std::size_t n)
     : time_(n, kNever), wheel_(std::bit_ceil(std::max<std::size_t>(n / 8, 16))) {}
 
+void CalendarQueue::append(List& list, const QueuedEvent& entry) {
+  if (list.last == kNone || list.count == kInPiece) {
+    if (free_.empty()) {
+      free_.push_back(static_cast<std::uint32_t>(pieces_.size()));
+      pieces_.emplace_back();
+    }
+    pieces_[free_.back()].before = list.last;
+    list = {free_.back(), 0};
+    free_.pop_back();
+  }
+  pieces_[list.last].entry[list.count++] = entry;
+}
+
+void CalendarQueue::clear(List& list) {
+  for (std::uint32_t at = list.last; at != kNone; at = pieces_[at].before) free_.push_back(at);
+  list = {};
+}
+
 void CalendarQueue::place(const QueuedEvent& entry) {
   const double stretch = stretch_of(entry.time);
   const auto lists = static_cast<std::int64_t>(wheel_.size());
@@ -33,8 +51,8 @@ void CalendarQueue::place(const QueuedEvent& entry) {
     heap_.push_back(entry);
     std::push_heap(heap_.begin(), heap_.end(), kLater);
   } else if (stretch < static_cast<double>(current_ + lists)) {
-    wheel_[static_cast<std::size_t>(static_cast<std::int64_t>(stretch) & (lists - 1))].push_back(
-        entry);
+    append(wheel_[static_cast<std::size_t>(static_cast<std::int64_t>(stretch) & (lists - 1))],
+           entry);
     ++in_wheel_;
   } else if (entry.time < kNever) {
     beyond_.push_back(entry);
@@ -78,11 +96,12 @@ void CalendarQueue::advance() {
       if (holds(entry)) place(entry);
     moved_.clear();
   }
-  std::vector<QueuedEvent>& list = wheel_[static_cast<std::size_t>(current_ & (lists - 1))];
-  in_wheel_ -= list.size();
-  for (const QueuedEvent& entry : list)
+  List& list = wheel_[static_cast<std::size_t>(current_ & (lists - 1))];
+  for_each_in(list, [&](const QueuedEvent& entry) {
+    --in_wheel_;
     if (holds(entry)) heap_.push_back(entry);
-  list.clear();
+  });
+  clear(list);
   std::make_heap(heap_.begin(), heap_.end(), kLater);
 }
 
@@ -94,7 +113,9 @@ void CalendarQueue::jump() {
 }
 
 void CalendarQueue::rebuild(double base, double width) {
-  for (std::vector<QueuedEvent>& list : wheel_) list.clear();
+  std::ranges::fill(wheel_, List{});
+  pieces_.clear();
+  free_.clear();
   heap_.clear();
   beyond_.clear();
   in_wheel_ = 0;

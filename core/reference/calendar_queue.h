@@ -1,9 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
+
+#include "reference/huge_pages.h"
+#include "reference/prefetch.h"
 
 namespace slipcheck {
 
@@ -35,14 +39,53 @@ class CalendarQueue {
 
   /// Number of the stretch of time that first() is in. It may begin again.
   std::int64_t stretch() const { return current_; }
-  /// Entries of the k-th stretch from there, in [0, 16), some of them replaced; more may come.
-  std::span<const QueuedEvent> in_stretch(std::int64_t k) const {
-    if (k == 0) return heap_;
-    return wheel_[static_cast<std::size_t>(current_ + k) & (wheel_.size() - 1)];
+  /// f(body) for the entries of the k-th stretch from there, in [0, 16), that hold so far; more may
+  /// come.
+  template <class F>
+  void for_each_in_stretch(std::int64_t k, F f) const {
+    const auto look = [&](const QueuedEvent& entry) {
+      if (holds(entry)) f(entry.body);
+    };
+    if (k == 0)
+      std::ranges::for_each(heap_, look);
+    else
+      for_each_in(list_of(current_ + k), look);
   }
-  void prefetch(std::uint32_t body) const { __builtin_prefetch(&time_[body]); }
+  /// Into the caches: what tells which entries of the k-th stretch from there hold.
+  void prefetch(std::int64_t k) const {
+    for_each_in(list_of(current_ + k),
+                [&](const QueuedEvent& entry) { slipcheck::prefetch(&time_[entry.body]); });
+  }
 
  private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr std::uint32_t kInPiece = 15;
+  /// A piece of a list. Pieces are used again as soon as they are empty: all of them together take
+  /// little more memory than their entries.
+  struct alignas(64) Piece {
+    std::array<QueuedEvent, kInPiece> entry;
+    std::uint32_t before = kNone;  ///< in its list; full
+  };
+  static_assert(sizeof(Piece) == 256);
+  struct List {
+    std::uint32_t last = kNone;  ///< piece
+    std::uint32_t count = 0;     ///< of entries in it
+  };
+
+  const List& list_of(std::int64_t stretch) const {
+    return wheel_[static_cast<std::size_t>(stretch) & (wheel_.size() - 1)];
+  }
+  template <class F>
+  void for_each_in(const List& list, F f) const {
+    std::uint32_t count = list.count;
+    for (std::uint32_t at = list.last; at != kNone; at = pieces_[at].before) {
+      const Piece& piece = pieces_[at];
+      for (std::uint32_t k = 0; k < count; ++k) f(piece.entry[k]);
+      count = kInPiece;
+    }
+  }
+  void append(List& list, const QueuedEvent& entry);
+  void clear(List& list);
   bool holds(const QueuedEvent& entry) const { return time_[entry.body] == entry.time; }
   /// Of a time in stretches since `base_`; as a double, for it may be huge.
   double stretch_of(double time) const { return (time - base_) * per_width_; }
@@ -53,9 +96,11 @@ class CalendarQueue {
   void rebuild(double base, double width);
   void adapt(double now);
 
-  std::vector<double> time_;
+  std::vector<double, HugePages<double>> time_;
   std::vector<QueuedEvent> heap_;
-  std::vector<std::vector<QueuedEvent>> wheel_;
+  std::vector<List> wheel_;
+  std::vector<Piece, HugePages<Piece>> pieces_;
+  std::vector<std::uint32_t> free_;  ///< pieces; the last that became empty last
   std::vector<QueuedEvent> beyond_, moved_;
   std::size_t in_wheel_ = 0;
   double base_ = 0, per_width_ = 1;

@@ -8,6 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "reference/huge_pages.h"
+#include "reference/prefetch.h"
+
 namespace slipcheck {
 
 /// Square-meshed cells over an unbounded plane, folded onto a finite number of them, so that bodies
@@ -74,15 +77,30 @@ class CellGrid {
     link(body);
   }
 
-  // Into the caches: the cell that a body is in, by number, and the cells around it.
-  void prefetch(std::uint32_t i) const { __builtin_prefetch(&nodes_[i]); }
-  void prefetch_cells(std::uint32_t i) const {
+  // Into the caches: the cell that a body is in, by number; and the cells around it, once it has
+  // moved by (dx, dy).
+  void prefetch(std::uint32_t i) const { slipcheck::prefetch(&nodes_[i]); }
+  void prefetch_cells(std::uint32_t i, int dx, int dy) const {
     const Node& node = nodes_[i];
-    for (int dy = -1; dy <= 1; ++dy) {
-      const Cell* row = &cells_[cell_at(0, step(node.y, dy, ny_))];
-      __builtin_prefetch(row + step(node.x, -1, nx_));
-      __builtin_prefetch(row + step(node.x, +1, nx_));
+    const std::uint32_t x = step(node.x, dx, nx_), y = step(node.y, dy, ny_);
+    for (int v = -1; v <= 1; ++v) {
+      const Cell* row = &cells_[cell_at(0, step(y, v, ny_))];
+      slipcheck::prefetch(row + step(x, -1, nx_));
+      slipcheck::prefetch(row + step(x, +1, nx_));
     }
+  }
+  /// f(j) for most bodies that i will look at after such a move, and for i, without order; (0, 0)
+  /// stands for all around it.
+  template <class F>
+  void for_most_near(std::uint32_t i, int dx, int dy, F f) const {
+    const Node& node = nodes_[i];
+    const std::uint32_t x = step(node.x, dx, nx_), y = step(node.y, dy, ny_);
+    for (int v = dy > 0 ? 1 : -1; v <= (dy < 0 ? -1 : 1); ++v)
+      for (int u = dx > 0 ? 1 : -1; u <= (dx < 0 ? -1 : 1); ++u) {
+        const Cell& cell = cells_[cell_at(step(x, u, nx_), step(y, v, ny_))];
+        // A coin toss again: no branch.
+        for (std::size_t k = 0; k < 2; ++k) f(cell.body[k] == kNone ? i : cell.body[k]);
+      }
   }
 
   /// f(j, shift) for every other body in the cell of i and the eight around it.
@@ -208,8 +226,8 @@ class CellGrid {
   double width_x_, width_y_;
   std::uint32_t nx_, ny_;
   Shift period_;
-  std::vector<Cell> cells_;
-  std::vector<Node> nodes_;
+  std::vector<Cell, HugePages<Cell>> cells_;
+  std::vector<Node, HugePages<Node>> nodes_;
 };
 
 }  // namespace slipcheck

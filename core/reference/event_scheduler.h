@@ -122,24 +122,24 @@ class EventScheduler {
  private:
   static constexpr std::uint32_t kNobody = EventPlan::kNobody;
 
-  /// Caches hold so many bodies without help.
-  static constexpr std::size_t kFew = 20'000;
+  /// Caches hold so many bodies without help, and so many with little (slipcheck_bench).
+  static constexpr std::size_t kFew = 20'000, kMany = 300'000;
   static constexpr bool kLooksAhead = KeepsPlans<World> && std::is_same_v<Queue, CalendarQueue>;
 
-  /// Asks for what the events of the next stretches of time will need: bodies first, then their
-  /// partners and the cells around them. Changes nothing. To ask for all neighbours too costs more
-  /// than it saves.
+  /// Asks for what the events of the next stretches of time will need, each from what the stretch
+  /// before has brought: bodies, then their partners and the cells around them, and of many bodies
+  /// those in these cells, too. Changes nothing.
   void look_ahead() {
     if (queue_.stretch() == stretch_ || world_->size() < kFew) return;
     stretch_ = queue_.stretch();
-    for (const QueuedEvent& entry : queue_.in_stretch(2)) {
-      queue_.prefetch(entry.body);
-      world_->prefetch(entry.body);
-    }
-    for (const QueuedEvent& entry : queue_.in_stretch(1)) {
-      world_->prefetch_cells(entry.body);
-      if (const std::uint32_t j = plan(entry.body).partner; j != kNobody) world_->prefetch(j);
-    }
+    queue_.prefetch(3);
+    queue_.for_each_in_stretch(2, [&](std::uint32_t i) { world_->prefetch(i); });
+    queue_.for_each_in_stretch(1, [&](std::uint32_t i) {
+      world_->prefetch_cells(i);
+      if (const std::uint32_t j = plan(i).partner; j != kNobody) world_->prefetch(j);
+    });
+    if (world_->size() < kMany) return;
+    queue_.for_each_in_stretch(0, [&](std::uint32_t i) { world_->prefetch_neighbours(i); });
   }
 
   EventPlan& plan(std::uint32_t i) {

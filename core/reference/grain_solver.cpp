@@ -11,6 +11,7 @@
 #include "reference/grain_islands.h"
 #include "reference/grain_kernels.h"
 #include "reference/grain_neighbours.h"
+#include "reference/step_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -141,6 +142,8 @@ class GrainSolver::Impl {
 
   void advance(std::size_t steps) {
     while (steps > 0) {
+      if (!(fastest_ * step_ <= 0.5 * radius()))
+        throw StepTooLong("bodies move by more than half a radius in a step");
       const std::size_t length = next_block(steps);
       if (length == 0) {
         find_neighbours(std::min(steps, kLongestBlock));

@@ -33,6 +33,7 @@ class GrainSolver {
   ~GrainSolver();
   GrainSolver(GrainSolver&&) noexcept;
 
+  /// Throws StepTooLong where a grain moves by more than half a radius in a step.
   void advance(std::size_t steps);
 
   double now() const;              ///< [s]

@@ -25,6 +25,7 @@ class PlanarLoop {
   EventPlan& plan(std::uint32_t i) { return world_->plan(i); }
   void prefetch(std::uint32_t i) const { world_->prefetch(i); }
   void prefetch_cells(std::uint32_t i) const { world_->prefetch_cells(i); }
+  void prefetch_neighbours(std::uint32_t i) const { world_->prefetch_neighbours(i); }
   double own_event_time(std::uint32_t i, double now) {
     return world_->own_event_time<kHas>(i, now);
   }

@@ -11,6 +11,8 @@
 #include "physics/sphere.h"
 #include "reference/cell_grid.h"
 #include "reference/event_scheduler.h"
+#include "reference/huge_pages.h"
+#include "reference/prefetch.h"
 #include "scenario/hard_scene.h"
 
 namespace slipcheck {
@@ -48,13 +50,20 @@ class PlanarWorld {
   // --- for EventScheduler; planar_loop.h has what is not here ---
   std::size_t size() const { return bodies_.size(); }
   EventPlan& plan(std::uint32_t i) { return bodies_[i].plan; }
-  // Into the caches: a body, and the cells around it.
+  // Into the caches: a body, and the cells and bodies that its next event will look at.
   void prefetch(std::uint32_t i) const {
-    __builtin_prefetch(&bodies_[i]);
-    __builtin_prefetch(&matter_[i]);
+    slipcheck::prefetch(&bodies_[i]);
+    slipcheck::prefetch(&matter_[i]);
     grid_.prefetch(i);
   }
-  void prefetch_cells(std::uint32_t i) const { grid_.prefetch_cells(i); }
+  void prefetch_cells(std::uint32_t i) const {
+    const auto [dx, dy] = next_step(i);
+    grid_.prefetch_cells(i, dx, dy);
+  }
+  void prefetch_neighbours(std::uint32_t i) const {
+    const auto [dx, dy] = next_step(i);
+    grid_.for_most_near(i, dx, dy, [&](std::uint32_t j) { slipcheck::prefetch(&bodies_[j]); });
+  }
   template <PlanarFeatures kHas = PlanarFeatures{}>
   double own_event_time(std::uint32_t i, double now);
   template <PlanarFeatures kHas = PlanarFeatures{}>
@@ -110,6 +119,15 @@ class PlanarWorld {
     const std::vector<PairContact>* contacts;
   };
 
+  struct Step {
+    int x, y;
+  };
+  /// To another cell, in the body's next event as it is planned; (0, 0) if it stays.
+  Step next_step(std::uint32_t i) const {
+    static constexpr std::array<Step, 9> kStep{{{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    const EventPlan& plan = bodies_[i].plan;
+    return kStep[plan.own <= plan.collision ? static_cast<std::size_t>(matter_[i].own) : 0];
+  }
   template <PlanarFeatures kHas>
   Body& moved_to(std::uint32_t i, double now) {
     Body& body = bodies_[i];
@@ -163,9 +181,9 @@ class PlanarWorld {
   std::int32_t last_column_ = 0;  ///< in a box
   CellGrid grid_;
   std::vector<std::uint32_t> place_;  ///< of the scene's bodies; neighbours lie close in memory
-  std::vector<Body> bodies_;
-  std::vector<Matter> matter_;
-  std::vector<double> radii_;
+  std::vector<Body, HugePages<Body>> bodies_;
+  std::vector<Matter, HugePages<Matter>> matter_;
+  std::vector<double, HugePages<double>> radii_;
   double contact_square_;  ///< of the distance at contact, where all radii are the same [m²]
   CellGrid::Around around_;
   int moved_x_ = 0, moved_y_ = 0;  ///< of the body whose cell changed last

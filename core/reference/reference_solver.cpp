@@ -72,8 +72,16 @@ SolvedRun ReferenceSolver::run_steps(const RunEnd& end, FrameSink* sink, double 
   StepSolver solver(scene(), scene().hard.initial, {.step = step, .general = settings_.general});
   std::optional<StepsAsEvents> events;
   if (sink) events.emplace(*sink);
-  const StepRun run = solver.run(end, events ? &*events : nullptr);
   SolvedRun solved;
+  StepRun run;
+  try {
+    run = solver.run(end, events ? &*events : nullptr);
+  } catch (const StepTooLong& too_long) {
+    solved.failed = true;
+    solved.reason = too_long.what();
+    solved.end_time = solver.now();
+    return solved;
+  }
   solved.end_time = run.end_time;
   solved.reached = run.reached;
   solved.reason = run.reason;

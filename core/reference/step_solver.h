@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct StepSettings {
   /// Takes the loop that leaves out nothing. Between all pairs the results are the same to the last
   /// bit; GrainLoop adds in another order.
   bool general = false;
+};
+
+/// The steps are too long for what the bodies do.
+class StepTooLong : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 struct StepRun {
@@ -50,6 +57,8 @@ class StepSolver {
   ~StepSolver();
   StepSolver(StepSolver&&) noexcept;
 
+  /// Throws StepTooLong where many bodies move so far in a step that neighbours cannot be told.
+  ///
   /// Runs from time 0, or from now when called again, to the first step at or after the end. Shows
   /// `sink`, where given, a frame a step.
   StepRun run(const RunEnd& end, FrameSink* sink);

@@ -213,6 +213,16 @@ TEST(GrainSolver, SameBitsOnEveryInstructionSet) {
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
+/// Beyond the limit of the linear contact, 2/ω0 = (2/π) t_col, energy grows until grains jump over
+/// each other; that is told and does not go on for ever.
+TEST(GrainSolver, StepsBeyondTheLimitOfStabilityEnd) {
+  const ContactScene scene = periodic_gas(100, 0.6, false, 1.0);
+  GrainSolver stable(scene, scene.hard.initial, 0.3 * 1e-2);
+  stable.advance(5000);
+  GrainSolver unstable(scene, scene.hard.initial, 1.3 * 2 / M_PI * 1e-2);
+  EXPECT_THROW(unstable.advance(1'000'000), StepTooLong);
+}
+
 TEST(GrainSolver, TellsWhatItDoesNotTake) {
   const auto refusal = [](auto change) {
     ContactScene scene = periodic_gas(9, 0.1, true, 0.9);
@@ -220,10 +230,17 @@ TEST(GrainSolver, TellsWhatItDoesNotTake) {
     return GrainSolver::refusal(scene, scene.hard.initial);
   };
   EXPECT_EQ(refusal([](ContactScene&) {}), "");
-  EXPECT_THAT(refusal([](ContactScene& s) {
-                s.hard.downhill = {0, -1};
-              }),
-              testing::HasSubstr("tilted"));
+  const auto expect = [&](const char* reason, auto change) {
+    EXPECT_THAT(refusal(change), testing::HasSubstr(reason));
+  };
+  expect("tilted", [](ContactScene& s) { s.hard.downhill = {0, -1}; });
+  expect("rolling", [](ContactScene& s) { s.hard.substrate[0].rolling = RollingFriction(0.1); });
+  expect("drilling", [](ContactScene& s) { s.hard.substrate[0].drilling_length = 0.1; });
+  expect("not all contacts", [](ContactScene& s) { s.soft[0].reset(); });
+  expect("asperities", [](ContactScene& s) { s.soft[0]->tangential = AsperityForce{0.1, 1e-3}; });
+  expect("radius", [](ContactScene& s) { s.hard.bodies[3].radius = 0.4; });
+  expect("above", [](ContactScene& s) { s.hard.initial[3].position.z() = 0.6; });
+  expect("confined", [](ContactScene& s) { s.hard.confined = false; });
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ substrate: {periodic: [1, 1], motion: {kind: table, table: [[0, 0, 0]]}},
 bodies: [{name: a, material: m, sphere: {radius: 1, inertia: shell}, mass: 1, position: [1, 2, 3], velocity: [1, 2, 3], spin: [1, 2, 3]},
   {fill: {prefix: g, count: 1, material: m, radius: {uniform: [1, 2]}, area: [0, 0, 1, 1], speed: 1, seed: 1, spin: rolling, inertia: 0.4}}],
 fill: {prefix: h, count: 1, material: m, radius: 1, area: [0, 0, 1, 1], arrange: lattice},
-run: {until: 3 s, limit: 4, discard: auto, most_events: 1, collapse: {model: contact_time, contact_time: 1}}, compare: {engines: [{engine: e, rate: 1, expect: {a-substrate.restitution: {min: [1, 2], max: [1, 2]}, a.sliding_time: {median: [1 s, 2]}, g1.final_velocity.x: none, all.height: {max: [1, 2]}}},
+run: {until: 3 s, limit: 4, discard: auto, most_events: 1, collapse: {model: contact_time, contact_time: 1}}, compare: {reference: steps, steps_per_contact: 50, engines: [{engine: e, rate: 1, expect: {a-substrate.restitution: {min: [1, 2], max: [1, 2]}, a.sliding_time: {median: [1 s, 2]}, g1.final_velocity.x: none, all.height: {max: [1, 2]}}},
   {engine: e, rate: 1, expect: {status: crashed}}], tolerance: {final_velocity.x: 1 mm/s}}})";
 
 /// A plain scalar as YAML 1.2 reads it.
