@@ -26,19 +26,6 @@ constexpr auto kLater = [](const QueuedEvent& a, const QueuedEvent& b) { return 
 CalendarQueue::CalendarQueue(std::size_t n)
     : time_(n, kNever), wheel_(std::bit_ceil(std::max<std::size_t>(n / 8, 16))) {}
 
-void CalendarQueue::append(List& list, const QueuedEvent& entry) {
-  if (list.last == kNone || list.count == kInPiece) {
-    if (free_.empty()) {
-      free_.push_back(static_cast<std::uint32_t>(pieces_.size()));
-      pieces_.emplace_back();
-    }
-    pieces_[free_.back()].before = list.last;
-    list = {free_.back(), 0};
-    free_.pop_back();
-  }
-  pieces_[list.last].entry[list.count++] = entry;
-}
-
 void CalendarQueue::clear(List& list) {
   for (std::uint32_t at = list.last; at != kNone; at = pieces_[at].before) free_.push_back(at);
   list = {};

@@ -84,7 +84,18 @@ class CalendarQueue {
       count = kInPiece;
     }
   }
-  void append(List& list, const QueuedEvent& entry);
+  void append(List& list, const QueuedEvent& entry) {
+    if (list.last == kNone || list.count == kInPiece) {
+      if (free_.empty()) {
+        free_.push_back(static_cast<std::uint32_t>(pieces_.size()));
+        pieces_.emplace_back();
+      }
+      pieces_[free_.back()].before = list.last;
+      list = {free_.back(), 0};
+      free_.pop_back();
+    }
+    pieces_[list.last].entry[list.count++] = entry;
+  }
   void clear(List& list);
   bool holds(const QueuedEvent& entry) const { return time_[entry.body] == entry.time; }
   /// Of a time in stretches since `base_`; as a double, for it may be huge.

@@ -1,5 +1,7 @@
 #include "reference/grain_loop.h"
 
+#include "reference/grain_scene.h"
+
 namespace slipcheck {
 
 void GrainLoop::find_forces(StepWorld& world) {
@@ -33,7 +35,7 @@ bool GrainLoop::is_met(const StepWorld&, StepStop stop) const {
 void GrainLoop::show(const StepWorld&, Frame& frame) { solver_->show(frame); }
 
 std::vector<std::string> GrainLoop::features() const {
-  const GrainFeatures has = GrainSolver::features(*scene_, scene_->hard.initial);
+  const GrainFeatures has = grain_features(*scene_, scene_->hard.initial);
   return {
       has.any_normal ? "any normal force" : "linear normal force",
       has.rubs ? "viscous tangential force with Coulomb's cap" : "no tangential force, no torque",

@@ -12,7 +12,7 @@ namespace slipcheck {
 /// The loop over the steps of many bodies in a plane: GrainSolver behind StepSolver.
 class GrainLoop final : public StepKernel {
  public:
-  /// The scene must outlive this and have no GrainSolver::refusal.
+  /// The scene must outlive this and have no grain_refusal().
   explicit GrainLoop(const ContactScene& scene) : scene_(&scene) {}
 
   void find_forces(StepWorld& world) override;

@@ -7,7 +7,6 @@
 
 #include "physics/frame.h"
 #include "reference/contact_scene.h"
-#include "reference/grain_kernels.h"
 
 namespace slipcheck {
 
@@ -20,15 +19,10 @@ namespace slipcheck {
 /// bits on every machine. Against StepSolver only the order of sums differs.
 class GrainSolver {
  public:
-  /// Why this solver does not take the scene, or nothing.
-  static std::string refusal(const ContactScene& scene, std::span<const BodyState> initial);
-
-  /// What the scene needs of the loop.
-  static GrainFeatures features(const ContactScene& scene, std::span<const BodyState> initial);
   /// The machine's that the loop is compiled for: "AVX3".
   static std::string instruction_set();
 
-  /// The scene must outlive the solver and have no refusal. step: h [s], > 0.
+  /// The scene must outlive the solver and have no grain_refusal(). step: h [s], > 0.
   GrainSolver(const ContactScene& scene, std::span<const BodyState> initial, double step);
   ~GrainSolver();
   GrainSolver(GrainSolver&&) noexcept;

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "reference/grain_loop.h"
+#include "reference/grain_scene.h"
 #include "reference/step_kernel.h"
 #include "reference/step_loop.h"
 
@@ -119,7 +120,7 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
                         tangential_of(*some).index() != tangential_of(*contact).index());
       some = &*contact;
     }
-  const std::string not_grains = GrainSolver::refusal(scene, initial);
+  const std::string not_grains = grain_refusal(scene, initial);
   const bool periodic = !hard.periodic.isZero(0);
   if (not_grains.empty() && !general && (periodic || hard.bodies.size() > kMostInAllPairs))
     return std::make_unique<GrainLoop>(scene);

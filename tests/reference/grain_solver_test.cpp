@@ -10,6 +10,7 @@
 #include <string>
 
 #include "planar_scenes.h"
+#include "reference/grain_scene.h"
 #include "reference/step_solver.h"
 #include "step_scenes.h"
 
@@ -70,7 +71,7 @@ class GrainLaws : public testing::TestWithParam<Laws> {};
 /// of many.
 TEST_P(GrainLaws, StepsAsStepSolverDoes) {
   const ContactScene scene = cluster(GetParam(), 4);
-  ASSERT_EQ(GrainSolver::refusal(scene, scene.hard.initial), "");
+  ASSERT_EQ(grain_refusal(scene, scene.hard.initial), "");
   GrainSolver grains(scene, scene.hard.initial, kStep);
   StepSolver steps(scene, scene.hard.initial, {kStep});
   std::vector<BodyState> aside = scene.hard.initial;
@@ -227,7 +228,7 @@ TEST(GrainSolver, TellsWhatItDoesNotTake) {
   const auto refusal = [](auto change) {
     ContactScene scene = periodic_gas(9, 0.1, true, 0.9);
     change(scene);
-    return GrainSolver::refusal(scene, scene.hard.initial);
+    return grain_refusal(scene, scene.hard.initial);
   };
   EXPECT_EQ(refusal([](ContactScene&) {}), "");
   const auto expect = [&](const char* reason, auto change) {
