@@ -51,6 +51,12 @@ void print_solver(const ContactScene& scene, const BoxSolver& solver) {
                                : "asked for by compare.reference; soft contacts become hard ones");
 }
 
+/// What the loop was made for.
+void print_loop(const std::vector<std::string>& loop) {
+  fmt::print("\n  Loop\n");
+  for (const std::string& part : loop) fmt::print("    {}\n", part);
+}
+
 void print_features(const ContactScene& scene) {
   const std::vector<Feature> features = scene_features(scene);
   for (const bool needed : {true, false}) {
@@ -187,7 +193,7 @@ void print_engines(const Scenario& scenario, const HardScene& scene,
 void explain_in_box(const Scenario& scenario, const ContactScene& scene, bool general) {
   const BoxSolver solver(scene, reference_settings(scenario, general));
   print_solver(scene, solver);
-  fmt::print("  loop: {}\n", fmt::join(solver.loop(), "; "));
+  print_loop(solver.loop());
   print_features(solver.is_resolved() ? scene : with_hard_contacts(scene.hard));
   explain_bodies(scenario, scene.hard);
   explain_box(scenario, scene);
@@ -200,7 +206,7 @@ void explain_on_substrate(const Scenario& scenario, const ContactScene& scene, b
   const RunEnd end = run_end(scenario);
   const auto meeting = first_meeting(scene, end.until == Run::Until::time ? end.time : end.limit);
   print_solver(scene, solver);
-  fmt::print("  loop: {}\n", fmt::join(solver.loop(), "; "));
+  print_loop(solver.loop());
   print_features(solver.scene());
   explain_bodies(scenario, scene.hard);
   print_substrate(scenario, scene.hard);

@@ -276,9 +276,9 @@ class CommandLine(unittest.TestCase):
         special, general = (json.loads(self.result_of(pair, *option))["runs"][0]["observables"]
                             for option in ((), ("--general",)))
         self.assertEqual(special, general)
-        self.assertIn("loop: phases on a level, still plane", run("explain", pair).stdout)
+        self.assertIn("Loop\n    phases on a level, still plane\n", run("explain", pair).stdout)
         text = run("explain", pair, "--general").stdout
-        self.assertIn("loop: phases on any plane", text)
+        self.assertIn("Loop\n    phases on any plane\n", text)
         # Bullet itself makes no rows for friction that is not there.
         self.assertIn("left out: rolling rows", text)
         self.assertGreater(run("explain", pair).stdout.count("left out: "),
