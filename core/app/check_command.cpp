@@ -53,7 +53,7 @@ void check_arguments(const CheckArguments& arguments) {
   if (!arguments.json.empty() && arguments.json != "-")
     check_output("--json", arguments.json, false);
   std::error_code ignored;
-  if (!arguments.update && !fs::is_directory(arguments.baselines, ignored))
+  if (fs::exists(arguments.baselines, ignored) && !fs::is_directory(arguments.baselines, ignored))
     throw BadOption(fmt::format("--baselines: must be a directory, got {}", arguments.baselines));
   if (arguments.update) {
     check_output("--baselines", arguments.baselines, true);
@@ -82,7 +82,12 @@ Baselines load(const CheckArguments& arguments, bool all, const std::vector<Scen
 /// `all`: baselines of other scenes are left over.
 CheckReport hold(const CheckArguments& arguments, const Baselines& baselines,
                  const std::vector<SceneRecord>& scenes, bool all) {
-  CheckReport report{arguments.baselines, arguments.options.phases, {}};
+  CheckReport report{arguments.baselines, arguments.options.phases, {}, {}};
+  if (baselines.empty())
+    report.advice = fmt::format(
+        "there are no baselines yet: slipcheck check{} --baselines {} "
+        "--update makes them",
+        all ? "" : fmt::format(" {}", fmt::join(arguments.files, " ")), arguments.baselines);
   std::set<std::string> names;
   for (const SceneRecord& scene : scenes) {
     const std::string& name = scene.scenario.name;

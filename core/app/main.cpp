@@ -18,8 +18,9 @@ int main(int argc, char** argv) {
                                                 context().commit, context().build));
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 all within tolerance, 1 something deviates, 2 bad input, 3 an engine failed,\n"
-      "4 the results could not be written, 130 interrupted.\n\nExample:\n  slipcheck run "
+      "Exit codes: 0 all within tolerance, 1 something deviates or is undecided, 2 bad input,\n"
+      "3 an engine failed, 4 the results could not be written, 130 interrupted.\n\nExample:\n  "
+      "slipcheck run "
       "scenarios/symmetric-30cms.yaml --phases 64");
   int exit_code = kWithinTolerance;
   add_run_command(app, exit_code);

@@ -72,6 +72,8 @@ void add_result_outputs(CLI::App& command, ResultOutputs& outputs, const std::st
   command.add_option("--markdown", outputs.markdown,
                      "Write a summary that fits a pull request's comment");
   command.add_option("--junit", outputs.junit, "Write JUnit XML: a test for each run");
+  command.add_flag("--allow-undecided", outputs.allow_undecided,
+                   "A tolerance by which nothing can be judged is no failure");
   command.add_option("--svg", outputs.svg,
                      "Write a folder of charts for papers, by gnuplot, with data and scripts");
   command.add_option("--xyz", outputs.xyz,
@@ -100,7 +102,7 @@ void write_outputs(const ResultOutputs& outputs, const ReportContent& content) {
   if (!outputs.phases_csv.empty()) write_file_atomically(outputs.phases_csv, phases_csv(scenes));
   if (!outputs.markdown.empty()) write_file_atomically(outputs.markdown, markdown_of(scenes));
   if (!outputs.junit.empty())
-    write_file_atomically(outputs.junit, junit_xml(test_outcomes(scenes)));
+    write_file_atomically(outputs.junit, junit_xml(test_outcomes(scenes, outputs.allow_undecided)));
   if (!outputs.html.empty())
     write_file_atomically(
         outputs.html,

@@ -13,6 +13,7 @@ struct ResultOutputs {
   std::string html, csv, phases_csv, markdown, junit;  ///< files
   std::string svg, xyz, vtk;                           ///< folders
   bool without_script = false;
+  bool allow_undecided = false;  ///< is no failure
 
   /// Whether something of it shows how bodies move.
   bool show_motion() const;

@@ -38,12 +38,14 @@ struct RunArguments {
   bool all = false, summary = false, quiet = false;
 };
 
-int exit_code_of(const std::vector<SceneRecord>& scenes) {
+int exit_code_of(const std::vector<SceneRecord>& scenes, bool allow_undecided) {
   if (interrupted()) return kInterrupted;
   int code = kWithinTolerance;
   for (const SceneRecord& scene : scenes) {
-    if (scene.verdict() == Verdict::failed) return kEngineFailed;
-    if (scene.verdict() == Verdict::deviates) code = kDeviates;
+    const Verdict verdict = scene.verdict();
+    if (verdict == Verdict::failed) return kEngineFailed;
+    if (verdict == Verdict::deviates || (verdict == Verdict::undecided && !allow_undecided))
+      code = kDeviates;
   }
   return code;
 }
@@ -118,7 +120,7 @@ int run(RunArguments& arguments) {
     print_warnings(scenes);
     if (interrupted()) fmt::print(stderr, "interrupted: what had finished is kept\n");
   }
-  return exit_code_of(scenes);
+  return exit_code_of(scenes, arguments.outputs.allow_undecided);
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "scenario/content_digest.h"
+#include "scenario/tolerances.h"
+
 namespace slipcheck {
 namespace {
 
@@ -22,7 +25,8 @@ BaselineRun run_of(const Scenario& scenario, const EngineRecord& record) {
   // What an engine showed before it failed is no result.
   if (record.status != RunStatus::ok) return run;
   for (const auto& [name, seen] : record.observables)
-    if (tolerance_of(scenario, name) || (record.expect && record.expect->observables.count(name)))
+    if (tolerance_of_part(scenario, name) ||
+        (record.expect && record.expect->observables.count(name)))
       run.observables[name] = {seen.median, seen.min, seen.max, seen.missing};
   return run;
 }
@@ -33,7 +37,7 @@ SceneBaseline baseline_of(const SceneRecord& scene, std::size_t phases,
                           const std::string& slipcheck_version) {
   SceneBaseline baseline;
   baseline.scene = scene.scenario.name;
-  baseline.sha256 = scene.scenario.sha256;
+  baseline.sha256 = content_digest(scene.scenario);
   baseline.slipcheck = slipcheck_version;
   baseline.phases = phases;
   baseline.solver = scene.reference.solver;

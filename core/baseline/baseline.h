@@ -24,7 +24,7 @@ struct BaselineRun {
   std::string engine, version, precision, profile;
   double rate = 0;  ///< [Hz], > 0
   RunStatus status = RunStatus::skipped;
-  std::optional<Verdict> verdict;  ///< none of a run that was skipped
+  std::optional<Verdict> verdict;  ///< none in older files, of a run that was skipped
   std::size_t phases = 0;
   double cpu_seconds = 0;  ///< of the stepping alone [s]; informs only
   /// What has a tolerance or is expected, by full name; of vectors also the components.
@@ -34,7 +34,7 @@ struct BaselineRun {
 /// What a scene gave at an earlier time.
 struct SceneBaseline {
   std::string scene;       ///< its name
-  std::string sha256;      ///< of its file
+  std::string sha256;      ///< content_digest() of the scene; in older files of its bytes
   std::string slipcheck;   ///< version with which the numbers were made
   std::size_t phases = 0;  ///< that were asked of each ensemble, >= 1
   std::string solver;      ///< of the reference

@@ -141,7 +141,8 @@ BaselineRun read_run(const Node& node) {
   if (!(run.rate > 0)) node["rate"].fault("must be > 0 Hz");
   run.status = node["status"].one_of({ok, unstable, crashed, timed_out, skipped});
   if (node.has("verdict"))
-    run.verdict = node["verdict"].one_of({Verdict::within, Verdict::deviates, Verdict::failed});
+    run.verdict = node["verdict"].one_of({Verdict::unjudged, Verdict::within, Verdict::undecided,
+                                          Verdict::deviates, Verdict::failed});
   run.phases = node["phases"].count();
   run.cpu_seconds = node["cpu_seconds"].number_or_nan();
   for (const auto& [name, seen] : node["observables"].members())

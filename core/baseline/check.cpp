@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "scenario/tolerances.h"
+
 namespace slipcheck {
 namespace {
 
@@ -61,9 +63,9 @@ class Checker {
 
   SceneCheck check() {
     check_.parts.push_back({"reference", scene_.reference.cpu_seconds, ""});
-    if (old_.sha256 != now_.sha256)
+    if (old_.sha256 != now_.sha256 && old_.sha256 != scene_.scenario.sha256)
       words("scene", Statistic::file, old_.sha256.substr(0, 12), now_.sha256.substr(0, 12)).note =
-          "the scene's file is not that of the baseline";
+          "the scene is not that of the baseline";
     check_reference();
     check_runs();
     check_times();
@@ -226,7 +228,7 @@ class Checker {
     const UncertainValue* is = find(now_.reference, name);
     const double uncertainty =
         (was ? finite_or_zero(was->uncertainty) : 0) + (is ? finite_or_zero(is->uncertainty) : 0);
-    if (const auto tolerance = tolerance_of(scene_.scenario, name)) {
+    if (const auto tolerance = tolerance_of_part(scene_.scenario, name)) {
       double scale = tolerance->absolute ? 1 : scale_of(scene_.scenario, now_.reference, name);
       // Of a reference of zero nothing is a share; then the baseline's own value is the measure.
       if (!tolerance->absolute && scale <= uncertainty) scale = std::abs(before);

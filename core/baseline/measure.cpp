@@ -23,18 +23,6 @@ Vector3 start_of(const Scenario& scenario, const std::string& body) {
 
 }  // namespace
 
-std::optional<Tolerance> tolerance_of(const Scenario& scenario, const std::string& full_name) {
-  const std::string name = observable_of(full_name);
-  const ObservableName* observable = find_observable(name);
-  auto found = scenario.compare.tolerance.find(name);
-  if (found == scenario.compare.tolerance.end() && observable)
-    found = scenario.compare.tolerance.find(std::string(observable->name));
-  if (found == scenario.compare.tolerance.end()) return std::nullopt;
-  Tolerance tolerance = found->second;
-  tolerance.absolute |= observable && observable->is_restitution;
-  return tolerance;
-}
-
 double scale_of(const Scenario& scenario, const ReferenceValues& reference,
                 const std::string& full_name) {
   const std::string name = observable_of(full_name);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 
 #include "harness/reference_run.h"
@@ -10,10 +9,6 @@
 namespace slipcheck {
 
 using ReferenceValues = std::map<std::string, UncertainValue>;  ///< by full name
-
-/// The tolerance that a scene gives an observable, of a vector's component that of the vector;
-/// `absolute` is set for restitution coefficients. None where the scene gives none.
-std::optional<Tolerance> tolerance_of(const Scenario& scenario, const std::string& full_name);
 
 /// What a relative move of an observable is relative to [its unit], >= 0, as errors are: the
 /// reference's value, of vectors and their components the vector's length, of a position the way

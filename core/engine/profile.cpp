@@ -128,8 +128,7 @@ std::vector<Fault> check_profile(const Profile& profile, const EngineInfo& info)
   for (const SettingInfo& known : info.settings) names.push_back(known.name);
   for (SettingFault& fault : check_settings(info.settings, profile.settings)) {
     if (find_setting(info.settings, fault.name) == nullptr) {
-      const std::string near = nearest(fault.name, names);
-      if (!near.empty()) fault.rule += fmt::format(" (did you mean {}?)", near);
+      fault.rule += did_you_mean(fault.name, names);
     }
     add("settings." + shown(fault.name), std::move(fault.rule), fault.value);
   }

@@ -1,45 +1,52 @@
 #include "harness/comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include "harness/observables.h"
-#include "scenario/observable_names.h"
+#include "scenario/owned_names.h"
+#include "scenario/tolerances.h"
 
 namespace slipcheck {
 namespace {
 
-/// "i.final_velocity.x" is of "i", named "final_velocity.x".
-struct FullName {
-  std::string owner, observable;
-  explicit FullName(const std::string& name)
-      : owner(name.substr(0, name.find('.'))), observable(name.substr(name.find('.') + 1)) {}
-};
-
 /// By how much each phase is off, and what that is relative to.
 struct Differences {
   std::vector<double> by_phase;
-  double scale = 0;  ///< of a relative error
   double uncertainty = 0;
+  double scale = 0;              ///< of a relative error
+  double scale_uncertainty = 0;  ///< of that
 };
+
+constexpr const char* kDidNotEnd = "the reference did not come to its end";
 
 using Ensemble = std::map<std::string, EnsembleValue>;
 
-Differences scalar_differences(const UncertainValue& reference, const EnsembleValue& ensemble) {
+Differences scalar_differences(const UncertainValue& reference, const EnsembleValue* ensemble) {
   Differences differences;
-  for (double value : ensemble.values)
-    if (!std::isnan(value)) differences.by_phase.push_back(std::abs(value - reference.value));
+  if (ensemble)
+    for (double value : ensemble->values)
+      if (!std::isnan(value)) differences.by_phase.push_back(std::abs(value - reference.value));
   differences.scale = std::abs(reference.value);
-  differences.uncertainty = reference.uncertainty;
+  differences.uncertainty = differences.scale_uncertainty = reference.uncertainty;
   return differences;
 }
 
-const Body* find_body(const Scenario& scenario, const std::string& name) {
-  for (const Body& body : scenario.bodies)
-    if (body.name == name) return &body;
-  return nullptr;
+template <class Value>
+const Value* find(const std::map<std::string, Value>& map, const std::string& name) {
+  const auto found = map.find(name);
+  return found == map.end() ? nullptr : &found->second;
+}
+
+const Body* find_body(const Scenario& scenario, std::string_view name) {
+  const auto found = std::ranges::find(scenario.bodies, name, &Body::name);
+  return found == scenario.bodies.end() ? nullptr : &*found;
 }
 
 /// Differences of a vector (its bare name) or of one component, on the scale of the vector's
@@ -47,29 +54,44 @@ const Body* find_body(const Scenario& scenario, const std::string& name) {
 Differences vector_differences(const Scenario& scenario, const ReferenceResult& reference,
                                const Ensemble& ensemble, const std::string& name,
                                const ObservableName& observable) {
-  const FullName full(name);
-  const std::string vector = full.owner + "." + std::string(observable.name);
+  const std::string_view owner = owned_name(name).owner;
+  const std::string vector = std::string(owner) + "." + std::string(observable.name);
   Differences differences;
-  Vector3 length = Vector3::Zero();
-  const Body* body = find_body(scenario, full.owner);
+  Vector3 length = Vector3::Zero(), uncertainty = Vector3::Zero(), own = Vector3::Zero();
+  const bool is_way = observable.name == "final_position";
+  const Body* body = find_body(scenario, owner);
   std::vector<double> squares;
   for (int k = 0; k < 3; ++k) {
     const std::string component = vector + "." + "xyz"[k];
     const UncertainValue& value = reference.observables.at(component);
     length[k] = value.value;
-    if (observable.name == "final_position" && body) length[k] -= body->initial.position[k];
-    differences.uncertainty = std::max(differences.uncertainty, value.uncertainty);
+    uncertainty[k] = value.uncertainty;
+    if (is_way && body) length[k] -= body->initial.position[k];
     if (name != vector && name != component) continue;
-    const auto found = ensemble.find(component);
-    if (found == ensemble.end()) continue;
-    const Differences one = scalar_differences(value, found->second);
+    const Differences one = scalar_differences(value, find(ensemble, component));
+    own[k] = one.uncertainty;
     squares.resize(one.by_phase.size());
     for (std::size_t p = 0; p < squares.size(); ++p)
       squares[p] += one.by_phase[p] * one.by_phase[p];
   }
   for (double square : squares) differences.by_phase.push_back(std::sqrt(square));
+  differences.uncertainty = own.norm();
   differences.scale = length.norm();
+  // A length may be known where the direction is not.
+  differences.scale_uncertainty =
+      is_way ? uncertainty.norm() : reference.observables.at(vector).uncertainty;
   return differences;
+}
+
+/// Whether the length of a vector alone, which may be known where the direction is not, tells that
+/// an error is beyond its tolerance: no two vectors are nearer to each other than their lengths.
+bool is_too_long_or_short(const UncertainValue& length, const EnsembleValue& seen,
+                          const Differences& differences, const Deviation& deviation) {
+  const double allowed =
+      *deviation.tolerance *
+      (deviation.absolute ? 1 : differences.scale + differences.scale_uncertainty);
+  const double off = std::max(std::abs(seen.max - length.value), std::abs(seen.min - length.value));
+  return length.uncertainty <= allowed && off - length.uncertainty > allowed;
 }
 
 std::string missing_phases(const EnsembleValue& value) {
@@ -77,51 +99,86 @@ std::string missing_phases(const EnsembleValue& value) {
          " phases do not show it";
 }
 
+/// What the reference cannot tell to a tolerance, as a reason; "" where it can.
+std::string undecided_reason(const ReferenceResult& reference, const std::string& name,
+                             const Differences& differences, bool is_zero,
+                             const Deviation& deviation) {
+  if (!reference.run.reached) return kDidNotEnd;
+  const double uncertainty = differences.uncertainty;
+  if (std::isinf(uncertainty)) return "the reference does not know whether it shows";
+  if (is_zero)
+    return reference.scales.is_rounding(name, uncertainty)
+               ? ""
+               : fmt::format("the reference is 0 within its uncertainty of {:.2g}", uncertainty);
+  const double error = uncertainty / (deviation.absolute ? 1 : differences.scale);
+  if (!(error > *deviation.tolerance)) return "";
+  return fmt::format("the reference is uncertain by {:.2g}{}, more than the tolerance",
+                     deviation.absolute ? error : 100 * error, deviation.absolute ? "" : " %");
+}
+
 Deviation deviation(const Scenario& scenario, const ReferenceResult& reference,
                     const Ensemble& ensemble, const std::string& name) {
   Deviation result;
-  const std::string observable_name = FullName(name).observable;
-  const ObservableName* observable = find_observable(observable_name);
-  if (const auto found = scenario.compare.tolerance.find(observable_name);
-      found != scenario.compare.tolerance.end()) {
-    result.tolerance = found->second.value;
-    result.absolute = found->second.absolute;
+  const ObservableName* observable = find_observable(owned_name(name).observable);
+  result.absolute = observable && observable->is_restitution;
+  if (const auto tolerance = tolerance_of(scenario, name)) {
+    result.tolerance = tolerance->value;
+    result.absolute = tolerance->absolute;
   }
-  result.absolute |= observable && observable->is_restitution;
+  const EnsembleValue* seen = find(ensemble, name);
+  const Differences differences =
+      observable && observable->is_vector
+          ? vector_differences(scenario, reference, ensemble, name, *observable)
+          : scalar_differences(reference.observables.at(name), seen);
+  // The spread over rounding modes tells the order of rounding errors only; that of an average over
+  // a box is a bound with 95 %.
+  const double slack = (reference.box ? 1 : 10) * differences.uncertainty;
+  const double scale_slack = (reference.box ? 1 : 10) * differences.scale_uncertainty;
+  const bool is_zero = !result.absolute && differences.scale <= scale_slack;
 
-  const UncertainValue& expected = reference.observables.at(name);
-  const auto found = ensemble.find(name);
-  const bool is_vector = observable && observable->is_vector;
-  Differences differences;
-  if (found != ensemble.end())
-    differences = is_vector ? vector_differences(scenario, reference, ensemble, name, *observable)
-                            : scalar_differences(expected, found->second);
-  if (differences.by_phase.empty()) {
+  bool good = false;
+  if (!seen || differences.by_phase.empty()) {
     result.median = result.max = result.rms = kNotObserved;
     result.reason = "no run of the engine shows it";
   } else {
-    const double scale = result.absolute ? 1 : differences.scale;
-    result.median = median(differences.by_phase);
-    result.max = *std::max_element(differences.by_phase.begin(), differences.by_phase.end());
-    result.rms = root_mean_square(differences.by_phase);
-    // Zero within the reference's own uncertainty: a relative error has no meaning. That of an
-    // average over a box is statistical, a bound with 95 %; elsewhere it is of rounding.
-    const double slack = (reference.box ? 1 : 10) * differences.uncertainty;
-    const bool is_zero = !result.absolute && scale <= slack;
-    if (is_zero && result.max > slack) {
+    result.max = *std::ranges::max_element(differences.by_phase);
+    if (is_zero) {
+      good = result.is_zero = result.max <= slack;
       result.median = result.max = result.rms = kNotObserved;
-      result.reason = "the reference is 0: a tolerance with a unit compares it";
-    } else if (is_zero) {
-      result.median = result.max = result.rms = 0;
+      result.reason = good ? "0 within the reference's uncertainty"
+                           : "the reference is 0: a tolerance with a unit compares it";
     } else {
-      result.median /= scale;
+      const double scale = result.absolute ? 1 : differences.scale;
+      result.median = median(differences.by_phase) / scale;
       result.max /= scale;
-      result.rms /= scale;
+      result.rms = root_mean_square(differences.by_phase) / scale;
+      good = !result.tolerance || result.max <= *result.tolerance;
     }
-    if (found->second.missing > 0) result.reason = missing_phases(found->second);
+    if (seen->missing > 0) result.reason = missing_phases(*seen);
+    good = good && seen->missing == 0;
   }
-  result.within = !result.tolerance || (result.reason.empty() && result.max <= *result.tolerance);
+  if (!result.tolerance) return result;
+  std::string undecided = undecided_reason(reference, name, differences, is_zero, result);
+  if (reference.run.reached && seen && observable && name.ends_with(observable->name) &&
+      observable->is_vector && !is_zero &&
+      is_too_long_or_short(reference.observables.at(name), *seen, differences, result))
+    undecided.clear();
+  if (!undecided.empty()) result.reason = undecided;
+  result.verdict = !undecided.empty() ? Verdict::undecided
+                   : good             ? Verdict::within
+                                      : Verdict::deviates;
   return result;
+}
+
+/// Of what has no number.
+Deviation without_error(const Tolerance& tolerance, Verdict verdict, std::string reason) {
+  return {.median = kNotObserved,
+          .max = kNotObserved,
+          .tolerance = tolerance.value,
+          .absolute = tolerance.absolute,
+          .verdict = verdict,
+          .reason = std::move(reason),
+          .rms = kNotObserved};
 }
 
 /// One statistic of the ensemble's value of an observable, which is null if no phase shows it.
@@ -204,17 +261,24 @@ std::map<std::string, Deviation> deviations(const Scenario& scenario,
   std::map<std::string, Deviation> result;
   for (const auto& [name, value] : reference.observables)
     result[name] = deviation(scenario, reference, ensemble, name);
+  const bool has_end = reference.run.reached;
   // A jump or a landing that only the engine has is a deviation too.
   for (const auto& [name, value] : ensemble) {
-    const auto tolerance = scenario.compare.tolerance.find(FullName(name).observable);
-    if (result.count(name) || tolerance == scenario.compare.tolerance.end()) continue;
-    result[name] = {.median = kNotObserved,
-                    .max = kNotObserved,
-                    .tolerance = tolerance->second.value,
-                    .absolute = tolerance->second.absolute,
-                    .within = false,
-                    .reason = "it does not occur in the reference",
-                    .rms = kNotObserved};
+    const auto tolerance = tolerance_of(scenario, name);
+    if (tolerance && !result.contains(name))
+      result[name] = without_error(*tolerance, has_end ? Verdict::deviates : Verdict::undecided,
+                                   has_end ? "it does not occur in the reference" : kDidNotEnd);
+  }
+  for (const auto& [key, tolerance] : scenario.compare.tolerance) {
+    const auto names_it = [&](const auto& each) {
+      return names_observable(scenario, key, each.first);
+    };
+    if (tolerance.none || std::ranges::any_of(result, names_it)) continue;
+    Tolerance of_nothing = tolerance;
+    const ObservableName* observable = find_observable(owned_name(key).observable);
+    of_nothing.absolute |= observable && observable->is_restitution;
+    result[key] =
+        without_error(of_nothing, Verdict::undecided, has_end ? kNothingOccurs : kDidNotEnd);
   }
   return result;
 }
@@ -224,9 +288,6 @@ std::vector<double> phase_errors(const Scenario& scenario, const ReferenceResult
   std::size_t phases = 0;
   for (const auto& [name, value] : ensemble) phases = std::max(phases, value.values.size());
   std::vector<double> errors(phases, kNotObserved);
-  const auto has_tolerance = [&](const std::string& name) {
-    return scenario.compare.tolerance.contains(FullName(name).observable);
-  };
   for (std::size_t p = 0; p < phases; ++p) {
     std::map<std::string, double> seen;
     for (const auto& [name, value] : ensemble)
@@ -234,9 +295,10 @@ std::vector<double> phase_errors(const Scenario& scenario, const ReferenceResult
     const auto note = [&](double error) { errors[p] = std::fmax(errors[p], error); };
     const Ensemble alone = ensemble_values({seen});
     for (const auto& [name, value] : reference.observables) {
-      if (!has_tolerance(name)) continue;
+      if (!tolerance_of(scenario, name)) continue;
       const Deviation off = deviation(scenario, reference, alone, name);
-      if (off.within && off.max == 0)
+      if (off.verdict == Verdict::undecided) continue;
+      if (off.verdict == Verdict::within && !(off.max > 0))
         note(0);
       else if (!std::isnan(off.max))
         note(off.max / *off.tolerance);
@@ -244,7 +306,8 @@ std::vector<double> phase_errors(const Scenario& scenario, const ReferenceResult
         note(std::numeric_limits<double>::infinity());
     }
     for (const auto& [name, value] : seen)
-      if (has_tolerance(name) && !reference.observables.contains(name))
+      if (reference.run.reached && !reference.observables.contains(name) &&
+          tolerance_of(scenario, name))
         note(std::numeric_limits<double>::infinity());
   }
   return errors;

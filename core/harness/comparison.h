@@ -19,15 +19,22 @@ double root_mean_square(std::span<const double> values);
 std::map<std::string, EnsembleValue> ensemble_values(
     const std::vector<std::map<std::string, double>>& phases);
 
+/// Why a tolerance judges nothing, where the reference shows nothing of what it names.
+inline constexpr const char* kNothingOccurs = "nothing of it occurs in the reference";
+
 /// Holds an ensemble against the reference. Every observable of the reference gets a deviation, and
-/// a verdict where the scene gives a tolerance; what has a tolerance and only the engine shows is
-/// not within it.
+/// a verdict where the scene gives a tolerance. What has a tolerance and only the engine shows
+/// deviates; a tolerance that names nothing that either of them shows is undecided, under its own
+/// key. Undecided is also what the reference does not know to the tolerance, and everything where
+/// the reference came to no end. A value that is zero but for rounding has no relative error: it
+/// is within its tolerance where the engine's is as near to zero as the reference knows.
 std::map<std::string, Deviation> deviations(const Scenario& scenario,
                                             const ReferenceResult& reference,
                                             const std::map<std::string, EnsembleValue>& ensemble);
 
 /// By phase, the largest of these deviations in its tolerance [-]: infinite where the phase lacks
-/// what the reference shows or shows what the reference lacks; NaN where nothing has a tolerance.
+/// what the reference shows or shows what the reference lacks; NaN where nothing has a tolerance by
+/// which it can be judged.
 std::vector<double> phase_errors(const Scenario& scenario, const ReferenceResult& reference,
                                  const std::map<std::string, EnsembleValue>& ensemble);
 

@@ -19,28 +19,25 @@ std::vector<ExpectationResult> EngineRecord::expectations() const {
   return results;
 }
 
-bool EngineRecord::within() const {
-  if (expect && expect->status) return status == *expect->status;
-  if (expect) {
-    const std::vector<ExpectationResult> results = expectations();
-    return std::all_of(results.begin(), results.end(),
-                       [](const ExpectationResult& result) { return result.met; });
-  }
-  return std::all_of(errors.begin(), errors.end(),
-                     [](const auto& error) { return error.second.within; });
-}
-
-std::optional<Verdict> EngineRecord::verdict() const {
-  const bool any_status = expect && expect->status;
-  if (!any_status && status == Status::skipped) return std::nullopt;
-  if (!any_status && status != Status::ok) return Verdict::failed;
-  return within() ? Verdict::within : Verdict::deviates;
+Verdict EngineRecord::verdict() const {
+  const auto judged = [](bool good) { return good ? Verdict::within : Verdict::deviates; };
+  if (expect && expect->status) return judged(status == *expect->status);
+  if (status == Status::skipped) return Verdict::undecided;
+  if (status != Status::ok) return Verdict::failed;
+  if (expect) return judged(std::ranges::all_of(expectations(), &ExpectationResult::met));
+  Verdict worst = Verdict::unjudged;
+  for (const auto& [name, error] : errors) worst = std::max(worst, error.verdict);
+  return worst;
 }
 
 Verdict SceneRecord::verdict() const {
-  Verdict worst = Verdict::within;
-  for (const EngineRecord& run : runs)
-    worst = std::max(worst, run.verdict().value_or(Verdict::within));
+  // Where every run is judged by what is expected of it, the reference judges nothing.
+  const bool by_reference = runs.empty() || !std::ranges::all_of(runs, [](const EngineRecord& run) {
+                              return run.expect.has_value();
+                            });
+  const bool has_end = reference.run.reached || !by_reference;
+  Verdict worst = has_end ? Verdict::unjudged : Verdict::undecided;
+  for (const EngineRecord& run : runs) worst = std::max(worst, run.verdict());
   return worst;
 }
 
@@ -76,8 +73,12 @@ const char* name_of(ExpectationResult::Statistic statistic) {
 
 const char* name_of(Verdict verdict) {
   switch (verdict) {
+    case Verdict::unjudged:
+      return "not judged";
     case Verdict::within:
       return "within";
+    case Verdict::undecided:
+      return "undecided";
     case Verdict::deviates:
       return "deviates";
     case Verdict::failed:

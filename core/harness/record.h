@@ -20,6 +20,11 @@ struct EnsembleValue {
   std::size_t missing = 0;     ///< how many phases have none; median, min, max are of the others
 };
 
+/// What a comparison comes to, from the best to the worst. unjudged: no tolerance asks for it.
+/// undecided: one does, but nothing can be judged by it, as the reference does not show the
+/// observable, did not end or is less certain than that, or the run was skipped.
+enum class Verdict { unjudged, within, undecided, deviates, failed };
+
 /// An observable's deviation from the reference: relative, absolute for restitution coefficients
 /// and where the tolerance has a unit; of a vector relative to the reference's length. NaN with a
 /// reason where it is undefined.
@@ -28,9 +33,11 @@ struct Deviation {
   double max = 0;
   std::optional<double> tolerance;
   bool absolute = false;
-  bool within = true;
+  Verdict verdict = Verdict::unjudged;  ///< not failed
   std::string reason;
   double rms = 0;  ///< root of the mean square of the absolute deviations
+  /// Zero in the reference and, as far as that knows, in every phase: no relative error.
+  bool is_zero = false;
 };
 
 /// How a statistic of an ensemble stands to what is expected of it.
@@ -44,8 +51,6 @@ struct ExpectationResult {
   bool met = false;
   std::string reason;  ///< why there is no value, or which phases are missing
 };
-
-enum class Verdict { within, deviates, failed };
 
 /// One engine at one rate on one scene.
 struct EngineRecord {
@@ -70,10 +75,9 @@ struct EngineRecord {
 
   /// Of each statistic that is expected, in the order of names, then min, median, max.
   std::vector<ExpectationResult> expectations() const;
-  /// Whether the run does what is expected or, where nothing is, no error is beyond its tolerance.
-  bool within() const;
-  /// Nothing for a run that was skipped and does not count.
-  std::optional<Verdict> verdict() const;
+  /// Whether it does what is expected or, where nothing is, the worst of its errors; undecided
+  /// where it was skipped.
+  Verdict verdict() const;
 };
 
 /// A scene with all that was found out about it.
@@ -82,6 +86,7 @@ struct SceneRecord {
   ReferenceResult reference;
   std::vector<EngineRecord> runs;
 
+  /// The worst of its runs, undecided where the reference came to no end; unjudged without engines.
   Verdict verdict() const;
 };
 

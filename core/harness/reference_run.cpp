@@ -100,6 +100,7 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
   const Solved& solved = runs.value;
   result.cpu_seconds = runs.cpu_seconds;
   result.run = solved.run;
+  result.scales = natural_scales(solver.scene(), solved.run.end_time);
   // What the integrator cannot run has no contact to put phases to; the warning below says so.
   result.first_contact = solved.run.failed ? std::numeric_limits<double>::infinity()
                                            : solver.first_contact(end.limit, tolerance);

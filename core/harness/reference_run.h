@@ -7,6 +7,7 @@
 
 #include "harness/box_observer.h"
 #include "harness/motion.h"
+#include "harness/natural_scales.h"
 #include "reference/reference_solver.h"
 #include "scenario/hard_scene.h"
 #include "scenario/scenario.h"
@@ -34,6 +35,7 @@ struct ReferenceResult {
   std::map<std::string, double> closed_form;  ///< where one applies
   SolvedRun run;
   double first_contact = 0;         ///< time of the first collision or landing [s], maybe infinite
+  NaturalScales scales;             ///< of the scene; none of one in a box
   std::optional<BoxReference> box;  ///< of a scene in a box
   std::optional<RecordedMotion> motion;  ///< where it is recorded
   std::vector<std::string> warnings;

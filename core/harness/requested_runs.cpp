@@ -15,6 +15,7 @@
 #include "engine/remote_engine.h"
 #include "scenario/fault.h"
 #include "scenario/file_text.h"
+#include "scenario/rules.h"
 
 namespace slipcheck {
 namespace {
@@ -32,12 +33,6 @@ std::string precision_name(EngineRequest::Precision precision) {
   return precision == EngineRequest::Precision::single_ ? "single" : "double";
 }
 
-std::string no_profile(const EngineExecutable& executable, const std::string& asked) {
-  const std::vector<std::string> names = profile_names(executable);
-  return fmt::format("{} has no profile '{}'; it has {}", executable.engine, asked,
-                     names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
-}
-
 /// Finds, reads and checks the profiles of all scenes, each file and each engine once.
 class Profiles {
  public:
@@ -48,11 +43,12 @@ class Profiles {
     over_.settings = settings;
   }
 
-  /// Settings or a reason for the record of a request; a fault in it is noted.
+  /// The settings for the record of a request; a fault in it is noted.
   void choose(const Scenario& scenario, const std::string& key, EngineRecord& record) {
     if (std::ranges::find(engines_, record.engine) == engines_.end()) {
       note(fault_at(scenario, key + ".engine",
-                    fmt::format("must be one of the engines {}", fmt::join(engines_, ", ")),
+                    fmt::format("must be one of the engines {}{}", fmt::join(engines_, ", "),
+                                did_you_mean(record.engine, engines_)),
                     record.engine));
       return;
     }
@@ -79,8 +75,13 @@ class Profiles {
     const auto file =
         find_profile(executable.value_or(EngineExecutable{}), record.profile, folder_of(scenario));
     if (!file) {
-      if (record.profile != "default")  // which without a file is the engine's own settings
-        record.reason = no_profile(*executable, record.profile);
+      if (record.profile == "default") return;  // without a file the engine's own settings
+      std::vector<std::string> names = profile_names(*executable);
+      if (std::ranges::find(names, "default") == names.end()) names.push_back("default");
+      note(fault_at(scenario, key + ".profile",
+                    fmt::format("must be one of the profiles of {}, {}, or a path{}", record.engine,
+                                fmt::join(names, ", "), did_you_mean(record.profile, names)),
+                    record.profile));
       return;
     }
     const Profile* profile = load(*file, scenario, key + ".profile", record.profile);

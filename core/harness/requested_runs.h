@@ -10,13 +10,12 @@ namespace slipcheck {
 
 /// The runs that these scenes ask for in compare.engines, each engine at each of its rates, with
 /// the settings that their profiles choose, and these `settings` over them. `general`: engines that
-/// have the setting `leaves_out` are to leave out nothing. A run whose profile is
-/// not shipped has its reason.
+/// have the setting `leaves_out` are to leave out nothing.
 ///
 /// A path of a profile is taken from the scene's own folder. Throws BadScenario with all that is
-/// wrong: engines that are unknown, files that cannot be read, profiles that are faulty or choose
-/// what the engine does not take, settings that one of the engines does not take. Asks engines what
-/// they take; `stop` as of RemoteEngine.
+/// wrong: engines and profiles that are unknown, files that cannot be read, profiles that are
+/// faulty or choose what the engine does not take, settings that one of the engines does not take.
+/// Asks engines what they take; `stop` as of RemoteEngine.
 std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario>& scenarios,
                                                       const WorkerLimits& limits = {},
                                                       const std::atomic<bool>* stop = nullptr,

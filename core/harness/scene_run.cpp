@@ -150,8 +150,7 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
       prepare_scenes(std::move(scenarios), options.general, options.workers);
   std::vector<EngineTask> tasks;
   for (std::size_t s = 0; s < prepared.size(); ++s)
-    for (EngineRecord& record : runs[s])
-      if (record.reason.empty()) tasks.push_back({&prepared[s], &record});
+    for (EngineRecord& record : runs[s]) tasks.push_back({&prepared[s], &record});
   run_engines(tasks, options);
   if (options.record_motion) std::ranges::for_each(prepared, record_motion_of);
 

@@ -6,7 +6,9 @@
 
 #include "report/comparison_rows.h"
 #include "report/expectation_rows.h"
+#include "report/findings.h"
 #include "report/selection.h"
+#include "report/verdict_look.h"
 
 namespace slipcheck {
 namespace {
@@ -23,7 +25,7 @@ Worst worst_of(const SceneRecord& scene) {
   for (const EngineRecord& run : scene.runs) {
     if (run.status != EngineRecord::Status::ok) continue;
     for (ComparisonRow& row : comparison_rows(scene, run, names)) {
-      if (row.mark != Mark::deviates) continue;
+      if (row.verdict != Verdict::deviates) continue;
       const bool worse =
           !worst.run || std::isnan(worst.row.severity) || row.severity > worst.row.severity;
       if (worse && !(worst.run && std::isnan(row.severity))) worst = {&run, std::move(row)};
@@ -37,7 +39,8 @@ std::string short_name(const EngineRecord& run) {
   return fmt::format("{} {} {} {:g} Hz", run.engine, run.precision, run.profile, run.rate);
 }
 
-/// The worst deviation of a scene, else the first thing that is not as expected; may be empty.
+/// The worst deviation of a scene, else the first thing that is not as expected or not decided; may
+/// be empty.
 std::string worst_text(const SceneRecord& scene) {
   if (const Worst worst = worst_of(scene); worst.run)
     return fmt::format("{} {}, {}", worst.row.name,
@@ -46,7 +49,9 @@ std::string worst_text(const SceneRecord& scene) {
   for (const EngineRecord& run : scene.runs)
     if (const std::string unmet = unmet_expectation(run, false); !unmet.empty())
       return unmet + ", " + short_name(run);
-  return {};
+  for (const EngineRecord& run : scene.runs)
+    if (run.verdict() == Verdict::undecided) return finding_text(scene, run);
+  return scene.verdict() == Verdict::undecided ? scene.reference.run.reason : "";
 }
 
 }  // namespace
@@ -56,13 +61,12 @@ std::string brief_of(const std::vector<SceneRecord>& scenes, const TableStyle& s
   for (const SceneRecord& scene : scenes) {
     std::size_t within = 0, counted = 0;
     for (const EngineRecord& run : scene.runs) {
-      if (!run.verdict()) continue;
       ++counted;
       within += run.verdict() == Verdict::within;
     }
-    const bool good = scene.verdict() == Verdict::within;
+    const Verdict verdict = scene.verdict();
     rows.push_back({{scene.scenario.name, Tone::plain},
-                    {good ? "✓" : "✗", good ? Tone::good : Tone::bad},
+                    {symbol_of(verdict), tone_of(verdict)},
                     {fmt::format("{}/{}", within, counted), Tone::plain},
                     {worst_text(scene), Tone::faint}});
   }

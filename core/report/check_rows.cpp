@@ -184,6 +184,7 @@ std::string check_verdict(const CheckReport& report) {
 std::vector<std::string> check_remarks(const CheckReport& report) {
   const CheckTotals totals = totals_of(report);
   std::vector<std::string> remarks;
+  if (!report.advice.empty()) remarks.push_back(report.advice);
   for (const std::string& version : totals.versions)
     remarks.push_back("another engine version than the baseline's: " + version);
   if (totals.verdicts > 0)

@@ -45,10 +45,11 @@ bool leave_one_out(std::vector<Column>& columns, Rows& rows) {
 
 std::string inked(const std::string& text, Tone ink, const TableStyle& style) {
   if (!style.colour || ink == Tone::plain || text.empty()) return text;
-  const char* code = ink == Tone::good    ? "\x1b[32m"
-                     : ink == Tone::bad   ? "\x1b[31m"
-                     : ink == Tone::faint ? "\x1b[2m"
-                                          : "\x1b[1m";
+  const char* code = ink == Tone::good       ? "\x1b[32m"
+                     : ink == Tone::doubtful ? "\x1b[33m"
+                     : ink == Tone::bad      ? "\x1b[31m"
+                     : ink == Tone::faint    ? "\x1b[2m"
+                                             : "\x1b[1m";
   return code + text + "\x1b[0m";
 }
 

@@ -13,7 +13,7 @@ struct TableStyle {
 };
 
 /// What a piece of text stands for, hence its colour.
-enum class Tone { plain, good, bad, faint, strong };
+enum class Tone { plain, good, doubtful, bad, faint, strong };
 
 /// The text in its colour, where the style has colours.
 std::string inked(const std::string& text, Tone ink, const TableStyle& style);

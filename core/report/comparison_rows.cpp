@@ -32,11 +32,12 @@ void add_error(const Deviation& deviation, const Dimension& dimension, bool coun
   if (!deviation.tolerance || !counts) return;
   const double tolerance = *deviation.tolerance;
   row.tolerance = tolerance_text(tolerance, deviation.absolute, dimension);
-  row.mark = deviation.within ? Mark::within : Mark::deviates;
+  row.verdict = deviation.verdict;
+  if (row.verdict == Verdict::undecided) return;
   const bool exact = deviation.max == 0 && tolerance == 0;
   row.severity = exact ? 0 : deviation.max / tolerance;
   // What is not shown at all is worse than any number.
-  if (!deviation.within && (std::isnan(row.severity) || row.severity <= 1))
+  if (row.verdict == Verdict::deviates && (std::isnan(row.severity) || row.severity <= 1))
     row.severity = std::numeric_limits<double>::infinity();
 }
 
@@ -48,14 +49,6 @@ std::string one_digit(double value) {
 }
 
 }  // namespace
-
-const char* symbol_of(Mark mark) {
-  return mark == Mark::within ? "✓" : mark == Mark::deviates ? "✗" : "–";
-}
-
-const char* word_of(Mark mark) {
-  return mark == Mark::within ? "within" : mark == Mark::deviates ? "DEVIATES" : "";
-}
 
 QuantityFormat format_for(const SceneRecord& scene, const std::string& name,
                           const EnsembleValue* ensemble) {
@@ -115,7 +108,8 @@ std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const Engin
   for (const std::string& name : names) {
     const EnsembleValue* ensemble = find(run.observables, name);
     const bool in_reference = scene.reference.observables.count(name) > 0;
-    if (!ensemble && !in_reference) continue;
+    const Deviation* deviation = find(run.errors, name);
+    if (!ensemble && !in_reference && !deviation) continue;
     const QuantityFormat format = format_for(scene, name, ensemble);
     ComparisonRow row;
     row.name = name;
@@ -126,7 +120,7 @@ std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const Engin
     row.spread = ensemble ? spread_text(*ensemble, format) : "–";
     row.worst = row.tolerance = "–";
     row.severity = std::numeric_limits<double>::quiet_NaN();
-    if (const Deviation* deviation = find(run.errors, name)) {
+    if (deviation) {
       add_error(*deviation, dimension_of(name), !run.expect, row);
     } else if (!in_reference) {
       row.note = "the reference does not show it";

@@ -8,14 +8,6 @@
 
 namespace slipcheck {
 
-/// How an observable stands to its tolerance.
-enum class Mark { within, deviates, no_tolerance };
-
-/// "✓", "✗", "–": never colour alone.
-const char* symbol_of(Mark mark);
-/// "within", "DEVIATES", nothing without a tolerance
-const char* word_of(Mark mark);
-
 /// One observable of one engine beside the reference, as text for people.
 struct ComparisonRow {
   std::string name;       ///< "i.sliding_time"
@@ -24,7 +16,7 @@ struct ComparisonRow {
   std::string spread;     ///< "29.00 … 30.50", or one number where all phases agree
   std::string worst;      ///< largest error: "10.2 %", "0.141", "1.2 mm"
   std::string tolerance;  ///< in the same form
-  Mark mark = Mark::no_tolerance;
+  Verdict verdict = Verdict::unjudged;
   double severity = 0;  ///< largest error in units of the tolerance; NaN without one
   std::string note;     ///< why there is no error, or which phases are missing
 };
@@ -48,7 +40,8 @@ std::string closed_form_text(const ReferenceResult& reference, const std::string
 std::string reference_text(const SceneRecord& scene, const std::string& name,
                            const QuantityFormat& format);
 
-/// One row for each of these observables that the reference or the engine shows. Where the scene
+/// One row for each of these observables that the reference or the engine shows, or that the run
+/// has a verdict on. Where the scene
 /// says what it expects of the run, tolerances do not count and are not in the rows.
 std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const EngineRecord& run,
                                            const std::vector<std::string>& names);

@@ -8,6 +8,7 @@
 #include "report/comparison_rows.h"
 #include "report/quantity.h"
 #include "report/selection.h"
+#include "report/verdict_look.h"
 
 namespace slipcheck {
 namespace {
@@ -48,17 +49,17 @@ std::string outcome_text(const EngineRecord& run) {
   if (run.expect && run.expect->status) {
     const std::string ended =
         run.status == RunStatus::ok ? "ran to its end" : status_text(run.status);
-    const bool met = run.within();
+    const bool met = run.verdict() == Verdict::within;
     std::string text = ended + ", " + expectation_word(met);
     return met ? text : text + " (" + status_text(*run.expect->status) + ")";
   }
   if (run.status != RunStatus::ok) return status_text(run.status);
-  if (run.expect) return expectation_word(run.within());
-  return word_of(run.within() ? Mark::within : Mark::deviates);
+  if (run.expect) return expectation_word(run.verdict() == Verdict::within);
+  return word_of(run.verdict());
 }
 
 std::string unmet_expectation(const EngineRecord& run, bool with_limits) {
-  if (!run.expect || run.within()) return {};
+  if (!run.expect || run.verdict() == Verdict::within) return {};
   if (run.expect->status) return outcome_text(run);
   for (const ExpectationRow& row : expectation_rows(run)) {
     if (row.met) continue;

@@ -24,7 +24,7 @@ std::vector<ExpectationRow> expectation_rows(const EngineRecord& run);
 const char* expectation_word(bool met);
 
 /// The run's status for people beside what was expected of it: "unstable", "unstable, as expected",
-/// "crashed, NOT AS EXPECTED (unstable)", "within", "DEVIATES", "as expected".
+/// "crashed, NOT AS EXPECTED (unstable)", "within", "UNDECIDED", "DEVIATES", "as expected".
 std::string outcome_text(const EngineRecord& run);
 
 /// The first thing that the run does not do as expected: "i-j.restitution max 0.9100", with the

@@ -32,7 +32,8 @@ std::optional<ComparisonRow> worst_deviation(const SceneRecord& scene, const Eng
   std::optional<ComparisonRow> worst;
   if (run.status != RunStatus::ok) return worst;
   for (ComparisonRow& row : comparison_rows(scene, run, shown_observables(scene, false)))
-    if (row.mark == Mark::deviates && (!worst || is_worse(row, *worst))) worst = std::move(row);
+    if (row.verdict == Verdict::deviates && (!worst || is_worse(row, *worst)))
+      worst = std::move(row);
   return worst;
 }
 
@@ -45,12 +46,21 @@ std::string deviation_text(const ComparisonRow& row) {
   return row.note.empty() ? text : text + "; " + row.note;
 }
 
+std::string undecided_text(const EngineRecord& run) {
+  if (run.expect || run.status != RunStatus::ok) return {};
+  for (const auto& [name, error] : run.errors)
+    if (error.verdict == Verdict::undecided) return printable(name + ": " + error.reason);
+  return {};
+}
+
 std::string finding_text(const SceneRecord& scene, const EngineRecord& run) {
-  if (run.verdict().value_or(Verdict::within) == Verdict::within) return {};
+  if (run.verdict() <= Verdict::within) return {};
   if (run.expect && !run.expect->status && run.status == RunStatus::ok)
     return printable(unmet_expectation(run, true));
   if (const auto worst = worst_deviation(scene, run); worst && !run.expect)
     return printable(deviation_text(*worst));
+  if (const std::string undecided = undecided_text(run); !undecided.empty())
+    return "undecided: " + undecided;
   std::string text = outcome_text(run);
   return printable(run.reason.empty() ? text : text + ": " + run.reason);
 }

@@ -8,6 +8,7 @@
 #include "report/comparison_rows.h"
 #include "report/expectation_rows.h"
 #include "report/html_text.h"
+#include "report/verdict_look.h"
 
 namespace slipcheck {
 namespace {
@@ -15,8 +16,9 @@ namespace {
 // Keeps the page of a scene of many bodies readable; the result file has everything.
 constexpr std::size_t kMostRows = 20;
 
-const char* class_of(Mark mark) {
-  return mark == Mark::within ? "good" : mark == Mark::deviates ? "bad" : "faint";
+/// The style of a verdict's word.
+const char* ink_of(Verdict verdict) {
+  return verdict == Verdict::within ? "good" : verdict == Verdict::unjudged ? "faint" : "bad";
 }
 
 std::string run_table(std::vector<ComparisonRow> comparison) {
@@ -30,9 +32,9 @@ std::string run_table(std::vector<ComparisonRow> comparison) {
          {row.reference, ""},
          {row.median, ""},
          {row.spread, ""},
-         {row.worst, row.mark == Mark::deviates ? "bad" : ""},
+         {row.worst, row.verdict == Verdict::deviates ? "bad" : ""},
          {row.tolerance, ""},
-         {std::string(symbol_of(row.mark)) + " " + word_of(row.mark), class_of(row.mark)}});
+         {std::string(symbol_of(row.verdict)) + " " + word_of(row.verdict), ink_of(row.verdict)}});
     if (!row.note.empty()) notes.push_back(row.name + ": " + row.note);
   }
   if (count > rows.size())
@@ -58,7 +60,7 @@ std::string expectations_table(const EngineRecord& run) {
                     {row.statistic, ""},
                     {row.value, row.met ? "" : "bad"},
                     {row.limits, ""},
-                    {std::string(symbol_of(row.met ? Mark::within : Mark::deviates)) + " " +
+                    {std::string(symbol_of(row.met ? Verdict::within : Verdict::deviates)) + " " +
                          expectation_word(row.met),
                      row.met ? "good" : "bad"}});
     if (!row.note.empty()) notes.push_back(row.name + ": " + row.note);
@@ -87,10 +89,7 @@ std::string html_run(const SceneRecord& scene, std::size_t k, const std::vector<
                      const SharedSettings& shared) {
   const EngineRecord& run = scene.runs[k];
   const bool ok = run.status == RunStatus::ok;
-  const auto verdict = run.verdict();
-  const Mark mark = verdict == Verdict::within ? Mark::within
-                    : verdict                  ? Mark::deviates
-                                               : Mark::no_tolerance;
+  const Verdict verdict = run.verdict();
   std::vector<ComparisonRow> rows;
   if (ok) rows = comparison_rows(scene, run, names);
   std::string html = fmt::format(
@@ -98,9 +97,8 @@ std::string html_run(const SceneRecord& scene, std::size_t k, const std::vector<
       "data-profile=\"{}\" data-rate=\"{:g}\" data-verdict=\"{}\">\n<details{}><summary><h4>{} "
       "<span class=\"{}\">{} {}</span></h4> <span class=\"faint\">{}</span></summary>\n",
       k, escaped(run.engine), escaped(run.precision), escaped(run.profile), run.rate,
-      verdict ? name_of(*verdict) : "skipped", verdict == Verdict::within ? "" : " open=\"\"",
-      escaped(run_name(run)), class_of(mark), symbol_of(mark), escaped(outcome_text(run)),
-      escaped(worst_text(rows)));
+      class_of(verdict), verdict <= Verdict::within ? "" : " open=\"\"", escaped(run_name(run)),
+      ink_of(verdict), symbol_of(verdict), escaped(outcome_text(run)), escaped(worst_text(rows)));
   if (ok) {
     std::string cost = fmt::format("{} phase{}", run.phases, run.phases == 1 ? "" : "s");
     if (const std::string each = step_cost(run); !each.empty()) cost += ", " + each;

@@ -7,13 +7,13 @@
 
 #include "harness/scene_features.h"
 #include "report/comparison_rows.h"
-#include "report/expectation_rows.h"
 #include "report/html_run.h"
 #include "report/html_summary.h"
 #include "report/html_text.h"
 #include "report/phase_charts.h"
 #include "report/scene_drawing.h"
 #include "report/selection.h"
+#include "report/verdict_look.h"
 
 namespace slipcheck {
 namespace {
@@ -77,17 +77,10 @@ std::string words_part(const SceneRecord& scene) {
 
 }  // namespace
 
-std::string verdict_class(const SceneRecord& scene) { return name_of(scene.verdict()); }
-
 std::string verdict_label(const SceneRecord& scene) {
-  if (scene.runs.empty()) return "<span class=\"verdict\">– reference only</span>";
-  const char* symbol = scene.verdict() == Verdict::within     ? "✓"
-                       : scene.verdict() == Verdict::deviates ? "✗"
-                                                              : "⚠";
-  const std::string word = is_judged_by_expectations(scene) && scene.verdict() != Verdict::failed
-                               ? expectation_word(scene.verdict() == Verdict::within)
-                               : name_of(scene.verdict());
-  return fmt::format("<span class=\"verdict {}\">{} {}</span>", verdict_class(scene), symbol, word);
+  const Verdict verdict = scene.verdict();
+  return fmt::format("<span class=\"verdict {}\">{} {}</span>", class_of(verdict),
+                     symbol_of(verdict), verdict_name(scene));
 }
 
 std::string html_scene(const SceneRecord& scene, std::size_t k, const SharedSettings& shared) {
@@ -96,7 +89,7 @@ std::string html_scene(const SceneRecord& scene, std::size_t k, const SharedSett
   std::string html = fmt::format(
       "<section class=\"scene {0}\" id=\"{1}\" data-scene=\"{2}\" data-name=\"{3}\" "
       "data-verdict=\"{0}\">\n<h2>{3} {4}</h2>\n",
-      verdict_class(scene), scene_id(k), k, escaped(scenario.name), verdict_label(scene));
+      class_of(scene.verdict()), scene_id(k), k, escaped(scenario.name), verdict_label(scene));
   html += html_paragraph("title", "", scenario.title);
   html += html_paragraph("faint", "", scenario.source);
   html += "<div class=\"setting\">\n" + scene_drawing(scenario) + reference_part(scene, names) +

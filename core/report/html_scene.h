@@ -11,9 +11,6 @@ namespace slipcheck {
 /// A verdict as a label with its symbol.
 std::string verdict_label(const SceneRecord& scene);
 
-/// Its class on the page and in the filter: "within", "deviates", "failed".
-std::string verdict_class(const SceneRecord& scene);
-
 /// Section of the k-th scene: what it is, what of the reference it leaves out, the reference's
 /// values, what charts show in words, and each run.
 std::string html_scene(const SceneRecord& scene, std::size_t k, const SharedSettings& shared);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "report/findings.h"
 #include "report/html_scene.h"
 #include "report/html_text.h"
+#include "report/verdict_look.h"
 
 namespace slipcheck {
 namespace {
@@ -18,13 +18,18 @@ namespace {
 constexpr std::size_t kWorst = 5;
 
 std::string counts_part(const std::vector<SceneRecord>& scenes) {
-  std::array<std::size_t, 3> counts{};
-  for (const SceneRecord& scene : scenes) ++counts[static_cast<std::size_t>(scene.verdict())];
-  return fmt::format(
-      "<p class=\"counts\"><span class=\"verdict within\">✓ {} within</span> "
-      "<span class=\"verdict deviates\">✗ {} deviate</span> "
-      "<span class=\"verdict failed\">⚠ {} failed</span></p>\n",
-      counts[0], counts[1], counts[2]);
+  const AllVerdicts all = count_verdicts(scenes);
+  std::string html;
+  for (const Verdict verdict :
+       {Verdict::within, Verdict::deviates, Verdict::undecided, Verdict::failed, Verdict::unjudged})
+    if (verdict != Verdict::unjudged || all.scenes.of(verdict) > 0)
+      html += fmt::format("<span class=\"verdict {}\">{} {}</span> ", class_of(verdict),
+                          symbol_of(verdict), all.scenes.text_of(verdict));
+  if (all.scenes_alone > 0)
+    html += fmt::format("<span class=\"verdict not-judged\">{} {} of the reference alone</span> ",
+                        symbol_of(Verdict::unjudged), all.scenes_alone);
+  html.pop_back();
+  return "<p class=\"counts\">" + html + "</p>\n";
 }
 
 std::string words_of(const ComparisonRow& row) {
@@ -47,7 +52,7 @@ std::string worst_part(const std::vector<SceneRecord>& scenes) {
 /// Plain radio buttons that the style sheet listens to.
 std::string filter_part() {
   std::string html = "<fieldset class=\"filter\"><legend>Show scenes</legend>\n";
-  for (const char* choice : {"all", "deviates", "failed", "within"})
+  for (const char* choice : {"all", "deviates", "undecided", "failed", "within"})
     html += fmt::format(
         "<span><input type=\"radio\" name=\"show\" id=\"show-{0}\"{1}/><label "
         "for=\"show-{0}\">{0}</label></span>\n",
@@ -56,7 +61,7 @@ std::string filter_part() {
 }
 
 /// What a line of the contents says of a scene: the worst deviation, or the first of its runs that
-/// does not do what is expected of it, else the title.
+/// does not do what is expected of it or cannot be judged, else the title.
 std::string contents_text(const SceneRecord& scene) {
   std::optional<ComparisonRow> worst;
   for (const EngineRecord& run : scene.runs)
@@ -66,6 +71,9 @@ std::string contents_text(const SceneRecord& scene) {
   for (const EngineRecord& run : scene.runs)
     if (const std::string unmet = unmet_expectation(run, true); !unmet.empty())
       return fmt::format("{}, {}", unmet, run_name(run));
+  for (const EngineRecord& run : scene.runs)
+    if (run.verdict() == Verdict::undecided)
+      return fmt::format("{}, {}", finding_text(scene, run), run_name(run));
   return scene.scenario.title;
 }
 
@@ -83,7 +91,7 @@ std::string html_contents(const std::vector<SceneRecord>& scenes) {
     html += fmt::format(
         "<li class=\"scene {}\" data-scene=\"{}\">{} <a href=\"#{}\">{}</a> <span "
         "class=\"faint\">{}</span></li>\n",
-        verdict_class(scenes[k]), k, verdict_label(scenes[k]), scene_id(k),
+        class_of(scenes[k].verdict()), k, verdict_label(scenes[k]), scene_id(k),
         escaped(scenes[k].scenario.name), escaped(contents_text(scenes[k])));
   return html + "</ul></nav>\n";
 }

@@ -8,6 +8,8 @@
 #include "report/json_number.h"
 #include "report/selection.h"
 #include "report/text.h"
+#include "report/verdict_look.h"
+#include "scenario/tolerances.h"
 
 namespace slipcheck {
 namespace {
@@ -126,7 +128,8 @@ Json deviation_json(const Deviation& deviation) {
     add_reason(json, std::string("the error ") + kind_of(deviation.max));
   if (deviation.tolerance) put_number(json, "tolerance", *deviation.tolerance);
   if (deviation.absolute) json["absolute"] = true;
-  json["within"] = deviation.within;
+  json["within"] = deviation.verdict <= Verdict::within;
+  if (deviation.tolerance) json["verdict"] = name_of(deviation.verdict);
   return json;
 }
 
@@ -148,9 +151,7 @@ Json expectation_json(const ExpectationResult& expected) {
 
 /// What is shown phase by phase, or expected of it: not more, as there may be many phases.
 bool needs_values(const Scenario& scenario, const EngineRecord& run, const std::string& name) {
-  const ObservableName* observable = observable_of(name);
-  return has_tolerance(scenario, name) ||
-         (observable && scenario.compare.tolerance.contains(std::string(observable->name))) ||
+  return tolerance_of_part(scenario, name) ||
          (run.expect && run.expect->observables.contains(name));
 }
 
@@ -199,7 +200,7 @@ Json json_of(const SceneRecord& scene) {
   json["reference"] = reference_json(scene);
   json["runs"] = Json::array();
   for (const EngineRecord& run : scene.runs) json["runs"].push_back(run_json(scenario, run));
-  json["verdict"] = name_of(scene.verdict());
+  json["verdict"] = is_reference_alone(scene) ? "reference alone" : name_of(scene.verdict());
   return json;
 }
 

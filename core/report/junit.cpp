@@ -12,14 +12,15 @@
 #include "report/findings.h"
 #include "report/selection.h"
 #include "report/text.h"
+#include "report/verdict_look.h"
 
 namespace slipcheck {
 namespace {
 
-using Kind = TestOutcome::Kind;
+using OutcomeKind = TestOutcome::Kind;
 using Outcomes = std::vector<const TestOutcome*>;
 
-std::size_t count(const Outcomes& outcomes, Kind kind) {
+std::size_t count(const Outcomes& outcomes, OutcomeKind kind) {
   return static_cast<std::size_t>(std::count_if(outcomes.begin(), outcomes.end(),
                                                 [&](const auto* o) { return o->kind == kind; }));
 }
@@ -42,9 +43,11 @@ void add_totals(pugi::xml_node node, const Outcomes& outcomes, bool with_skipped
   double seconds = 0;
   for (const TestOutcome* outcome : outcomes) seconds += outcome->seconds;
   set(node, "tests", fmt::format("{}", outcomes.size()));
-  set(node, "failures", fmt::format("{}", count(outcomes, Kind::failed)));
-  set(node, "errors", fmt::format("{}", count(outcomes, Kind::error)));
-  if (with_skipped) set(node, "skipped", fmt::format("{}", count(outcomes, Kind::skipped)));
+  set(node, "failures",
+      fmt::format("{}",
+                  count(outcomes, OutcomeKind::failed) + count(outcomes, OutcomeKind::undecided)));
+  set(node, "errors", fmt::format("{}", count(outcomes, OutcomeKind::error)));
+  if (with_skipped) set(node, "skipped", fmt::format("{}", count(outcomes, OutcomeKind::skipped)));
   set(node, "time", fmt::format("{:.6f}", seconds));
 }
 
@@ -54,14 +57,16 @@ void add_case(pugi::xml_node suite, const TestOutcome& outcome) {
   set(test, "classname", printable(outcome.suite));
   set(test, "time", fmt::format("{:.6f}", outcome.seconds));
   const std::string text = xml_lines(outcome.text);
-  if (outcome.kind == Kind::passed) {
+  if (outcome.kind == OutcomeKind::passed) {
     if (!text.empty()) test.append_child("system-out").text().set(text.c_str());
     return;
   }
-  const bool failed = outcome.kind == Kind::failed, skipped = outcome.kind == Kind::skipped;
+  const bool undecided = outcome.kind == OutcomeKind::undecided,
+             skipped = outcome.kind == OutcomeKind::skipped;
+  const bool failed = undecided || outcome.kind == OutcomeKind::failed;
   pugi::xml_node result = test.append_child(failed ? "failure" : skipped ? "skipped" : "error");
   set(result, "message", printable(outcome.message));
-  if (!skipped) set(result, "type", failed ? "deviation" : "engine");
+  if (!skipped) set(result, "type", undecided ? "undecided" : failed ? "deviation" : "engine");
   if (!text.empty()) result.text().set(text.c_str());
 }
 
@@ -70,10 +75,10 @@ std::string text_of(const SceneRecord& scene, const EngineRecord& run) {
   std::string text = run_name(run) + "\n";
   if (run.status == RunStatus::ok) {
     for (const ComparisonRow& row : comparison_rows(scene, run, shown_observables(scene, false)))
-      text += fmt::format("{} {}\n", symbol_of(row.mark), deviation_text(row));
+      text += fmt::format("{} {}\n", symbol_of(row.verdict), deviation_text(row));
     for (const ExpectationRow& row : expectation_rows(run))
       text += fmt::format("{} {}{}{}: {}, expected {}{}{}\n",
-                          symbol_of(row.met ? Mark::within : Mark::deviates), row.name,
+                          symbol_of(row.met ? Verdict::within : Verdict::deviates), row.name,
                           row.statistic.empty() ? "" : " ", row.statistic, row.value, row.limits,
                           row.note.empty() ? "" : "; ", row.note);
   } else {
@@ -85,23 +90,37 @@ std::string text_of(const SceneRecord& scene, const EngineRecord& run) {
   return text;
 }
 
-TestOutcome outcome_of(const SceneRecord& scene, const EngineRecord& run) {
+OutcomeKind kind_of(Verdict verdict, bool allow_undecided) {
+  switch (verdict) {
+    case Verdict::unjudged:
+    case Verdict::within:
+      return OutcomeKind::passed;
+    case Verdict::undecided:
+      return allow_undecided ? OutcomeKind::skipped : OutcomeKind::undecided;
+    case Verdict::deviates:
+      return OutcomeKind::failed;
+    case Verdict::failed:
+      break;
+  }
+  return OutcomeKind::error;
+}
+
+TestOutcome outcome_of(const SceneRecord& scene, const EngineRecord& run, bool allow_undecided) {
   TestOutcome outcome;
   outcome.suite = scene.scenario.name;
   outcome.name = run_label(run);
   outcome.seconds = run.cpu_seconds;
   outcome.text = text_of(scene, run);
-  const std::optional<Verdict> verdict = run.verdict();
-  outcome.kind = !verdict                        ? Kind::skipped
-                 : *verdict == Verdict::within   ? Kind::passed
-                 : *verdict == Verdict::deviates ? Kind::failed
-                                                 : Kind::error;
-  outcome.message = verdict ? finding_text(scene, run) : printable(run.reason);
+  outcome.kind = kind_of(run.verdict(), allow_undecided);
+  outcome.message = finding_text(scene, run);
   return outcome;
 }
 
-TestOutcome reference_outcome(const SceneRecord& scene) {
+TestOutcome reference_outcome(const SceneRecord& scene, bool allow_undecided) {
   TestOutcome outcome;
+  outcome.kind = kind_of(scene.reference.run.reached ? Verdict::unjudged : Verdict::undecided,
+                         allow_undecided);
+  outcome.message = printable(scene.reference.run.reason);
   outcome.suite = scene.scenario.name;
   outcome.name = "reference";
   outcome.seconds = scene.reference.cpu_seconds;
@@ -142,11 +161,13 @@ std::string junit_xml(const std::vector<TestOutcome>& outcomes) {
   return text.str();
 }
 
-std::vector<TestOutcome> test_outcomes(const std::vector<SceneRecord>& scenes) {
+std::vector<TestOutcome> test_outcomes(const std::vector<SceneRecord>& scenes,
+                                       bool allow_undecided) {
   std::vector<TestOutcome> outcomes;
   for (const SceneRecord& scene : scenes) {
-    if (scene.runs.empty()) outcomes.push_back(reference_outcome(scene));
-    for (const EngineRecord& run : scene.runs) outcomes.push_back(outcome_of(scene, run));
+    if (scene.runs.empty()) outcomes.push_back(reference_outcome(scene, allow_undecided));
+    for (const EngineRecord& run : scene.runs)
+      outcomes.push_back(outcome_of(scene, run, allow_undecided));
   }
   return outcomes;
 }

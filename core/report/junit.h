@@ -9,7 +9,7 @@ namespace slipcheck {
 
 /// One test of a JUnit report.
 struct TestOutcome {
-  enum class Kind { passed, failed, error, skipped };
+  enum class Kind { passed, failed, undecided, error, skipped };
 
   std::string suite;  ///< scene
   std::string name;   ///< run: "bullet double default 240 Hz", or "reference"
@@ -25,8 +25,9 @@ std::string junit_xml(const std::vector<TestOutcome>& outcomes);
 
 /// Scenes in engines as tests: one for each run, and one for a reference without engines. A
 /// deviation is a failure whose message names the worst observable with reference, median and
-/// range, error and tolerance; a crash, a time-out, an instability is an error; what was skipped is
-/// skipped.
-std::vector<TestOutcome> test_outcomes(const std::vector<SceneRecord>& scenes);
+/// range, error and tolerance; a crash, a time-out, an instability is an error. What is undecided
+/// is a failure of the type "undecided", or skipped where that is allowed.
+std::vector<TestOutcome> test_outcomes(const std::vector<SceneRecord>& scenes,
+                                       bool allow_undecided = false);
 
 }  // namespace slipcheck

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <string_view>
 
@@ -11,6 +10,7 @@
 #include "report/findings.h"
 #include "report/selection.h"
 #include "report/text.h"
+#include "report/verdict_look.h"
 
 namespace slipcheck {
 namespace {
@@ -34,40 +34,22 @@ std::string plural(std::size_t count, const char* noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-/// "3 within, 1 deviates, 0 failed"
-std::string counts_text(const std::array<std::size_t, 3>& counts) {
-  return fmt::format("{} within tolerance, {} deviating, {} failed", counts[0], counts[1],
-                     counts[2]);
-}
-
 std::string head_of(const std::vector<SceneRecord>& scenes) {
-  std::array<std::size_t, 3> by_scene{}, by_run{};
-  std::size_t runs = 0, skipped = 0, without_engines = 0;
-  for (const SceneRecord& scene : scenes) {
-    if (scene.runs.empty()) {
-      ++without_engines;
-    } else {
-      ++by_scene[static_cast<std::size_t>(scene.verdict())];
-    }
-    for (const EngineRecord& run : scene.runs) {
-      ++runs;
-      if (const auto verdict = run.verdict())
-        ++by_run[static_cast<std::size_t>(*verdict)];
-      else
-        ++skipped;
-    }
-  }
-  const bool good = by_scene[1] + by_scene[2] == 0;
-  std::string text =
-      fmt::format("## {} Slipcheck: {}\n\n", good ? "✓" : "✗",
-                  good ? "all within tolerance"
-                       : fmt::format("{} of {} not within tolerance", by_scene[1] + by_scene[2],
-                                     plural(scenes.size(), "scene")));
-  text += fmt::format("{}: {}", plural(scenes.size(), "scene"), counts_text(by_scene));
-  if (without_engines > 0) text += fmt::format(", {} of the reference alone", without_engines);
-  text += fmt::format("  \n{}: {}", plural(runs, "engine run"), counts_text(by_run));
-  if (skipped > 0) text += fmt::format(", {} skipped", skipped);
-  return text + "\n";
+  const AllVerdicts all = count_verdicts(scenes);
+  const std::size_t bad = all.scenes.of(Verdict::undecided) + all.scenes.of(Verdict::deviates) +
+                          all.scenes.of(Verdict::failed);
+  const std::size_t good = all.scenes.of(Verdict::within);
+  const std::string verdict =
+      bad > 0    ? fmt::format("{} of {} not within tolerance", bad, plural(scenes.size(), "scene"))
+      : good > 0 ? "all within tolerance"
+                 : "nothing was judged";
+  std::string text = fmt::format("## {} Slipcheck: {}\n\n{}: {}",
+                                 bad > 0    ? "✗"
+                                 : good > 0 ? "✓"
+                                            : "–",
+                                 verdict, plural(scenes.size(), "scene"), all.scenes.list());
+  if (all.scenes_alone > 0) text += fmt::format(", {} of the reference alone", all.scenes_alone);
+  return text + fmt::format("  \n{}: {}\n", plural(all.run_count, "engine run"), all.runs.list());
 }
 
 std::string worst_part(const std::vector<SceneRecord>& scenes) {
@@ -88,9 +70,10 @@ std::string worst_part(const std::vector<SceneRecord>& scenes) {
 void add_rows(const SceneRecord& scene, const EngineRecord& run,
               std::vector<std::vector<std::string>>& rows) {
   const std::string label = run_label(run);
+  const auto mark = [](Verdict verdict) { return std::string(symbol_of(verdict)) + " "; };
   const bool ok = run.status == RunStatus::ok;
   if (!ok || (run.expect && run.expect->status)) {
-    rows.push_back({"✗ " + label, finding_text(scene, run), "", "", "", "", ""});
+    rows.push_back({mark(run.verdict()) + label, finding_text(scene, run), "", "", "", "", ""});
     return;
   }
   for (const ExpectationRow& row : expectation_rows(run))
@@ -98,34 +81,38 @@ void add_rows(const SceneRecord& scene, const EngineRecord& run,
       rows.push_back({"✗ " + label, row.name + " " + row.statistic, "expected " + row.limits,
                       row.value, "", "", ""});
   std::vector<ComparisonRow> bad = comparison_rows(scene, run, shown_observables(scene, false));
-  std::erase_if(bad, [](const ComparisonRow& row) { return row.mark != Mark::deviates; });
+  std::erase_if(bad, [](const ComparisonRow& row) {
+    return row.verdict != Verdict::deviates && row.verdict != Verdict::undecided;
+  });
   const std::size_t count = bad.size();
   bad = most_severe(std::move(bad), kMostRows);
   for (const ComparisonRow& row : bad)
-    rows.push_back({"✗ " + label, row.note.empty() ? row.name : row.name + " (" + row.note + ")",
-                    row.reference, row.median, row.spread, row.worst, row.tolerance});
+    rows.push_back({mark(row.verdict) + label,
+                    row.note.empty() ? row.name : row.name + " (" + row.note + ")", row.reference,
+                    row.median, row.spread, row.worst, row.tolerance});
   if (bad.size() < count)
     rows.push_back({"✗ " + label, fmt::format("{} more", count - bad.size()), "", "", "", "", ""});
 }
 
 std::string scene_part(const SceneRecord& scene) {
   std::vector<std::vector<std::string>> rows;
-  std::size_t bad = 0, counted = 0;
+  VerdictCounts counts;
   for (const EngineRecord& run : scene.runs) {
-    const std::optional<Verdict> verdict = run.verdict();
-    counted += verdict.has_value();
-    if (verdict.value_or(Verdict::within) == Verdict::within) continue;
-    ++bad;
-    add_rows(scene, run, rows);
+    counts.add(run.verdict());
+    if (run.verdict() > Verdict::within) add_rows(scene, run, rows);
   }
-  std::string text = fmt::format("\n### ✗ {}\n\n", markdown_escaped(scene.scenario.name));
+  std::string text = fmt::format("\n### {} {}\n\n", symbol_of(scene.verdict()),
+                                 markdown_escaped(scene.scenario.name));
   if (!scene.scenario.title.empty())
     text += fmt::format("{}. ", markdown_escaped(scene.scenario.title));
-  text += fmt::format("{} of {} {}.\n\n", bad, plural(counted, "run"),
-                      scene.verdict() == Verdict::failed ? "failed or deviate" : "deviate");
-  return text + markdown_table({"run", "observable", "reference", "median", "min … max",
-                                "max error", "tolerance"},
-                               rows, {2, 3, 4, 5, 6});
+  if (!scene.reference.run.reached)
+    text += fmt::format("The reference did not end: {}. ",
+                        markdown_escaped(scene.reference.run.reason));
+  if (rows.empty()) return text + "\n";
+  return text + fmt::format("{}: {}.\n\n", plural(scene.runs.size(), "run"), counts.list()) +
+         markdown_table(
+             {"run", "observable", "reference", "median", "min … max", "max error", "tolerance"},
+             rows, {2, 3, 4, 5, 6});
 }
 
 /// The names of those scenes of which there is nothing more to say.
@@ -133,7 +120,7 @@ std::string good_part(const std::vector<SceneRecord>& scenes) {
   std::string names;
   std::size_t count = 0;
   for (const SceneRecord& scene : scenes) {
-    if (scene.verdict() != Verdict::within || scene.runs.empty()) continue;
+    if (scene.verdict() != Verdict::within) continue;
     names += (count++ > 0 ? ", " : "") + markdown_escaped(scene.scenario.name);
   }
   return count == 0 ? "" : fmt::format("\n**✓ {} within tolerance**: {}\n", count, names);
@@ -182,14 +169,15 @@ std::string markdown_of(const std::vector<SceneRecord>& scenes, std::size_t most
   std::string text = head_of(scenes) + worst_part(scenes);
   std::vector<std::string> parts;
   for (const SceneRecord& scene : scenes)
-    if (scene.verdict() != Verdict::within) parts.push_back(scene_part(scene));
+    if (scene.verdict() > Verdict::within) parts.push_back(scene_part(scene));
   // Bytes are counted, of which there are never fewer than characters.
   std::size_t shown = 0;
   while (shown < parts.size() && text.size() + parts[shown].size() + kRoom <= most)
     text += parts[shown++];
   if (shown < parts.size())
-    text += fmt::format("\n… and {} that deviate or failed; there is no room for them here.\n",
-                        plural(parts.size() - shown, "more scene"));
+    text += fmt::format(
+        "\n… and {} that deviate, are undecided or failed; there is no room for them here.\n",
+        plural(parts.size() - shown, "more scene"));
   const std::string good = good_part(scenes);
   return text.size() + good.size() <= most ? text + good : text;
 }

@@ -13,6 +13,7 @@
 #include "report/phase_charts.h"
 #include "report/quantity.h"
 #include "report/text.h"
+#include "report/verdict_look.h"
 
 namespace slipcheck {
 
@@ -23,14 +24,13 @@ namespace {
 constexpr std::size_t kMostColumns = 300;  // of a series; each keeps its lowest and highest sample
 
 Json run_data(const EngineRecord& run) {
-  const auto verdict = run.verdict();
   return {{"label", printable(fmt::format("{} {} {} {:g} Hz", run.engine, run.precision,
                                           run.profile, run.rate))},
           {"engine", printable(run.engine)},
           {"precision", printable(run.precision)},
           {"profile", printable(run.profile)},
           {"rate", page_number(run.rate)},
-          {"verdict", verdict ? name_of(*verdict) : "skipped"}};
+          {"verdict", class_of(run.verdict())}};
 }
 
 Json phase_data(const SceneRecord& scene, const PhaseChart& chart) {

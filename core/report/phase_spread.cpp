@@ -45,11 +45,12 @@ double vector_scale(const SceneRecord& scene, const std::string& vector) {
   return length.norm();
 }
 
-/// The tolerance as the runs were judged by; the same for all of them.
+/// The tolerance as the runs were judged by; the same for all of them. None where none could be.
 const Deviation* judged_by(const SceneRecord& scene, const std::string& name) {
   for (const EngineRecord& run : scene.runs)
-    if (const auto found = run.errors.find(name);
-        found != run.errors.end() && found->second.tolerance)
+    if (const auto found = run.errors.find(name); found != run.errors.end() &&
+                                                  found->second.tolerance &&
+                                                  found->second.verdict != Verdict::undecided)
       return &found->second;
   return nullptr;
 }
@@ -94,9 +95,10 @@ std::optional<PhaseSpread> phase_spread(const SceneRecord& scene, const std::str
   const bool is_distance = observable->is_vector && name.ends_with(observable->name);
   const double value = is_distance ? 0 : reference->second.value;
   const double scale = is_distance ? vector_scale(scene, name) : std::abs(value);
-  // Never narrower than what the reference itself knows, but for means, whose error is no rounding.
+  // Of a value that is zero but for rounding, what the reference knows of it.
   const double known = scene.reference.box ? 0 : 10 * reference->second.uncertainty;
-  const double margin = std::max(*deviation->tolerance * (deviation->absolute ? 1 : scale), known);
+  const bool is_zero = !deviation->absolute && scale <= known;
+  const double margin = is_zero ? known : *deviation->tolerance * (deviation->absolute ? 1 : scale);
   if (!std::isfinite(value) || !std::isfinite(margin)) return {};
 
   PhaseSpread spread;

@@ -99,7 +99,11 @@ Deviation read_deviation(const JsonNode& json) {
   deviation.reason = json.own_reason({"the error is infinite", "the error is not a number"});
   if (json.has("tolerance")) deviation.tolerance = json.number("tolerance");
   deviation.absolute = json.flag_or("absolute", false);
-  deviation.within = json.flag("within");
+  if (deviation.tolerance && json.has("verdict"))
+    deviation.verdict =
+        json.one_of<Verdict>("verdict", 4, [](Verdict verdict) { return name_of(verdict); });
+  else if (deviation.tolerance)  // before version 0.2
+    deviation.verdict = json.flag("within") ? Verdict::within : Verdict::deviates;
   return deviation;
 }
 

@@ -55,7 +55,7 @@ std::vector<CsvValue> error_of(const EngineRecord& run, const std::string& name)
   const bool judged = error->tolerance && !run.expect;
   return {error->median, error->max, truth(error->absolute),
           error->tolerance.value_or(kNotObserved),
-          judged ? truth(error->within) : CsvValue(std::string())};
+          judged ? truth(error->verdict == Verdict::within) : CsvValue(std::string())};
 }
 
 std::string reason_of(const EngineRecord& run, const std::string& name,
@@ -88,6 +88,8 @@ class ResultRows {
     for (const auto& [name, reason] : absent_) names.insert(name);
     if (run)
       for (const auto& [name, value] : run->observables) names.insert(name);
+    if (run)
+      for (const auto& [name, error] : run->errors) names.insert(name);
     return names;
   }
 

@@ -1,47 +1,24 @@
 #include "report/selection.h"
 
+#include <algorithm>
 #include <set>
+
+#include "harness/comparison.h"
+#include "scenario/owned_names.h"
+#include "scenario/tolerances.h"
 
 namespace slipcheck {
 namespace {
 
-std::string owner_of(const std::string& full_name) {
-  return full_name.substr(0, full_name.find('.'));
-}
-
-std::string bare_name(const std::string& full_name) {
-  const std::size_t dot = full_name.find('.');
-  return dot == std::string::npos ? full_name : full_name.substr(dot + 1);
-}
-
 bool is_component(const std::string& full_name) {
   const ObservableName* observable = observable_of(full_name);
-  return observable && bare_name(full_name) != observable->name;
-}
-
-/// Whose value of an observable the scene could show.
-std::vector<std::string> owners(const SceneRecord& scene, ObservableScope scope) {
-  std::set<std::string> result;
-  switch (scope) {
-    case ObservableScope::all:
-      return {"all"};
-    case ObservableScope::body:
-      for (const Body& body : scene.scenario.bodies) result.insert(body.name);
-      break;
-    case ObservableScope::pair:
-      for (const auto& [name, value] : scene.reference.observables)
-        if (const ObservableName* other = observable_of(name);
-            other && other->scope == ObservableScope::pair)
-          result.insert(owner_of(name));
-      break;
-  }
-  return {result.begin(), result.end()};
+  return observable && owned_name(full_name).observable != observable->name;
 }
 
 }  // namespace
 
 const ObservableName* observable_of(const std::string& full_name) {
-  return find_observable(bare_name(full_name));
+  return find_observable(owned_name(full_name).observable);
 }
 
 const Dimension& dimension_of(const std::string& full_name) {
@@ -50,26 +27,27 @@ const Dimension& dimension_of(const std::string& full_name) {
 }
 
 bool has_tolerance(const Scenario& scenario, const std::string& full_name) {
-  return scenario.compare.tolerance.count(bare_name(full_name)) > 0;
+  return tolerance_of(scenario, full_name).has_value();
 }
 
 std::map<std::string, std::string> absent_observables(const SceneRecord& scene) {
   std::map<std::string, std::string> absent;
-  for (const auto& [name, tolerance] : scene.scenario.compare.tolerance) {
-    const ObservableName* observable = find_observable(name);
-    if (!observable) {
-      absent[name] = "no observable of this name is known";
+  for (const auto& [key, tolerance] : scene.scenario.compare.tolerance) {
+    if (tolerance.none) continue;
+    const auto names_it = [&](const auto& value) {
+      return names_observable(scene.scenario, key, value.first);
+    };
+    if (std::ranges::none_of(scene.reference.observables, names_it)) {
+      absent[key] = kNothingOccurs;
       continue;
     }
-    const std::vector<std::string> named = owners(scene, observable->scope);
-    if (named.empty()) absent[name] = "no pair collides in the reference";
-    for (const std::string& owner : named) {
-      // A landing has a restitution; nothing of it is left once a body rolls.
-      const bool of_landing = owner.ends_with("-substrate") && name != "restitution";
-      if (const std::string full = owner + "." + name;
-          !of_landing && !scene.reference.observables.count(full))
+    // Of a name that stands for all bodies, those that do not show it.
+    if (!owned_name(key).owner.empty()) continue;
+    if (find_observable(key)->scope != ObservableScope::body) continue;
+    for (const Body& body : scene.scenario.bodies)
+      if (const std::string full = body.name + "." + key;
+          !scene.reference.observables.contains(full))
         absent[full] = "it does not occur in the reference";
-    }
   }
   return absent;
 }
@@ -77,6 +55,9 @@ std::map<std::string, std::string> absent_observables(const SceneRecord& scene) 
 std::vector<std::string> shown_observables(const SceneRecord& scene, bool all) {
   std::set<std::string> names;
   for (const auto& [name, reason] : absent_observables(scene)) names.insert(name);
+  for (const EngineRecord& run : scene.runs)
+    for (const auto& [name, error] : run.errors)
+      if (error.verdict > Verdict::within) names.insert(name);
   for (const EngineRecord& run : scene.runs)
     if (run.expect)
       for (const auto& [name, expected] : run.expect->observables)

@@ -19,13 +19,13 @@ const Dimension& dimension_of(const std::string& full_name);
 bool has_tolerance(const Scenario& scenario, const std::string& full_name);
 
 /// What a tolerance names but the reference does not show, by full name with the reason; under the
-/// observable's bare name where it has no owner, as for pairs if none has collided.
+/// tolerance's own key where the reference shows nothing that it names.
 std::map<std::string, std::string> absent_observables(const SceneRecord& scene);
 
 /// What a person sees of a scene, by full name and in order: what has a tolerance (shown or
-/// absent), what is expected of an engine, and restitution coefficients; with `all`, or where that
-/// would be nothing and for a scene without engines, everything that the reference shows, of
-/// vectors the length only unless `all`.
+/// absent), what a run is judged by, what is expected of an engine, and restitution coefficients;
+/// with `all`, or where that would be nothing and for a scene without engines, everything that the
+/// reference shows, of vectors the length only unless `all`.
 std::vector<std::string> shown_observables(const SceneRecord& scene, bool all);
 
 }  // namespace slipcheck

@@ -4,13 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "report/comparison_rows.h"
 #include "report/expectation_rows.h"
 #include "report/selection.h"
 #include "report/text.h"
+#include "report/verdict_look.h"
 
 namespace slipcheck {
 namespace {
@@ -56,24 +56,20 @@ std::string reference_block(const SceneRecord& scene, const std::vector<std::str
   return result + warnings_text(reference.warnings, style);
 }
 
-Tone ink_of(Mark mark) {
-  return mark == Mark::within ? Tone::good : mark == Mark::deviates ? Tone::bad : Tone::faint;
-}
-
 std::string rows_text(const std::vector<ComparisonRow>& comparison, const TableStyle& style) {
   std::vector<std::vector<Cell>> rows;
   std::string notes;
   for (const ComparisonRow& row : comparison) {
-    const Tone ink = ink_of(row.mark);
-    const Tone error_ink = row.mark == Mark::deviates ? Tone::bad : Tone::plain;
+    const Tone ink = tone_of(row.verdict);
+    const Tone error_ink = row.verdict == Verdict::deviates ? Tone::bad : Tone::plain;
     rows.push_back({{row.name},
                     {row.reference},
                     {row.median},
                     {row.spread},
                     {row.worst, error_ink},
                     {row.tolerance},
-                    {symbol_of(row.mark), ink},
-                    {word_of(row.mark), ink}});
+                    {symbol_of(row.verdict), ink},
+                    {word_of(row.verdict), ink}});
     if (!row.note.empty()) notes += paragraph("  " + row.name + ": ", row.note, Tone::faint, style);
   }
   return aligned({{"observable"},
@@ -99,7 +95,7 @@ std::string expectations_text(const std::vector<ExpectationRow>& expectations,
                     {row.statistic},
                     {row.value, row.met ? Tone::plain : Tone::bad},
                     {row.limits},
-                    {symbol_of(row.met ? Mark::within : Mark::deviates), ink},
+                    {symbol_of(row.met ? Verdict::within : Verdict::deviates), ink},
                     {expectation_word(row.met), ink}});
     if (!row.note.empty()) notes += paragraph("  " + row.name + ": ", row.note, Tone::faint, style);
   }
@@ -110,16 +106,14 @@ std::string expectations_text(const std::vector<ExpectationRow>& expectations,
 
 /// Why a run is not ok, or that it is although it should not be.
 std::string status_block(const EngineRecord& run, const TableStyle& style) {
-  const bool skipped = run.verdict() == std::nullopt;
-  const bool good = run.verdict() == Verdict::within;
-  const Tone ink = skipped ? Tone::faint : good ? Tone::good : Tone::bad;
-  const char* symbol = skipped ? "– " : good ? "✓ " : "✗ ";
+  const Verdict verdict = run.verdict();
   const bool ok = run.status == RunStatus::ok;
-  return paragraph("  " + std::string(symbol) + outcome_text(run) + (ok ? "" : ": "),
-                   ok                   ? " "
-                   : run.reason.empty() ? "not known why"
-                                        : run.reason,
-                   ink, style);
+  return paragraph(
+      "  " + std::string(symbol_of(verdict)) + " " + outcome_text(run) + (ok ? "" : ": "),
+      ok                   ? " "
+      : run.reason.empty() ? "not known why"
+                           : run.reason,
+      tone_of(verdict), style);
 }
 
 std::string run_block(const SceneRecord& scene, const EngineRecord& run,
@@ -151,21 +145,11 @@ std::string run_block(const SceneRecord& scene, const EngineRecord& run,
 }
 
 std::string verdict_text(const SceneRecord& scene, const TableStyle& style) {
-  if (scene.runs.empty()) return inked("reference only", Tone::faint, style);
-  const bool by_expectations = is_judged_by_expectations(scene);
-  const auto word = [&](Mark mark) {
-    return std::string(symbol_of(mark)) + " " +
-           (by_expectations ? expectation_word(mark == Mark::within) : word_of(mark));
-  };
-  switch (scene.verdict()) {
-    case Verdict::within:
-      return inked(word(Mark::within), Tone::good, style);
-    case Verdict::deviates:
-      return inked(word(Mark::deviates), Tone::bad, style);
-    case Verdict::failed:
-      break;
-  }
-  return inked("✗ FAILED", Tone::bad, style);
+  const Verdict verdict = scene.verdict();
+  const std::string name = verdict_name(scene), loud = word_of(verdict);
+  return inked(fmt::format("{} {}", symbol_of(verdict),
+                           name == name_of(verdict) && !loud.empty() ? loud : name),
+               tone_of(verdict), style);
 }
 
 std::string plural(std::size_t count, const std::string& noun) {
@@ -188,27 +172,17 @@ std::string table_of(const SceneRecord& scene, const TableStyle& style) {
 }
 
 std::string summary_of(const std::vector<SceneRecord>& scenes, const TableStyle& style) {
-  std::array<std::size_t, 3> verdicts{}, run_verdicts{};
-  std::size_t runs = 0, skipped = 0;
-  for (const SceneRecord& scene : scenes) {
-    ++verdicts[static_cast<std::size_t>(scene.verdict())];
-    for (const EngineRecord& run : scene.runs) {
-      ++runs;
-      if (const auto verdict = run.verdict())
-        ++run_verdicts[static_cast<std::size_t>(*verdict)];
-      else
-        ++skipped;
-    }
-  }
-  const auto count = [&](std::size_t number, const char* what, Tone ink) {
-    return inked(fmt::format("{} {}", number, what), number > 0 ? ink : Tone::plain, style);
+  const AllVerdicts all = count_verdicts(scenes);
+  const auto list = [&](const VerdictCounts& counts) {
+    return counts.list([&](Verdict verdict) {
+      return inked(counts.text_of(verdict), counts.of(verdict) > 0 ? tone_of(verdict) : Tone::plain,
+                   style);
+    });
   };
-  return fmt::format(
-      "{}: {}, {}, {}; {}: {}, {}, {}, {}\n", plural(scenes.size(), "scene"),
-      count(verdicts[0], "within", Tone::good), count(verdicts[1], "deviate", Tone::bad),
-      count(verdicts[2], "failed", Tone::bad), plural(runs, "engine run"),
-      count(run_verdicts[0], "within", Tone::good), count(run_verdicts[1], "deviate", Tone::bad),
-      count(run_verdicts[2], "failed", Tone::bad), count(skipped, "skipped", Tone::faint));
+  const std::string alone =
+      all.scenes_alone > 0 ? fmt::format(", {} of the reference alone", all.scenes_alone) : "";
+  return fmt::format("{}: {}{}; {}: {}\n", plural(all.scene_count, "scene"), list(all.scenes),
+                     alone, plural(all.run_count, "engine run"), list(all.runs));
 }
 
 }  // namespace slipcheck

@@ -227,6 +227,7 @@ Scenario assemble(const WrittenScene& written, Reading& reading) {
   check_surroundings(written, reading);
   check_run(written, reading);
   check_expectations(written, reading);
+  check_tolerances(written, reading);
 
   Scenario scenario;
   scenario.name = written.name;

@@ -42,10 +42,7 @@ void check_material(const std::string& material, const std::string& path,
   if (material.empty() || written.materials.contains(material)) return;
   std::vector<std::string> names;
   for (const auto& each : written.materials) names.push_back(each.first);
-  const std::string near = nearest(material, names);
-  reading.fault_at(path, near.empty()
-                             ? "must be one of the materials"
-                             : "must be one of the materials (did you mean " + near + "?)");
+  reading.fault_at(path, "must be one of the materials" + did_you_mean(material, names));
 }
 
 void check_rising(const std::vector<TableMotion::Point>& table, const std::string& path,

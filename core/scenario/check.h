@@ -22,7 +22,9 @@ void check_surroundings(const WrittenScene& written, Reading& reading);
 
 void check_run(const WrittenScene& written, Reading& reading);
 
-/// What is expected of engines is of bodies and pairs that there are (expectation_check.cpp).
+/// What is expected of engines, and tolerances that name an owner, are of bodies and pairs that
+/// there are (owner_check.cpp).
 void check_expectations(const WrittenScene& written, Reading& reading);
+void check_tolerances(const WrittenScene& written, Reading& reading);
 
 }  // namespace slipcheck

@@ -3,7 +3,7 @@
 #include <map>
 #include <utility>
 
-#include "scenario/observable_names.h"
+#include "scenario/owned_names.h"
 #include "scenario/record.h"
 #include "scenario/scene_rules.h"
 
@@ -47,67 +47,9 @@ Rule<ExpectedObservable> observable_rule(const ObservableName& observable) {
       {{is_word("none"), none}, {is_mapping, ranges.rule()}});
 }
 
-/// What may stand before the observable's name, as a regular expression.
-const char* owner_pattern(ObservableScope scope) {
-  switch (scope) {
-    case ObservableScope::body:
-      return "[A-Za-z0-9_]+(-[A-Za-z0-9_]+)*";
-    case ObservableScope::pair:
-      return "[A-Za-z0-9_]+(-[A-Za-z0-9_]+)+";
-    case ObservableScope::all:
-      break;
-  }
-  return "all";
-}
-
-/// Whether the text may name an owner by its form alone: names of words that are joined by '-'.
-bool has_form_of_owner(const std::string& text, ObservableScope scope) {
-  if (scope == ObservableScope::all) return text == "all";
-  bool after_word = false, is_joined = false;
-  for (const char c : text) {
-    const bool of_word =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-    if (!of_word && !(c == '-' && after_word)) return false;
-    is_joined |= c == '-';
-    after_word = of_word;
-  }
-  return after_word && (scope == ObservableScope::body || is_joined);
-}
-
-/// Why the key names no observable, "" if it does.
-std::string fault_of_name(const std::string& key) {
-  const std::size_t dot = key.find('.');
-  const std::string name = dot == std::string::npos ? key : key.substr(dot + 1);
-  const ObservableName* observable = find_observable(name);
-  if (!observable) {
-    std::vector<std::string> known;
-    for (const ObservableName& each : observable_names()) known.emplace_back(each.name);
-    const std::string near = nearest(name, known);
-    return near.empty() ? "must be an observable of a body, a pair or all, as in i.sliding_time"
-                        : fmt::format("must be an observable (did you mean {}?)", near);
-  }
-  const std::string owner = dot == std::string::npos ? "" : key.substr(0, dot);
-  if (has_form_of_owner(owner, observable->scope)) return "";
-  const char* example = observable->scope == ObservableScope::body   ? "a body, i."
-                        : observable->scope == ObservableScope::pair ? "a pair, i-j."
-                                                                     : "the scene, all.";
-  return fmt::format("must be of {}{}", example, name);
-}
-
 json expectation_schema(const Rule<std::size_t>& status) {
-  // Observables with the same form of owner and the same dimension share a pattern.
-  std::map<std::pair<ObservableScope, std::string>, std::vector<const ObservableName*>> alike;
-  for (const ObservableName& each : observable_names())
-    alike[{each.scope, each.dimension.name}].push_back(&each);
-  json observables = json::object();
-  for (const auto& [key, group] : alike) {
-    std::string names;
-    for (const ObservableName* each : group)
-      names += fmt::format("{}{}{}", names.empty() ? "" : "|", each->name,
-                           each->is_vector ? R"((\.[xyz])?)" : "");
-    const std::string pattern = fmt::format(R"(^{}\.({})$)", owner_pattern(group[0]->scope), names);
-    observables[pattern] = observable_rule(*group[0]).schema();
-  }
+  const json observables = owned_names_schema(
+      Wildcards::no, [](const ObservableName& each) { return observable_rule(each).schema(); });
   json statuses = status.schema();
   statuses["description"] = "how the run ends";
   return {{"type", "object"},
@@ -157,10 +99,10 @@ Rule<Expectation> expectation_rule() {
         target.status = statuses[index].second;
         if (node.entries.size() > 1)
           refuse("must stand alone: a run that does not end well shows no observables");
-      } else if (std::string rule = fault_of_name(entry.key); !rule.empty()) {
+      } else if (std::string rule = fault_of_owned_name(entry.key, Wildcards::no); !rule.empty()) {
         refuse(std::move(rule));
       } else {
-        const std::string name = entry.key.substr(entry.key.find('.') + 1);
+        const std::string_view name = owned_name(entry.key).observable;
         const Rule<ExpectedObservable>& observable = observables.at(find_observable(name)->name);
         good = observable.read(*entry.value, reading, target.observables[entry.key]) && good;
       }

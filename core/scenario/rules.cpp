@@ -259,8 +259,7 @@ Rule<std::size_t> word(std::vector<std::string> words) {
             const auto found = is_scalar(node) ? std::ranges::find(words, node.text) : words.end();
             if (found == words.end()) {
               std::string rule = "must be " + joined(words);
-              const std::string near = is_scalar(node) ? nearest(node.text, words) : "";
-              if (!near.empty() && words.size() > 1) rule += " (did you mean " + near + "?)";
+              if (is_scalar(node) && words.size() > 1) rule += did_you_mean(node.text, words);
               reading.fault(node, rule);
               return false;
             }
@@ -316,24 +315,34 @@ std::string nearest(const std::string& written, const std::vector<std::string>& 
   std::string best;
   std::size_t fewest = std::max<std::size_t>(1, written.size() / 3) + 1;
   for (const std::string& candidate : words) {
-    // Levenshtein distance, one row at a time.
-    std::vector<std::size_t> row(candidate.size() + 1);
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-    for (std::size_t i = 0; i < written.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i + 1;
-      for (std::size_t j = 0; j < candidate.size(); ++j) {
-        const std::size_t replaced = diagonal + (written[i] == candidate[j] ? 0 : 1);
-        diagonal = row[j + 1];
-        row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    // Edits from what is written up to i to the candidate up to j; two neighbours that are swapped
+    // are one.
+    std::vector<std::vector<std::size_t>> edits(written.size() + 1,
+                                                std::vector<std::size_t>(candidate.size() + 1));
+    for (std::size_t i = 0; i <= written.size(); ++i)
+      for (std::size_t j = 0; j <= candidate.size(); ++j) {
+        if (i == 0 || j == 0) {
+          edits[i][j] = i + j;
+          continue;
+        }
+        const bool same = written[i - 1] == candidate[j - 1];
+        edits[i][j] = std::min(
+            {edits[i - 1][j - 1] + (same ? 0 : 1), edits[i - 1][j] + 1, edits[i][j - 1] + 1});
+        if (i > 1 && j > 1 && written[i - 1] == candidate[j - 2] &&
+            written[i - 2] == candidate[j - 1])
+          edits[i][j] = std::min(edits[i][j], edits[i - 2][j - 2] + 1);
       }
-    }
-    if (row.back() < fewest) {
-      fewest = row.back();
+    if (edits.back().back() < fewest) {
+      fewest = edits.back().back();
       best = candidate;
     }
   }
   return best;
+}
+
+std::string did_you_mean(const std::string& written, const std::vector<std::string>& words) {
+  const std::string near = nearest(written, words);
+  return near.empty() ? "" : " (did you mean " + near + "?)";
 }
 
 }  // namespace slipcheck

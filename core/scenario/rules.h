@@ -166,5 +166,7 @@ std::string joined(const std::vector<std::string>& words);
 
 /// The word with the fewest edits from what was written, "" where none is near.
 std::string nearest(const std::string& written, const std::vector<std::string>& words);
+/// " (did you mean tuned?)", "" where none is near.
+std::string did_you_mean(const std::string& written, const std::vector<std::string>& words);
 
 }  // namespace slipcheck

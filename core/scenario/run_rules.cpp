@@ -1,65 +1,17 @@
 #include <fmt/format.h>
 
-#include "scenario/observable_names.h"
 #include "scenario/record.h"
 #include "scenario/scene_rules.h"
 
 namespace slipcheck {
 namespace {
 
-/// {observable: tolerance}, with a unit absolute.
-Rule<Tolerance> tolerance_rule(const ObservableName& observable) {
-  // A pure number, or a share in %, is relative whatever the observable's dimension.
-  const Dimension dimension = observable.dimension;
-  const bool has_dimension = dimension.mass != 0 || dimension.length != 0 || dimension.time != 0;
-  const Rule<double> relative = number(kPureNumber, kNotNegative);
-  const Rule<double> absolute = number(dimension, kNotNegative);
-  return {[=](const YamlNode& node, Reading& reading, Tolerance& target) {
-            if (has_dimension && is_scalar(node)) {
-              try {
-                const bool has_unit = parse_quantity(node.text, dimension).has_unit;
-                target.absolute = has_unit;
-              } catch (const BadQuantity&) {
-                try {
-                  parse_quantity(node.text, kPureNumber);
-                } catch (const BadQuantity&) {
-                  reading.fault(node, fmt::format("must be a number, a share as in \"1 %\" or {} "
-                                                  "as in \"{}\"",
-                                                  with_article(dimension), dimension.example));
-                  return false;
-                }
-              }
-            }
-            return (target.absolute ? absolute : relative).read(node, reading, target.value);
-          },
-          relative.schema};
-}
-
-Rule<std::map<std::string, Tolerance>> tolerances_rule() {
-  using Tolerances = std::map<std::string, Tolerance>;
-  Record<Tolerances> record;
-  for (const ObservableName& observable : observable_names()) {
-    const Rule<Tolerance> rule = tolerance_rule(observable);
-    std::vector<std::string> names = {std::string(observable.name)};
-    if (observable.is_vector) {
-      for (const char* component : {".x", ".y", ".z"}) names.push_back(names[0] + component);
-    }
-    for (const std::string& name : names) {
-      record.whole(name,
-                   {[=](const YamlNode& node, Reading& reading, Tolerances& target) {
-                      return rule.read(node, reading, target[name]);
-                    },
-                    rule.schema},
-                   optional, std::string(observable.doc));
-    }
-  }
-  return record.rule();
-}
-
 Rule<EngineRequest> engine_rule() {
   using Precision = EngineRequest::Precision;
   using Rates = std::vector<double>;
-  const Rule<double> rate = number(kFrequency, kPositive);
+  // From a step of days to one shorter than light crosses a grain: beyond is a slip of the
+  // keyboard.
+  const Rule<double> rate = number(kFrequency, {1e-6, {}, 1e12, {}});
   Record<EngineRequest> engine;
   engine
       .key("engine", &EngineRequest::engine, name_text(NameStyle::lower_case), required,
@@ -176,13 +128,12 @@ Rule<Compare> compare_rule() {
                               {"contact", Reference::contact},
                               {"steps", Reference::steps}}),
            optional, "solver of the reference; auto: event where all contacts are hard")
-      .key("steps_per_contact", &Compare::steps_per_contact,
-           number(kPureNumber, {10, {}, 1e6, {}}), optional,
-           "steps in the shortest collision, of the reference steps")
+      .key("steps_per_contact", &Compare::steps_per_contact, number(kPureNumber, {10, {}, 1e6, {}}),
+           optional, "steps in the shortest collision, of the reference steps")
       .key("engines", &Compare::engines, list(engine_rule(), 0), optional,
            "what is held against it")
       .key("tolerance", &Compare::tolerance, tolerances_rule(), optional,
-           "largest error of an observable");
+           "largest error of an observable, by its name or by that of its owner too");
   return compare.rule();
 }
 

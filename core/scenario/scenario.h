@@ -224,6 +224,7 @@ struct Tolerance {
   double value = 0;  ///< >= 0; relative, or absolute for restitution coefficients
   /// The file gave a unit (an extension): the value is absolute, in SI.
   bool absolute = false;
+  bool none = false;  ///< what it names is not judged (an extension)
 };
 
 /// How a run of an engine ended.
@@ -260,7 +261,9 @@ struct Compare {
   Reference reference = Reference::automatic;
   double steps_per_contact = 200;  ///< of the reference `steps` [-], >= 10; an extension
   std::vector<EngineRequest> engines;
-  std::map<std::string, Tolerance> tolerance;  ///< by observable, without the body's name
+  /// By what they judge: "restitution", or as an extension of one owner or of those that match,
+  /// "i-j.restitution", "*-substrate.restitution". Which one holds is tolerance_of's to say.
+  std::map<std::string, Tolerance> tolerance;
 };
 
 struct Scenario {

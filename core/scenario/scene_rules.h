@@ -18,6 +18,8 @@ Rule<std::vector<std::variant<WrittenBody, Fill>>> bodies_rule();
 Rule<std::vector<Fill>> fill_rule();
 Rule<WrittenRun> run_rule();
 Rule<Compare> compare_rule();
+/// `tolerance` in `compare`, by what they judge.
+Rule<std::map<std::string, Tolerance>> tolerances_rule();
 /// `expect` of an engine in `compare`.
 Rule<Expectation> expectation_rule();
 

@@ -17,14 +17,15 @@ PhaseComparison compare_phase(const Scenario& scenario, const ReferenceResult& r
   std::string missing;  // said only where nothing is off by more than it may be
   double worst_outside = 0;
   for (const auto& [name, error] : deviations(scenario, reference, ensemble_values({seen}))) {
-    if (!error.tolerance) continue;
-    result.within &= error.within;
-    if (std::isnan(error.max)) {
+    if (!error.tolerance || error.verdict == Verdict::undecided) continue;
+    const bool within = error.verdict == Verdict::within;
+    result.within &= within;
+    if (std::isnan(error.max) && !within) {
       if (missing.empty()) missing = fmt::format("{}: {}", name, error.reason);
       continue;
     }
     const double in_tolerances = error.max > 0 ? error.max / *error.tolerance : 0;
-    if (!error.within && in_tolerances > worst_outside) {
+    if (!within && in_tolerances > worst_outside) {
       worst_outside = in_tolerances;
       result.why = fmt::format("{} is off by {:.3g}{}, {:.3g} tolerances", name,
                                error.absolute ? error.max : 100 * error.max,

@@ -6,41 +6,10 @@
 
 #include "harness/comparison.h"
 #include "reference/initial_contacts.h"
-#include "scenario/observable_names.h"
 #include "stability/stability.h"
 
 namespace slipcheck {
 namespace {
-
-/// What is zero by the scene's symmetry is known to this fraction of the scene's own scales.
-constexpr double kRounding = 1e-9;
-
-/// What is usual in a scene.
-class NaturalScales {
- public:
-  NaturalScales(const ContactScene& scene, double end) : time_(end) {
-    speed_ = speed_scale(scene);
-    for (const Sphere& sphere : scene.hard.bodies) {
-      large_ = std::max(large_, sphere.radius);
-      small_ = std::min(small_, sphere.radius);
-      mass_ = std::max(mass_, sphere.mass);
-    }
-  }
-
-  /// In the observable's unit.
-  double of(const std::string& name) const {
-    const ObservableName* observable = find_observable(name.substr(name.find('.') + 1));
-    const Dimension& d = observable ? observable->dimension : kPureNumber;
-    const double geometry = d.time < 0
-                                ? std::pow(speed_, -d.time) * std::pow(small_, d.length + d.time)
-                                : std::pow(large_, d.length) * std::pow(time_, d.time);
-    return std::pow(mass_, d.mass) * geometry;
-  }
-
- private:
-  double time_, speed_ = 0, large_ = 0, mass_ = 0;
-  double small_ = std::numeric_limits<double>::infinity();
-};
 
 /// A scalar, or a vector's length with the worst uncertainty of its components.
 UncertainValue known_value(const ReferenceResult& reference, const std::string& name) {
@@ -60,8 +29,6 @@ struct Uncertainty {
 
 Uncertainty worst_uncertainty(const PreparedScene& scene) {
   const ReferenceResult& reference = scene.reference;
-  const NaturalScales natural(std::get<ReferenceSolver>(scene.solver).scene(),
-                              reference.run.end_time);
   // A run that is off by just the uncertainty has it for its error.
   std::map<std::string, double> shifted;
   for (const auto& [name, value] : reference.observables)
@@ -69,11 +36,11 @@ Uncertainty worst_uncertainty(const PreparedScene& scene) {
   Uncertainty worst;
   for (const auto& [name, error] :
        deviations(scene.scenario, reference, ensemble_values({shifted}))) {
-    if (!error.tolerance) continue;
+    if (!error.tolerance || !reference.observables.contains(name)) continue;
     const UncertainValue value = known_value(reference, name);
     double relative = error.max;
     if (!(relative > 0))  // taken as zero, for which its uncertainty has to be one of rounding
-      relative = value.uncertainty <= kRounding * natural.of(name)
+      relative = reference.scales.is_rounding(name, value.uncertainty)
                      ? 0
                      : std::numeric_limits<double>::infinity();
     const double in_tolerances = relative > 0 ? relative / *error.tolerance : 0;

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "scenario/observable_names.h"
+#include "scenario/owned_names.h"
 
 namespace slipcheck {
 namespace {
@@ -118,7 +118,7 @@ class Scale {
     for (EngineRequest& request : compare.engines)
       for (double& rate : request.rates) rate /= time;
     for (auto& [name, tolerance] : compare.tolerance)
-      if (const ObservableName* observable = find_observable(name);
+      if (const ObservableName* observable = find_observable(owned_name(name).observable);
           observable && tolerance.absolute)
         tolerance.value *= of(observable->dimension);
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "scenario/tolerances.h"
+
 namespace slipcheck {
 namespace {
 
@@ -17,8 +19,8 @@ bool has_observable(const PreparedScene& scene, const std::string& observable) {
 
 bool anything_counts(const PreparedScene& scene, const TuningObservables& observables) {
   if (observables.named.empty())
-    return std::ranges::any_of(scene.scenario.compare.tolerance, [&](const auto& tolerance) {
-      return has_observable(scene, tolerance.first);
+    return std::ranges::any_of(scene.reference.observables, [&](const auto& value) {
+      return tolerance_of(scene.scenario, value.first).has_value();
     });
   return std::ranges::any_of(observables.named, [&](const std::string& observable) {
     return has_observable(scene, observable);

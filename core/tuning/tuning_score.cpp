@@ -45,7 +45,7 @@ RunScore score_of(const EngineRecord& record, const TuningObservables& observabl
   }
   for (const auto& [name, deviation] : record.errors) {
     const auto tolerance = observables.tolerance(name, deviation);
-    if (!tolerance) continue;
+    if (!tolerance || deviation.is_zero || deviation.verdict == Verdict::undecided) continue;
     const auto seen = record.observables.find(name);
     const double missing =
         seen == record.observables.end()

@@ -200,10 +200,31 @@ class Check(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("it has no baseline", result.stdout)
         scene = self.path / "roll-to-rest.yaml"
-        scene.write_text((SOURCE / "scenarios/roll-to-rest.yaml").read_text() + "# another\n")
+        text = SCENES[0].read_text()
+        scene.write_text(re.sub("limit: [^,}]*", "limit: 7777", text))
+        self.assertNotEqual(scene.read_text(), text)
         result = self.check(scene, "--baselines", self.baselines)
         self.assertEqual(result.returncode, 1)
-        self.assertIn("the scene's file is not that of the baseline", result.stdout)
+        self.assertIn("the scene is not that of the baseline", result.stdout)
+
+    def test_comments_layout_and_titles_are_not_the_scene(self):
+        scene = self.path / "roll-to-rest.yaml"
+        text = "# another comment\n" + SCENES[0].read_text().replace("\n", "   # and more\n", 1)
+        scene.write_text(re.sub("title: .*", "title: Another title", text))
+        result = self.check(scene, "--baselines", self.baselines)
+        self.assertEqual(result.returncode, 0, result.stdout)
+
+    def test_without_baselines_it_says_how_to_make_them_and_writes_its_files(self):
+        none, markdown = self.path / "none", self.path / "check.md"
+        result = self.check(SCENES[0], "--baselines", none, "--markdown", markdown)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        line = f"slipcheck check {SCENES[0]} --baselines {none} --update makes them"
+        self.assertIn(line, result.stdout)
+        self.assertIn("there are no baselines yet", markdown.read_text())
+        made = subprocess.run([SLIPCHECK, *line.split()[1:-2], "--phases", "4"], timeout=300,
+                              capture_output=True)
+        self.assertEqual(made.returncode, 0)
+        self.assertEqual(self.check(SCENES[0], "--baselines", none).returncode, 0)
 
     def test_an_engine_that_fails_where_it_did_not_is_exit_3(self):
         scene = self.path / "ball.yaml"
@@ -244,7 +265,7 @@ class Check(unittest.TestCase):
                 self.assertEqual(result.returncode, 2, result.stdout)
                 self.assertIn(message, result.stderr)
                 self.assertEqual(self.contents(), before)
-        result = self.check(*SCENES, "--baselines", self.path / "none")
+        result = self.check(*SCENES, "--baselines", SCENES[0])
         self.assertEqual(result.returncode, 2)
         self.assertIn("--baselines: must be a directory, got ", result.stderr)
         self.edit("roll-to-rest", '"status": "ok"', '"status": "fine"')

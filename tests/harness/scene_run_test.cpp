@@ -143,7 +143,7 @@ TEST(SceneRun, WhatAnEngineIsKnownToDoIsWithin) {
       "{i-j.effective_restitution: {max: [0.475, 0.505]}}},"
       "{engine: faulty, precision: double, profile: nan, rate: 240, expect: {status: unstable}}"));
   ASSERT_EQ(known[0].runs.size(), 2u);
-  EXPECT_FALSE(known[0].runs[0].errors.at("i-j.effective_restitution").within);
+  EXPECT_EQ(known[0].runs[0].errors.at("i-j.effective_restitution").verdict, Verdict::deviates);
   EXPECT_EQ(known[0].verdict(), Verdict::within);
   const auto wrong =
       run(pair_scene("{engine: bullet, precision: double, rate: [240, 1000], expect: "

@@ -66,7 +66,7 @@ function slope_motion(run, role, factor) {
 
 const runs = [
   ['default', 'double', 240, 'deviates'], ['default', 'single', 240, 'deviates'],
-  ['tuned', 'double', 240, 'within'], ['tuned', 'double', 1000, 'within'],
+  ['tuned', 'double', 240, 'within'], ['tuned', 'double', 1000, 'undecided'],
 ].map(([profile, precision, rate, verdict]) => ({ label: `bullet ${precision} ${profile} ${rate} Hz`, engine: 'bullet',
   precision, profile, rate, verdict }));
 
@@ -141,7 +141,7 @@ export function fixture_data() {
 }
 
 const escaped = (text) => text.replace(/[&<>]/g, (letter) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;' })[letter]);
-const verdict_of = ({ runs: all }) => ['failed', 'deviates'].find((one) => all.some(({ verdict }) => verdict === one)) ?? 'within';
+const verdict_of = ({ runs: all }) => ['failed', 'deviates', 'undecided'].find((one) => all.some(({ verdict }) => verdict === one)) ?? 'within';
 
 function scene_html(scene, k) {
   const verdict = verdict_of(scene);
@@ -159,7 +159,7 @@ function scene_html(scene, k) {
 export function fixture_page(script, css) {
   const data = fixture_data();
   const hash = createHash('sha256').update(script).digest('base64');
-  const choices = ['all', 'deviates', 'failed', 'within'].map((choice) => `<span><input type="radio" name="show" id="show-${choice}"${choice === 'all' ? ' checked' : ''}><label for="show-${choice}">${choice}</label></span>`);
+  const choices = ['all', 'deviates', 'undecided', 'failed', 'within'].map((choice) => `<span><input type="radio" name="show" id="show-${choice}"${choice === 'all' ? ' checked' : ''}><label for="show-${choice}">${choice}</label></span>`);
   return `<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-${hash}'; img-src data: blob:">

@@ -271,7 +271,7 @@ async function without_script() {
     const visible = () => page.locator('section.scene[data-scene]:visible').count();
     const all = await page.locator('section.scene[data-scene]').count();
     assert.equal(await visible(), all);
-    for (const verdict of ['within', 'deviates', 'failed']) {
+    for (const verdict of ['within', 'deviates', 'undecided', 'failed']) {
       const expected = await page.locator(`section.scene[data-verdict="${verdict}"]`).count();
       await page.locator(`fieldset.filter #show-${verdict}`).check();
       assert.equal(await visible(), expected, `scenes ${verdict}`);

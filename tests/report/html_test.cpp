@@ -148,7 +148,7 @@ TEST(Html, ChartsTheWorstSixObservables) {
 TEST(Html, OpensOnlyWhatIsWrong) {
   SceneRecord scene = lottery_scene();
   EXPECT_EQ(count(page_of({scene}), "<details open"), 2u);
-  for (auto& [name, error] : scene.runs[0].errors) error.within = true;
+  for (auto& [name, error] : scene.runs[0].errors) error.verdict = Verdict::within;
   const std::string html = page_of({scene});
   EXPECT_EQ(count(html, "<details open"), 1u);
   EXPECT_TRUE(contains(html, "data-rate=\"240\" data-verdict=\"within\""));
@@ -251,7 +251,7 @@ TEST(Html, DrawsTheFloorsSwingAndAPeriodicCell) {
 TEST(Html, CanBeEmpty) {
   EXPECT_TRUE(contains(page_of({}), "</html>"));
   SceneRecord scene;
-  EXPECT_TRUE(contains(page_of({scene}), "reference only"));
+  EXPECT_TRUE(contains(page_of({scene}), "– reference alone"));
 }
 
 }  // namespace

@@ -127,8 +127,9 @@ TEST(TestOutcomes, StatusesExpectationsAndTheReferenceAlone) {
   ASSERT_EQ(outcomes.size(), 5u);
   EXPECT_EQ(outcomes[0].kind, Kind::error);
   EXPECT_EQ(outcomes[0].message, "crashed: signal 11");
-  EXPECT_EQ(outcomes[1].kind, Kind::skipped);
-  EXPECT_EQ(outcomes[1].message, "no single precision");
+  EXPECT_EQ(outcomes[1].kind, Kind::undecided);
+  EXPECT_EQ(outcomes[1].message, "skipped: no single precision");
+  EXPECT_EQ(test_outcomes({scene}, true).at(1).kind, Kind::skipped);
   EXPECT_EQ(outcomes[2].kind, Kind::passed);
   EXPECT_EQ(outcomes[2].message, "");
   EXPECT_EQ(outcomes[3].kind, Kind::passed);  // a largest value of 0.498 is expected
@@ -140,6 +141,19 @@ TEST(TestOutcomes, StatusesExpectationsAndTheReferenceAlone) {
   const TestOutcome outcome = test_outcomes({unmet}).at(0);
   EXPECT_EQ(outcome.kind, Kind::failed);
   EXPECT_EQ(outcome.message, "i-j.effective_restitution max 0.4980, expected 0.3000 … 0.4000");
+}
+
+TEST(TestOutcomes, AReferenceWithoutAnEndIsAFailureUnlessAllowed) {
+  SceneRecord scene = box_scene();
+  scene.reference.run.reached = false;
+  scene.reference.run.reason = "it goes on";
+  EXPECT_EQ(test_outcomes({scene}).at(0).kind, Kind::undecided);
+  EXPECT_EQ(test_outcomes({scene}).at(0).message, "it goes on");
+  EXPECT_EQ(test_outcomes({scene}, true).at(0).kind, Kind::skipped);
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(junit_xml(test_outcomes({scene})).c_str()));
+  EXPECT_STREQ(document.select_node("//failure").node().attribute("type").value(), "undecided");
+  EXPECT_STREQ(document.child("testsuites").attribute("failures").value(), "1");
 }
 
 TEST(Markdown, TextIsLiteral) {

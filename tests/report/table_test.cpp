@@ -128,7 +128,7 @@ TEST(Table, ShowsAllLengthsOfASceneWithoutEngines) {
   scene.reference.observables["i.final_velocity"] = {1, 0};
   scene.reference.observables["i.final_velocity.x"] = {1, 0};
   const std::string table = table_of(scene, kWide);
-  EXPECT_TRUE(contains(table, "reference only"));
+  EXPECT_EQ(lines(table)[0], "symmetric-steel  – reference alone");
   EXPECT_TRUE(contains(table, "i.final_velocity "));
   EXPECT_FALSE(contains(table, "i.final_velocity.x"));
 }
@@ -138,9 +138,9 @@ TEST(Table, SaysWhyARunIsNotThere) {
   scene.runs = {failed_run(EngineRecord::Status::timed_out, "no end after 60 s"),
                 failed_run(EngineRecord::Status::skipped, "not installed")};
   const std::string table = table_of(scene, kWide);
-  EXPECT_TRUE(contains(table, "✗ timed out: no end after 60 s"));
-  EXPECT_TRUE(contains(table, "– skipped: not installed"));
-  EXPECT_EQ(lines(table)[0], "symmetric-steel  ✗ FAILED");
+  EXPECT_TRUE(contains(table, "⚠ timed out: no end after 60 s"));
+  EXPECT_TRUE(contains(table, "? skipped: not installed"));
+  EXPECT_EQ(lines(table)[0], "symmetric-steel  ⚠ FAILED");
 }
 
 TEST(Table, ShowsWhatAnEngineIsExpectedToDo) {
@@ -179,9 +179,10 @@ TEST(Table, ShowsHowARunWasExpectedToEnd) {
   EXPECT_TRUE(contains(table, "✗ timed out, NOT AS EXPECTED (unstable): 60 s"));
   EXPECT_TRUE(contains(table, "✗ ran to its end, NOT AS EXPECTED (unstable)"));
   EXPECT_EQ(lines(table)[0], "symmetric-steel  ✗ NOT AS EXPECTED");
-  EXPECT_EQ(summary_of({scene}, kWide),
-            "1 scene: 0 within, 1 deviate, 0 failed; 3 engine runs: 1 within, 2 deviate, 0 failed, "
-            "0 skipped\n");
+  EXPECT_EQ(
+      summary_of({scene}, kWide),
+      "1 scene: 0 within, 1 deviates, 0 undecided, 0 failed; 3 engine runs: 1 within, 2 deviate, "
+      "0 undecided, 0 failed\n");
 }
 
 TEST(Table, KeepsItsWordsWhereOnlySomeRunsHaveExpectations) {
@@ -222,10 +223,44 @@ TEST(Table, LetsATitleNotControlTheTerminal) {
 TEST(Summary, CountsScenesAndRuns) {
   SceneRecord good = lottery_scene();
   good.runs = {failed_run(EngineRecord::Status::skipped, "")};
+  SceneRecord alone = lottery_scene();
+  alone.runs.clear();
   EXPECT_EQ(
-      summary_of({lottery_scene(), good}, kWide),
-      "2 scenes: 1 within, 1 deviate, 0 failed; 3 engine runs: 0 within, 2 deviate, 0 failed, "
-      "1 skipped\n");
+      summary_of({lottery_scene(), good, alone}, kWide),
+      "3 scenes: 0 within, 1 deviates, 1 undecided, 0 failed, 1 of the reference alone; 3 engine "
+      "runs: 0 within, 2 deviate, 1 undecided, 0 failed\n");
+}
+
+/// The lottery without collision: a tolerance names what never occurs.
+SceneRecord vacuous_scene() {
+  SceneRecord scene = lottery_scene();
+  scene.reference.observables.erase("i-j.effective_restitution");
+  scene.runs.resize(1);
+  scene.runs[0].observables.erase("i-j.effective_restitution");
+  scene.runs[0].errors.erase("i-j.effective_restitution");
+  scene.runs[0].errors["effective_restitution"] = {
+      kNaN, kNaN, 0.005, true, Verdict::undecided, "nothing of it occurs in the reference"};
+  return scene;
+}
+
+TEST(Table, NamesWhatIsUndecidedAndWhy) {
+  const std::string table = table_of(vacuous_scene(), kWide);
+  EXPECT_EQ(lines(table)[0], "symmetric-steel  ? UNDECIDED");
+  const std::string run = table.substr(table.find("240 Hz"));
+  EXPECT_TRUE(contains(line_with(run, "effective_restitution"), "?  UNDECIDED"));
+  EXPECT_TRUE(contains(run, "effective_restitution: nothing of it occurs in the reference"));
+  EXPECT_TRUE(contains(brief_of({vacuous_scene()}, kWide), "symmetric-steel  ?          0/1"));
+  EXPECT_TRUE(contains(brief_of({vacuous_scene()}, kWide),
+                       "undecided: effective_restitution: nothing of it occurs"));
+}
+
+TEST(Table, AReferenceWithoutAnEndIsUndecidedAlsoAlone) {
+  SceneRecord scene = lottery_scene();
+  scene.runs.clear();
+  scene.reference.run.reached = false;
+  scene.reference.run.reason = "it goes on";
+  EXPECT_EQ(lines(table_of(scene, kWide))[0], "symmetric-steel  ? UNDECIDED");
+  EXPECT_TRUE(contains(summary_of({scene}, kWide), "1 scene: 0 within, 0 deviate, 1 undecided"));
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // Which scenes and runs are shown.
 import { make, make_select } from './dom.js';
 
-const kVerdicts = [['within', '✓'], ['deviates', '✗'], ['failed', '⚠'], ['skipped', '–']];
+const kVerdicts = [['within', '✓'], ['deviates', '✗'], ['undecided', '?'], ['failed', '⚠'],
+                   ['not-judged', '–']];
 const kFields = [['engine', 'Engine'], ['precision', 'Precision'], ['profile', 'Profile'], ['rate', 'Rate']];
 
 /** A filter lets everything pass that it says nothing about. */

@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <utility>
 
 #include "scenario/check.h"
-#include "scenario/observable_names.h"
+#include "scenario/owned_names.h"
 
 namespace slipcheck {
 namespace {
@@ -55,15 +56,46 @@ std::string fault_of_pair(const WrittenScene& written, const std::string& pair) 
       pair);
 }
 
-/// Why nothing of this name is seen of an engine in this scene, "" if it may be.
+/// Whether one of the bodies has a name that a pattern stands for.
+bool any_body_matches(const WrittenScene& written, const std::string& pattern) {
+  if (pattern.find('*') == std::string::npos) return place_of(written, pattern).has_value();
+  const auto any_of_fill = [&](const Fill& fill) {
+    for (std::int64_t k = 1; fill.complete && k <= fill.count; ++k)
+      if (matches(pattern, fill.prefix + std::to_string(k))) return true;
+    return false;
+  };
+  const auto any = [&](const std::variant<WrittenBody, Fill>& each) {
+    const auto* body = std::get_if<WrittenBody>(&each);
+    return body ? matches(pattern, body->name) : any_of_fill(std::get<Fill>(each));
+  };
+  return std::ranges::any_of(written.bodies, any) || std::ranges::any_of(written.fill, any_of_fill);
+}
+
+/// Whether a pattern with wildcards may stand for a pair of the bodies, or one and the substrate.
+bool any_pair_matches(const WrittenScene& written, const std::string& pattern) {
+  for (std::size_t at = pattern.find('-'); at != std::string::npos; at = pattern.find('-', at + 1))
+    if (const std::string left = pattern.substr(0, at), right = pattern.substr(at + 1);
+        any_body_matches(written, left) &&
+        (matches(right, "substrate") || any_body_matches(written, right)))
+      return true;
+  return false;
+}
+
+/// Why nothing of this name is seen of an engine in this scene, "" if it may be. The owner may have
+/// wildcards.
 std::string fault_of_owner(const WrittenScene& written, const std::string& name) {
-  const std::string owner = name.substr(0, name.find('.'));
-  const ObservableScope scope = find_observable(name.substr(name.find('.') + 1))->scope;
+  const std::string owner(owned_name(name).owner);
+  const ObservableScope scope = find_observable(owned_name(name).observable)->scope;
   if (written.container.has_value() != (scope == ObservableScope::all))
     return written.container ? "must be of all, as nothing else is seen in a container"
                              : "must be of a body or a pair: all is only for a container";
-  if (scope == ObservableScope::body && !place_of(written, owner))
+  if (scope == ObservableScope::body && !any_body_matches(written, owner))
     return fmt::format("must be of one of the bodies, but {} is none", owner);
+  if (scope == ObservableScope::pair && owner.find('*') != std::string::npos)
+    return any_pair_matches(written, owner)
+               ? ""
+               : fmt::format("must match a pair of this scene's bodies, but {} matches none",
+                             owner);
   return scope == ObservableScope::pair ? fault_of_pair(written, owner) : "";
 }
 
@@ -78,6 +110,14 @@ void check_expectations(const WrittenScene& written, Reading& reading) {
       if (!rule.empty())
         reading.fault_at(fmt::format("compare.engines[{}].expect.{}", k, name), std::move(rule));
     }
+  }
+}
+
+void check_tolerances(const WrittenScene& written, Reading& reading) {
+  for (const auto& [name, tolerance] : written.compare.tolerance) {
+    if (owned_name(name).owner.empty()) continue;
+    std::string rule = fault_of_owner(written, name);
+    if (!rule.empty()) reading.fault_at("compare.tolerance." + name, std::move(rule));
   }
 }
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "scenario/scenario.h"
+
+namespace slipcheck {
+
+/// SHA-256 of what a scene's file says, in hex: it is the same after an edit of comments, layout,
+/// the order of keys, `title` and `source`, or of how a number is written. Of a scene without a
+/// text its own `sha256`.
+std::string content_digest(const Scenario& scenario);
+
+}  // namespace slipcheck
