@@ -181,8 +181,12 @@ std::string summary_of(const std::vector<SceneRecord>& scenes, const TableStyle&
   };
   const std::string alone =
       all.scenes_alone > 0 ? fmt::format(", {} of the reference alone", all.scenes_alone) : "";
-  return fmt::format("{}: {}{}; {}: {}\n", plural(all.scene_count, "scene"), list(all.scenes),
-                     alone, plural(all.run_count, "engine run"), list(all.runs));
+  const std::string runs =
+      all.run_count > 0
+          ? fmt::format("; {}: {}", plural(all.run_count, "engine run"), list(all.runs))
+          : "";
+  return fmt::format("{}: {}{}{}\n", plural(all.scene_count, "scene"), list(all.scenes), alone,
+                     runs);
 }
 
 }  // namespace slipcheck
