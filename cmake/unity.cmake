@@ -1,19 +1,21 @@
 # Compiles several files of a target as one, which saves about half the time: much of it goes into
 # headers. Files that give the same name to something of their own are kept apart, and so are those
 # that use other namespaces. What this overlooks is a compiler's error "redefinition of".
-set(SLIPCHECK_UNITY_FILES 10)  # at most in one
+set(SLIPCHECK_UNITY_FILES 20)  # at most in one
 
 # The names that a file gives: types, functions and aliases at the beginning of a line, and constants,
-# also those inside of functions, which must not hide others.
+# also those inside of functions, which must not hide others. An alias that two files give alike is one.
 function(slipcheck_names_in file result)
   file(STRINGS ${file} lines REGEX
     "^( *(static )?constexpr|const|inline|static|struct|class|enum|using|#define|[A-Za-z][A-Za-z0-9_:<>, ]*[&*]? [a-z_0-9]+\\()")
   set(names)
   foreach(line IN LISTS lines)
-    if(line MATCHES "^using namespace")
+    if(line MATCHES "^using namespace|[ *&](to|from)_json\\(")  # of many types by their nature
       continue()
     elseif(line MATCHES "^using ([A-Za-z0-9_]+) *=")
-      list(APPEND names ${CMAKE_MATCH_1})
+      set(name ${CMAKE_MATCH_1})
+      string(MD5 meaning "${line}")
+      list(APPEND names ${name} alias-${name}-${meaning})
     elseif(line MATCHES "^(struct|class|enum class|enum|#define) +([A-Za-z0-9_]+)")
       list(APPEND names ${CMAKE_MATCH_2})
     elseif(line MATCHES "^using .*::([A-Za-z0-9_]+)")
@@ -57,8 +59,15 @@ function(slipcheck_unite target)
       list(LENGTH files_${unit} count)
       if(count LESS SLIPCHECK_UNITY_FILES AND "${uses}" STREQUAL "${uses_${unit}}")
         set(clash FALSE)
+        set(shared ${names})
+        list(FILTER shared INCLUDE REGEX "^alias-")
         foreach(name IN LISTS names)
           string(REPLACE using- "" plain ${name})
+          set(alias ${shared})
+          list(FILTER alias INCLUDE REGEX "^alias-${name}-")
+          if(name MATCHES "^alias-" OR (alias AND alias IN_LIST names_${unit}))
+            continue()
+          endif()
           if(plain STREQUAL name AND (name IN_LIST names_${unit} OR using-${name} IN_LIST names_${unit})
              OR NOT plain STREQUAL name AND plain IN_LIST names_${unit})
             set(clash TRUE)
@@ -85,16 +94,4 @@ function(slipcheck_unite target)
     math(EXPR unit "${unit} + 1")
   endwhile()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-endfunction()
-
-# All targets of a directory and of those below it.
-function(slipcheck_unite_all directory)
-  get_property(targets DIRECTORY ${directory} PROPERTY BUILDSYSTEM_TARGETS)
-  foreach(target IN LISTS targets)
-    slipcheck_unite(${target})
-  endforeach()
-  get_property(folders DIRECTORY ${directory} PROPERTY SUBDIRECTORIES)
-  foreach(folder IN LISTS folders)
-    slipcheck_unite_all(${folder})
-  endforeach()
 endfunction()

@@ -97,7 +97,7 @@ std::string script_part(const ReportContent& content) {
 }  // namespace
 
 std::string report_page(const ReportContent& content, PageScript script) {
-  const bool has_script = script == PageScript::included;
+  const bool has_script = script == PageScript::included && !kPageScript.empty();
   const std::string precision = html_precision(content.precision);
   const std::string stability = html_stability(content);
   std::string html =

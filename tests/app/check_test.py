@@ -347,7 +347,9 @@ class Documentation(unittest.TestCase):
         (self.path / "CMakeLists.txt").write_text(
             "cmake_minimum_required(VERSION 3.25)\nproject(game LANGUAGES NONE)\n"
             "enable_testing()\n" + snippet)
-        result = self.sh("cmake -S . -B build && ctest --test-dir build --output-on-failure")
+        (line,) = [line for block in self.blocks("sh") for line in block.splitlines()
+                   if line.startswith("cmake ")]
+        result = self.sh(line)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertIn("100% tests passed, 0 tests failed out of 1", result.stdout)
 

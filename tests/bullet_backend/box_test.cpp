@@ -18,10 +18,10 @@
 namespace slipcheck {
 namespace {
 
-constexpr double kRadius = 0.01;                            // [m]
-constexpr double kRate = 1000;                              // [Hz]
-constexpr double kRoundOff = 1e-9;                          // relative to 1 m/s
-const double kThreshold = 0.02 * std::sqrt(3.0) * kRadius;  // [m]
+constexpr double kBoxRadius = 0.01;                            // [m]
+constexpr double kRate = 1000;                                 // [Hz]
+constexpr double kRoundOff = 1e-9;                             // relative to 1 m/s
+const double kThreshold = 0.02 * std::sqrt(3.0) * kBoxRadius;  // [m]
 
 /// e_n - e of a ball that flies at a still surface with 1 m/s.
 double lottery(double phase) { return phase / kRate < kThreshold ? -phase : 0.2 * (1 - phase); }
@@ -47,13 +47,13 @@ BodyState towards(const Target& target, double phase) {
   BodyState state = in_plane(0.1, 0.15, 0, 0);
   const double gap = (3 + phase) / kRate;
   const Vector3 n = target.normal;
-  state.position += (target.distance + kRadius + gap - state.position.dot(n)) * n;
+  state.position += (target.distance + kBoxRadius + gap - state.position.dot(n)) * n;
   state.velocity = -n;
   return state;
 }
 
 HardScene scene_towards(const Target& target, const BodyState& state, const PairContact& contact) {
-  HardScene scene = box_of(steel_ball(kRadius), {state});
+  HardScene scene = box_of(steel_ball(kBoxRadius), {state});
   scene.box->lid = 0.3;
   (scene.box.value().*target.contacts)[0] = contact;
   return scene;
@@ -101,7 +101,7 @@ TEST_P(BulletBox, EverySurfaceHasItsFriction) {
     EXPECT_NEAR(out.velocity.dot(target.normal), normal, kRoundOff) << target.name;
     EXPECT_NEAR(out.velocity.dot(t), 4 + change, kRoundOff) << target.name;
     // R I dw = -R² P_t: with I = (2/5) m R².
-    EXPECT_NEAR(out.angular_velocity.y() * kRadius, -2.5 * change, kRoundOff) << target.name;
+    EXPECT_NEAR(out.angular_velocity.y() * kBoxRadius, -2.5 * change, kRoundOff) << target.name;
     EXPECT_EQ(out.position.y(), 0);
     EXPECT_EQ(out.velocity.y(), 0);
   }
@@ -117,7 +117,7 @@ TEST_P(BulletBox, StickingStopsTheSlipWhateverTheShape) {
     const BodyState out = after(scene);
     // u_t' = 0, m dv = P and q m R dw = -P give v_t' = v_t/(1 + q).
     EXPECT_NEAR(out.velocity.x(), 0.5 / (1 + q), kRoundOff) << q;
-    EXPECT_NEAR(out.velocity.x(), kRadius * out.angular_velocity.y(), kRoundOff) << q;
+    EXPECT_NEAR(out.velocity.x(), kBoxRadius * out.angular_velocity.y(), kRoundOff) << q;
   }
 }
 
@@ -129,7 +129,7 @@ double floor_velocity(const ShakenFloor& floor, double t, double rate) {
 TEST_P(BulletBox, AMovingFloorPassesItsVelocityOn) {
   const double e = 0.9, start = 0.037;
   for (const double height : {0.011, 0.0125, 0.014, 0.0155}) {
-    HardScene scene = box_of(steel_ball(kRadius), {in_plane(0.1, height, 0, -0.5)});
+    HardScene scene = box_of(steel_ball(kBoxRadius), {in_plane(0.1, height, 0, -0.5)});
     scene.box->floor = {0.002, 25};  // V = 0.31 m/s
     scene.box->on_floor[0].restitution = e;
     engine_.configure(scene, shipped(GetParam()), 1 / kRate);
@@ -143,7 +143,7 @@ TEST_P(BulletBox, AMovingFloorPassesItsVelocityOn) {
         EXPECT_EQ(frame.touches[0].second, kSubstrate);
         const ShakenFloor& floor = scene.box->floor;
         const double v_f = floor_velocity(floor, t, kRate);
-        const double overlap = floor.height(t) + kRadius - before.position.z();
+        const double overlap = floor.height(t) + kBoxRadius - before.position.z();
         const double v = before.velocity.z();
         const double out = frame.bodies[0].velocity.z();
         // A gap is left to be closed in the step; an overlap is pushed apart by a fifth.
@@ -179,7 +179,7 @@ TEST_P(BulletBox, WallsRubUpAndDownOnlyWhereTheyMove) {
 }
 
 TEST_P(BulletBox, AMovingLidStrikesDown) {
-  HardScene scene = box_of(steel_ball(kRadius), {in_plane(0.1, 0.28, 0, 0)});
+  HardScene scene = box_of(steel_ball(kBoxRadius), {in_plane(0.1, 0.28, 0, 0)});
   scene.box->lid = 0.295;
   scene.box->floor = {0.01, 5};  // V = 0.31 m/s; the lid comes down to 0.285
   scene.box->moving_walls = true;
@@ -213,7 +213,7 @@ TEST_P(BulletBox, ABallBouncesUnderGravity) {
   for (const double e : {1.0, 0.8}) {
     for (int k = 0; k < 8; ++k) {
       const double height = 0.1 + 0.0007 * k, rate = 240;
-      HardScene scene = box_of(steel_ball(kRadius), {in_plane(0.1, kRadius + height, 0, 0)});
+      HardScene scene = box_of(steel_ball(kBoxRadius), {in_plane(0.1, kBoxRadius + height, 0, 0)});
       scene.gravity = kGravity;
       scene.box->on_floor[0].restitution = e;
       const auto frames = run(engine_, scene, shipped(GetParam()), rate, 60);

@@ -13,6 +13,7 @@
 namespace slipcheck {
 
 inline constexpr double kGravity = 9.81;  // [m/s²]
+inline constexpr double kRadius = 0.002;  // of most steel balls [m]
 
 inline std::string bullet_executable(const std::string& precision) {
   return std::string(SLIPCHECK_BINARY_DIR) + "/slipcheck-engine-bullet-" + precision;

@@ -18,7 +18,6 @@
 namespace slipcheck {
 namespace {
 
-constexpr double kRadius = 0.002;  // [m]
 constexpr int kPhases = 64;
 // At 5 cm/s and 240 Hz a sphere of this size does not roll steadily (BulletRollingFacts.
 // BetweenTwoSpeedsRollingIsUnsteady), so that the speed of approach is off by some 1e-3.

@@ -28,14 +28,14 @@ long denormals_in(const std::vector<Frame>& frames) {
 }
 
 TEST(BulletDenormals, AreFlushedUnlessToldOtherwiseAndNothingElseChanges) {
-  constexpr double kRadius = 0.1, kRate = 240;  // [m], [Hz]
+  constexpr double radius = 0.1, rate = 240;  // [m], [Hz]
   SubstrateContact ground = ground_with_friction(0.1);
   ground.rolling = RollingFriction(0.02);
-  const HardScene scene = scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0.1)}, ground);
+  const HardScene scene = scene_of(steel_ball(radius), {rolling_along_x(radius, 0, 0.1)}, ground);
   RemoteEngine engine(bullet_executable("double"));
-  const auto flushed = run(engine, scene, shipped("physical"), kRate, 2400);
+  const auto flushed = run(engine, scene, shipped("physical"), rate, 2400);
   const auto kept =
-      run(engine, scene, with(shipped("physical"), {{"flush_denormals", false}}), kRate, 2400);
+      run(engine, scene, with(shipped("physical"), {{"flush_denormals", false}}), rate, 2400);
   EXPECT_EQ(denormals_in(flushed), 0);
   EXPECT_GT(denormals_in(kept), 1000);
 

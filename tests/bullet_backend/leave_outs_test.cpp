@@ -13,7 +13,7 @@
 namespace slipcheck {
 namespace {
 
-constexpr double kRadius = 0.005;  // [m]
+constexpr double kGrainRadius = 0.005;  // [m]
 
 const Settings kGeneral = {{"leaves_out", false}};
 
@@ -34,23 +34,25 @@ PairContact pair_of(double restitution, double friction = 0) {
 
 /// Rolls to rest and falls asleep.
 HardScene one_ball() {
-  return scene_of(steel_ball(kRadius), {rolling_towards(kRadius, 0.2, 22.5)}, rough_ground());
+  return scene_of(steel_ball(kGrainRadius), {rolling_towards(kGrainRadius, 0.2, 22.5)},
+                  rough_ground());
 }
 
 HardScene bouncing() {
   SubstrateContact ground = ground_with_friction(0.3);
   ground.restitution = 0.8;
-  BodyState state = rolling_along_x(kRadius, 0, 0.1);
+  BodyState state = rolling_along_x(kGrainRadius, 0, 0.1);
   state.position.z() = 0.02;
   state.angular_velocity.z() = 1;  // not in a vertical plane, where one direction of friction does
-  return scene_of(steel_ball(kRadius), {state}, ground);
+  return scene_of(steel_ball(kGrainRadius), {state}, ground);
 }
 
 /// Rolling, oblique to each other.
 HardScene two_balls() {
-  return scene_of(steel_ball(kRadius),
-                  {rolling_towards(kRadius, 0.3, 10), rolling_along_x(kRadius, 0.03, -0.1)},
-                  rough_ground(), pair_of(0.8, 0.1));
+  return scene_of(
+      steel_ball(kGrainRadius),
+      {rolling_towards(kGrainRadius, 0.3, 10), rolling_along_x(kGrainRadius, 0.03, -0.1)},
+      rough_ground(), pair_of(0.8, 0.1));
 }
 
 /// On a substrate that swings.
@@ -63,7 +65,7 @@ HardScene shaken() {
 HardScene crowd() {
   HardScene scene = two_balls();
   for (int k = 0; k < 4; ++k) {
-    scene.bodies.push_back(steel_ball(k % 2 == 0 ? kRadius : 0.8 * kRadius));
+    scene.bodies.push_back(steel_ball(k % 2 == 0 ? kGrainRadius : 0.8 * kGrainRadius));
     scene.material.push_back(0);
     scene.initial.push_back(
         rolling_towards(scene.bodies.back().radius, 0.2 - 0.1 * k, 30.0 * k, 0.02 * (k + 3)));
@@ -124,10 +126,10 @@ INSTANTIATE_TEST_SUITE_P(Precisions, BulletLeaveOuts, ::testing::Values("double"
 
 /// Two that roll towards each other, `degrees` from x.
 HardScene on_a_line(double degrees) {
-  return scene_of(
-      steel_ball(kRadius),
-      {rolling_towards(kRadius, 0.3, degrees), rolling_towards(kRadius, -0.1, degrees, 0.02171234)},
-      ground_with_friction(0.1), pair_of(0.8));
+  return scene_of(steel_ball(kGrainRadius),
+                  {rolling_towards(kGrainRadius, 0.3, degrees),
+                   rolling_towards(kGrainRadius, -0.1, degrees, 0.02171234)},
+                  ground_with_friction(0.1), pair_of(0.8));
 }
 
 std::vector<Frame> ends_of_steps(std::vector<Frame> frames) {

@@ -11,8 +11,7 @@
 namespace slipcheck {
 namespace {
 
-constexpr double kRadius = 0.002;  // [m]
-constexpr double kMinute = 60;     // [s]
+constexpr double kMinute = 60;  // [s]
 
 class BulletLongRest : public ::testing::TestWithParam<std::tuple<const char*, double>> {};
 

@@ -11,7 +11,6 @@
 namespace slipcheck {
 namespace {
 
-constexpr double kRadius = 0.002;  // [m]
 constexpr double kHeadings[] = {0, 22.5, 45};
 constexpr double kRates[] = {60, 240, 1000, 16000};  // [Hz]
 constexpr double kTime = 0.05;                       // [s], of a run: 3 steps at 60 Hz

@@ -12,7 +12,7 @@ namespace slipcheck {
 namespace {
 
 TEST(BulletSliding, TheTimeIsTheExactOneRoundedUpToAStep) {
-  constexpr double kRadius = 0.002, kMu = 0.4;
+  constexpr double kMu = 0.4;
   const double exact = 2 * 1.0 / (7 * kMu * kGravity);  // 72.8 ms
   BodyState state;
   state.position = Vector3(0, 0, kRadius);
@@ -47,7 +47,6 @@ TEST(BulletSliding, ItIsBrakedByTheFrictionOfTheScene) {
 
 class BulletSlipTold : public ::testing::TestWithParam<const char*> {
  protected:
-  static constexpr double kRadius = 0.002;
   Settings settings() const { return with(shipped("physical"), {{"body", GetParam()}}); }
   RemoteEngine engine_{bullet_executable("double")};
 };

@@ -13,8 +13,6 @@
 namespace slipcheck {
 namespace {
 
-constexpr double kRadius = 0.002;  // [m]
-
 using Kinds = std::tuple<const char*, const char*>;  // body, solver
 
 class BulletSolvers : public ::testing::TestWithParam<Kinds> {

@@ -12,7 +12,6 @@
 namespace slipcheck {
 namespace {
 
-constexpr double kRadius = 0.002;  // [m]
 constexpr double kMu = 0.1;
 
 /// Two steel balls that roll at each other along a heading with `speed` together, `steps` from

@@ -12,8 +12,6 @@
 namespace slipcheck {
 namespace {
 
-constexpr double kRadius = 0.002;  // [m]
-
 class BulletSurfaces : public ::testing::TestWithParam<const char*> {
  protected:
   Settings settings(const char* surface_velocity) const {

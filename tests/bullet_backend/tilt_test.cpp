@@ -10,14 +10,14 @@
 namespace slipcheck {
 namespace {
 
-constexpr double kRadius = 0.05;
+constexpr double kTiltRadius = 0.05;
 
 /// One ball at rest on a plane tilted by θ [degrees], downhill along −y.
 HardScene tilted(double degrees, double mu, double mu_r) {
   const double theta = degrees * std::numbers::pi / 180;
   SubstrateContact ground = ground_with_friction(mu);
   ground.rolling = RollingFriction(mu_r);
-  HardScene scene = scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0)}, ground);
+  HardScene scene = scene_of(steel_ball(kTiltRadius), {rolling_along_x(kTiltRadius, 0, 0)}, ground);
   scene.gravity = kGravity * std::cos(theta);
   scene.downhill = {0, -kGravity * std::sin(theta)};
   return scene;
@@ -34,7 +34,7 @@ class BulletTilt : public ::testing::TestWithParam<Case> {
   double speed(const HardScene& scene) {
     const auto frames = run(engine_, scene, kDefault, 1000, 300);
     EXPECT_NEAR(frames.back().bodies[0].velocity.x(), 0, 1e-6);
-    EXPECT_NEAR(frames.back().bodies[0].position.z(), kRadius, 1e-3 * kRadius);
+    EXPECT_NEAR(frames.back().bodies[0].position.z(), kTiltRadius, 1e-3 * kTiltRadius);
     return -frames.back().bodies[0].velocity.y();
   }
   RemoteEngine engine_{bullet_executable(GetParam().precision)};
@@ -46,7 +46,7 @@ TEST_P(BulletTilt, K24ASolidSphereRollsDownWithFiveSeventhsOfGSinTheta) {
     const double exact = 5.0 / 7 * -scene.downhill.y() * 0.3;
     EXPECT_NEAR(speed(scene) / exact, 1, GetParam().tolerance) << degrees;
     const auto frames = run(engine_, scene, kDefault, 1000, 300);
-    const double slip = slip_velocity(frames.back().bodies[0], kRadius).norm();
+    const double slip = slip_velocity(frames.back().bodies[0], kTiltRadius).norm();
     EXPECT_LT(slip, GetParam().tolerance) << degrees;  // of 1 m/s
   }
 }

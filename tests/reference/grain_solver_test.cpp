@@ -1,6 +1,5 @@
 #include "reference/grain_solver.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
@@ -232,7 +231,8 @@ TEST(GrainSolver, TellsWhatItDoesNotTake) {
   };
   EXPECT_EQ(refusal([](ContactScene&) {}), "");
   const auto expect = [&](const char* reason, auto change) {
-    EXPECT_THAT(refusal(change), testing::HasSubstr(reason));
+    const std::string found = refusal(change);
+    EXPECT_NE(found.find(reason), std::string::npos) << found;
   };
   expect("tilted", [](ContactScene& s) { s.hard.downhill = {0, -1}; });
   expect("rolling", [](ContactScene& s) { s.hard.substrate[0].rolling = RollingFriction(0.1); });

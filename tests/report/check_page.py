@@ -1,5 +1,8 @@
 """Is the page that the given program writes well-formed, complete in itself and free of all scripts
-but its own, which its policy must name by its hash?"""
+but its own, which its policy must name by its hash?
+
+usage: check_page.py PROGRAM with|without|wanted [PROGRAM with|without that must write the same]
+"""
 
 import base64
 import hashlib
@@ -87,8 +90,14 @@ def check_scripts(text, faults):
     return re.sub(r"<pre[^>]*>.*?</pre>", "", text, flags=re.DOTALL)
 
 
-text = subprocess.run(sys.argv[1:], check=True, capture_output=True).stdout.decode("utf-8")
+def page_of(command):
+    return subprocess.run(command, check=True, capture_output=True).stdout.decode("utf-8")
+
+
+text = page_of(sys.argv[1:3])
 script_faults = []
+if len(sys.argv) > 3 and text != page_of(sys.argv[3:]):
+    script_faults.append(f"not the page of {' '.join(sys.argv[3:])}")
 if sys.argv[2] == "with":
     whole = text
     text = check_scripts(text, script_faults)

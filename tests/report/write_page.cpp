@@ -1,5 +1,5 @@
-// Writes a page with everything hostile and broken that records may hold to standard output; given
-// "with" together with its script.
+// Writes a page with everything hostile and broken that records may hold to standard output; unless
+// "without" is given together with its script, if the program has it.
 #include <iostream>
 #include <string_view>
 
@@ -96,6 +96,6 @@ int main(int count, char** arguments) {
   content.scenes = scenes();
   content.precision = precision();
   add_stability(content);
-  const bool has_script = count > 1 && std::string_view(arguments[1]) == "with";
+  const bool has_script = count < 2 || std::string_view(arguments[1]) != "without";
   std::cout << report_page(content, has_script ? PageScript::included : PageScript::left_out);
 }
