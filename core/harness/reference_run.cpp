@@ -102,7 +102,7 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
   result.run = solved.run;
   // What the integrator cannot run has no contact to put phases to; the warning below says so.
   result.first_contact = solved.run.failed ? std::numeric_limits<double>::infinity()
-                                           : solver.first_contact(end.limit, tolerance);
+                                           : solver.first_contact(result.run.end_time, tolerance);
 
   // Closed forms are of a body alone, or of two that have met once and not again.
   const bool has_closed_form = result.run.reached && has_exact_phases(scene) &&

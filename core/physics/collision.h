@@ -17,13 +17,14 @@ struct CollidingBody {
 struct CollisionResult {
   double impact_speed = 0;            ///< normal, before [m/s], >= 0
   Vector3 impulse = Vector3::Zero();  ///< on the first body [N s]
+  bool altered = false;               ///< slowest_rebound changed how they part
 };
 
 /// Options of the substrate's part in a collision.
 struct CollisionRule {
   bool confined = false;  ///< bodies never leave the plane, whatever lifts them
-  /// The pair parts at least this fast [m/s], >= 0, if it met slower: keeps an endless cascade of
-  /// ever weaker collisions finite (inelastic collapse).
+  /// The pair parts at least this fast [m/s], >= 0, or as fast as it met: keeps an endless cascade
+  /// of ever weaker collisions finite (inelastic collapse), and never adds energy.
   double slowest_rebound = 0;
 };
 

@@ -80,6 +80,8 @@ void SubstrateWorld<Phase, Near>::set_state(std::uint32_t i, BodyState state, do
   body.end = now + phase.duration();
   body.is_parabola = phase.is_parabola();
   body.is_at_rest = phase.is_at_rest();
+  body.fastest = std::max({body.fastest, (start.velocity - substrate_velocity(now)).norm(),
+                           body.radius * start.angular_velocity.norm()});
   body.acceleration = body.is_parabola ? phase.acceleration() : Vector3::Zero();
   if (!body.is_parabola) {
     if constexpr (kIsStill)
@@ -244,7 +246,7 @@ std::span<const std::uint32_t> SubstrateWorld<Phase, Near>::collide(std::uint32_
     resolve_cluster(now);
   } else {
     exchange_impulse(0, 1, is_quick ? kElastic : scene_->between(i, j), now);
-    if (is_quick || last_impact_speed_ < least_.rebound) ++collapses_;
+    if (is_quick || was_altered_) ++collapses_;
   }
   for (std::size_t k = 0; k < changed_.size(); ++k) {
     bodies_[changed_[k]].last_collision = now;
@@ -268,8 +270,10 @@ void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_
   const auto is_supported = [&](std::uint32_t k, const BodyState& state) {
     return phases_[k].is_supported() && state.velocity.z() <= 0;
   };
+  const double slowest_rebound =
+      least_.rebound_fraction * std::max(bodies_[i].fastest, bodies_[j].fastest);
   const CollisionResult result =
-      slipcheck::collide(contact, {scene_->confined, least_.rebound},
+      slipcheck::collide(contact, {scene_->confined, slowest_rebound},
                          {scene_->bodies[i], scene_->on_substrate(i), of_i, is_supported(i, of_i)},
                          {scene_->bodies[j], scene_->on_substrate(j), of_j, is_supported(j, of_j)});
   of_j.position -= image;
@@ -277,6 +281,7 @@ void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_
   of_j.velocity += frame;
   ++collisions_;
   last_impact_speed_ = result.impact_speed;
+  was_altered_ = result.altered;
   if (sink_)
     frame_.touches.push_back({static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j)),
                               std::max(result.impulse.norm(), 1e-300)});
