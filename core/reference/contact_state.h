@@ -93,7 +93,8 @@ class ContactState {
   ContactDynamics dynamics_;
   ContactDynamics::Evaluation evaluation_;
   std::vector<std::size_t> free_slots_;
-  std::vector<double> fastest_;  ///< each body at its collisions so far, on the plane [m/s]
+  std::vector<double>
+      hardest_impact_;  ///< of each body, the normal speed of its hard collisions [m/s]
 };
 
 }  // namespace slipcheck

@@ -22,9 +22,9 @@ struct RunEnd {
 };
 
 struct EventSettings {
-  /// A pair parts with this fraction of the largest speed that the two have had on the plane, or as
-  /// fast as it met, so that an endless cascade of ever weaker collisions (inelastic collapse)
-  /// stays finite.
+  /// A pair parts at least with this fraction of the largest normal speed at which one of the two
+  /// has met another body so far, so that an endless cascade of ever weaker collisions (inelastic
+  /// collapse) stays finite. What happens elsewhere has no part in it.
   double collapse_fraction = 1e-6;
   /// A landing that would rebound slower than this fraction of the scene's speed does not.
   double landing_fraction = 1e-10;

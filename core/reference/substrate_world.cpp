@@ -80,8 +80,6 @@ void SubstrateWorld<Phase, Near>::set_state(std::uint32_t i, BodyState state, do
   body.end = now + phase.duration();
   body.is_parabola = phase.is_parabola();
   body.is_at_rest = phase.is_at_rest();
-  body.fastest = std::max({body.fastest, (start.velocity - substrate_velocity(now)).norm(),
-                           body.radius * start.angular_velocity.norm()});
   body.acceleration = body.is_parabola ? phase.acceleration() : Vector3::Zero();
   if (!body.is_parabola) {
     if constexpr (kIsStill)
@@ -270,17 +268,18 @@ void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_
   const auto is_supported = [&](std::uint32_t k, const BodyState& state) {
     return phases_[k].is_supported() && state.velocity.z() <= 0;
   };
-  const double slowest_rebound =
-      least_.rebound_fraction * std::max(bodies_[i].fastest, bodies_[j].fastest);
-  const CollisionResult result =
-      slipcheck::collide(contact, {scene_->confined, slowest_rebound},
-                         {scene_->bodies[i], scene_->on_substrate(i), of_i, is_supported(i, of_i)},
-                         {scene_->bodies[j], scene_->on_substrate(j), of_j, is_supported(j, of_j)});
+  const double hardest = std::max(bodies_[i].hardest_impact, bodies_[j].hardest_impact);
+  const CollisionResult result = slipcheck::collide(
+      contact, {scene_->confined, least_.rebound_fraction * hardest, least_.rebound_fraction},
+      {scene_->bodies[i], scene_->on_substrate(i), of_i, is_supported(i, of_i)},
+      {scene_->bodies[j], scene_->on_substrate(j), of_j, is_supported(j, of_j)});
   of_j.position -= image;
   of_i.velocity += frame;
   of_j.velocity += frame;
   ++collisions_;
   last_impact_speed_ = result.impact_speed;
+  for (const std::uint32_t k : {i, j})
+    bodies_[k].hardest_impact = std::max(bodies_[k].hardest_impact, result.impact_speed);
   was_altered_ = result.altered;
   if (sink_)
     frame_.touches.push_back({static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j)),

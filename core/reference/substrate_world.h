@@ -18,9 +18,9 @@ namespace slipcheck {
 
 /// Below which things count as over.
 struct LeastSpeeds {
-  /// A pair parts at least with this part of the largest speed that the two have had, or as fast as
-  /// it met, whatever the rule for collapse: friction with the substrate can press two bodies
-  /// together for long.
+  /// A pair parts at least with this part of the largest speed at which one of the two has met
+  /// another body so far, whatever the rule for collapse: friction with the substrate can press two
+  /// bodies together for long.
   double rebound_fraction = 0;
   double landing = 0;  ///< a landing that would rebound slower does not [m/s]
 };
@@ -85,7 +85,7 @@ class SubstrateWorld {
     double radius = 0;
     double bound = 0;  ///< of the acceleration in the phase [m/s²]
     double last_collision = -kNever;
-    double fastest = 0;  ///< largest speed of the centre or the surface on the plane so far [m/s]
+    double hardest_impact = 0;  ///< the normal speed of its collisions so far [m/s]
     bool is_parabola = true, is_at_rest = true;
     bool leaves_cell = false;  ///< before its phase ends
   };
