@@ -149,10 +149,10 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
                                                 std::sqrt(count) / result.run.end_time};
   }
   if (solver.softened_to() > 0)
-    result.warnings.push_back(fmt::format(
-        "bodies stay in contact: hard contacts are taken as linear ones of the same restitution "
-        "that last {:.3g} s; the uncertainty holds what twice that time changes",
-        solver.softened_to()));
+    result.warnings.push_back(
+        fmt::format("bodies stay in contact: hard contacts are taken as linear ones "
+                    "that last {:.3g} s; the uncertainty holds what twice that time changes",
+                    solver.softened_to()));
   if (solver.hardens())
     result.warnings.push_back(
         "event takes soft contacts as hard ones of their restitution and friction; pairs that rub "

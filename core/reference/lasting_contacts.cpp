@@ -21,13 +21,16 @@ bool rests_on(const HardScene& scene, std::size_t i, std::size_t j) {
   if (upper.position.z() <= radius * (1 + kTouching)) return false;  // the substrate carries it
   const Vector3 way = upper.position - lower.position;
   const double contact = radius + scene.bodies[j].radius;
-  if (way.norm() > (1 + kTouching) * contact || way.z() < 1e-3 * contact) return false;
-  const double parting = std::abs(way.normalized().dot(upper.velocity - lower.velocity));
-  return parting <= 1e-3 * std::sqrt(scene.gravity * radius);
+  return way.norm() <= (1 + kTouching) * contact && way.z() >= 1e-3 * contact;
 }
 
 bool rests_on_bodies(const HardScene& scene) {
-  if (scene.gravity == 0) return false;
+  const auto is_still = [](const BodyState& state) {
+    return state.velocity.isZero(0) && state.angular_velocity.isZero(0);
+  };
+  if (scene.gravity == 0 || !scene.motion.is_still() ||
+      !std::ranges::all_of(scene.initial, is_still))
+    return false;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     for (std::size_t j = 0; j < scene.bodies.size(); ++j)
       if (i != j && rests_on(scene, i, j)) return true;
@@ -59,7 +62,7 @@ HardScene one_class_each(HardScene scene) {
 }
 
 std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, const Sphere& b,
-                                   double collision_time) {
+                                   double collision_time, double most_restitution) {
   constexpr double kLeastRestitution = 1e-5, kLeastSlip = 1e-4;
   const double* e = std::get_if<double>(&hard.restitution);
   if (!e || (hard.friction > 0 && hard.tangential_restitution > 0)) return std::nullopt;
@@ -67,7 +70,7 @@ std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, con
   SoftContact made;
   made.end = ContactEnd::zero_force;
   const LinearContact linear = LinearContact::with_collision_time(
-      mass, std::max(*e, kLeastRestitution), collision_time, made.end);
+      mass, std::clamp(*e, kLeastRestitution, most_restitution), collision_time, made.end);
   made.normal = LinearForce{linear.stiffness(), linear.damping_rate() * mass};
   if (hard.friction > 0) {
     // Over a collision what is left of the slip falls to −β0 of itself.
@@ -84,24 +87,35 @@ bool has_lasting_contacts(const HardScene& scene) {
   return !scene.box && scene.periodic.isZero(0) && (rests_on_bodies(scene) || sticks(scene));
 }
 
+bool has_come_apart(const HardScene& scene, std::span<const BodyState> states) {
+  if (!rests_on_bodies(scene)) return false;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double way = (states[i].position - scene.initial[i].position).norm();
+    if (way > 1e-2 * scene.bodies[i].radius) return true;
+  }
+  return false;
+}
+
 double short_collision_time(const HardScene& scene) {
-  constexpr double kPart = 1e-4;
+  const double part = rests_on_bodies(scene) ? 1e-3 : 1e-4;
   double radius = kNever;
   for (const Sphere& sphere : scene.bodies) radius = std::min(radius, sphere.radius);
   const double fall = std::sqrt(2 * scene.gravity * radius);
-  return kPart * radius / std::max(fall, speed_scale(scene, scene.initial));
+  return part * radius / std::max(fall, speed_scale(scene, scene.initial));
 }
 
 std::optional<ContactScene> with_lasting_contacts(const HardScene& scene, double collision_time) {
   ContactScene made;
   made.hard = one_class_each(scene);
   made.touching = kTouching;
+  // e_n of critical damping, where a contact ends with its force, is e^−2.
+  const double most = rests_on_bodies(scene) ? std::exp(-2.0) : 1;
   const std::size_t count = scene.bodies.size();
   made.soft.resize(count * count);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) {
       made.soft[i * count + j] =
-          lasting(scene.between(i, j), scene.bodies[i], scene.bodies[j], collision_time);
+          lasting(scene.between(i, j), scene.bodies[i], scene.bodies[j], collision_time, most);
       if (!made.soft[i * count + j]) return std::nullopt;
     }
   return made;

@@ -153,9 +153,14 @@ SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
     softer = with_lasting_contacts(scene_->hard, accuracy.softness * collision_time_);
   ContactSolver solver(softer ? *softer : scene(), initial, settings);
   const ContactRun run = solver.run(end, sink);
-  return checked({run.end_time, run.reached, run.failed, run.reason, run.events, run.collisions,
-                  run.collapses, run.steps, run.balance},
-                 solver.states());
+  SolvedRun solved{run.end_time,   run.reached,   run.failed, run.reason, run.events,
+                   run.collisions, run.collapses, run.steps,  run.balance};
+  if (softened_to() > 0 && has_come_apart(scene_->hard, solver.states())) {
+    solved.reached = false;
+    solved.reason =
+        "bodies that rested on each other come apart: how they then collide is not known";
+  }
+  return checked(std::move(solved), solver.states());
 }
 
 std::vector<std::string> ReferenceSolver::loop() const {
