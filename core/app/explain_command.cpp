@@ -98,7 +98,7 @@ std::string unit_of(const std::string& value_name) {
 
 void print_expectations(const Scenario& scenario, const ContactScene& scene,
                         const ReferenceSolver& solver) {
-  const double contact = solver.first_contact(run_end(scenario).limit);
+  const double contact = solver.first_contact(run_end(scenario).last());
   fmt::print("\n  Expected\n");
   const bool overlaps = !initial_contacts(scene, scene.hard.initial).empty();
   if (overlaps)
@@ -203,8 +203,7 @@ void explain_in_box(const Scenario& scenario, const ContactScene& scene, bool ge
 
 void explain_on_substrate(const Scenario& scenario, const ContactScene& scene, bool general) {
   const ReferenceSolver solver(scene, reference_settings(scenario, general));
-  const RunEnd end = run_end(scenario);
-  const auto meeting = first_meeting(scene, end.until == Run::Until::time ? end.time : end.limit);
+  const auto meeting = first_meeting(scene, run_end(scenario).last());
   print_solver(scene, solver);
   print_loop(solver.loop());
   print_features(solver.scene());

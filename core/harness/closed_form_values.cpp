@@ -64,14 +64,15 @@ Observables two_bodies(const HardScene& scene) {
   }
   if (contact.friction != 0 || a.radius != b.radius) return result;
 
-  // Where they touch: |Δx + Δv t| = 2R.
+  // Seen from j, i comes along dv and passes at the distance `aside` from it; n when they touch.
   const Vector3 dx = i.position - j.position, dv = i.velocity - j.velocity;
-  const double half_b = dx.dot(dv), speed2 = dv.squaredNorm();
-  const double c = dx.squaredNorm() - 4 * a.radius * a.radius;
-  const double discriminant = half_b * half_b - speed2 * c;
-  if (half_b >= 0 || discriminant <= 0) return result;
-  const double t = c / (-half_b + std::sqrt(discriminant));
-  const Vector3 n = (dx + t * dv).normalized();
+  if (dx.dot(dv) >= 0) return result;
+  const Vector3 direction = dv.normalized();
+  const Vector3 aside = dx - dx.dot(direction) * direction;
+  const double contact_distance = 2 * a.radius;
+  const double square = (contact_distance - aside.norm()) * (contact_distance + aside.norm());
+  if (square <= 0) return result;
+  const Vector3 n = (aside - std::sqrt(square) * direction) / contact_distance;
 
   const double impact = -n.dot(dv);
   const double e = restitution_at(contact.restitution, impact);

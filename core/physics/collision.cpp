@@ -54,8 +54,8 @@ CollisionResult collide(const PairContact& contact, const CollisionRule& rule, C
                         .cross(n);
   const double un = n.dot(u);
   const double impact = std::max(0.0, -un);
-  double rebound = impact > 0 ? restitution_at(contact.restitution, impact) * impact : 0;
-  if (impact < rule.slowest_rebound) rebound = std::max(rebound, rule.slowest_rebound);
+  const double by_law = impact > 0 ? restitution_at(contact.restitution, impact) * impact : 0;
+  const double rebound = std::max({by_law, rule.slowest_rebound, rule.least_restitution * impact});
   const Vector3 ut = u - un * n;
   const Vector3 change = (rebound - un) * n - (1 + contact.tangential_restitution) * ut;
 
@@ -90,7 +90,7 @@ CollisionResult collide(const PairContact& contact, const CollisionRule& rule, C
     apply_substrate_impulse(first.sphere, first.substrate, -impulse.z(), first.state);
   if (hold_second && impulse.z() > 0)
     apply_substrate_impulse(second.sphere, second.substrate, impulse.z(), second.state);
-  return {impact, impulse};
+  return {impact, impulse, rebound > by_law};
 }
 
 }  // namespace slipcheck

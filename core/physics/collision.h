@@ -17,14 +17,17 @@ struct CollidingBody {
 struct CollisionResult {
   double impact_speed = 0;            ///< normal, before [m/s], >= 0
   Vector3 impulse = Vector3::Zero();  ///< on the first body [N s]
+  bool altered = false;               ///< the rule changed how they part
 };
 
 /// Options of the substrate's part in a collision.
 struct CollisionRule {
   bool confined = false;  ///< bodies never leave the plane, whatever lifts them
-  /// The pair parts at least this fast [m/s], >= 0, if it met slower: keeps an endless cascade of
-  /// ever weaker collisions finite (inelastic collapse).
+  /// The pair parts at least this fast [m/s], >= 0: keeps an endless cascade of ever weaker
+  /// collisions finite (inelastic collapse).
   double slowest_rebound = 0;
+  /// And at least with this part of the speed at which it meets, in [0, 1].
+  double least_restitution = 0;
 };
 
 /// Two hard spheres that touch exchange an impulse at once, L (5)-(12) with the mobilities of

@@ -31,6 +31,9 @@ struct ContactScene {
   HardScene hard;
   /// By material × material of `hard`, symmetric; none: that pair's contact is hard.
   std::vector<std::optional<SoftContact>> soft;
+  /// Overlaps at the start up to this part of the sum of two radii are none: such a pair is only
+  /// in contact where it is pushed together.
+  double touching = 0;
   SoftBox soft_box;                   ///< sized by material where `hard` has a box, else empty
   std::vector<std::string> warnings;  ///< where a law leaves the range in which it holds
 

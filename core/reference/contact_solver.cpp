@@ -24,7 +24,7 @@ ContactScales scales_of(const ContactScene& scene, std::span<const BodyState> in
   scales.speed =
       std::max({speed_scale(scene.hard, initial), release_speed(scene, overlapping), least, 1e-30});
   scales.slip_floor = 100 * settings.tolerance * scales.speed;
-  scales.slowest_rebound = settings.cut_offs * EventSettings{}.collapse_fraction * scales.speed;
+  scales.rebound_fraction = settings.cut_offs * EventSettings{}.collapse_fraction;
   scales.slowest_landing = settings.cut_offs * EventSettings{}.landing_fraction * scales.speed;
   return scales;
 }
@@ -95,7 +95,7 @@ void ContactSolver::Impl::handle_touch(const NextTouch& touch, FrameSink* sink, 
   }
   show(sink, state_.time);
   const CollisionResult result = state_.collide_now(touch.first, touch.second);
-  if (result.impact_speed < state_.scales().slowest_rebound) ++run.collapses;
+  if (result.altered) ++run.collapses;
   state_.settle();
   show(sink, state_.time,
        Touch{static_cast<int>(touch.first), static_cast<int>(touch.second),
@@ -286,7 +286,7 @@ bool ContactSolver::Impl::has_ended(const RunEnd& end) {
 ContactRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
   ContactRun run;
   const bool to_a_time = end.until == Run::Until::time;
-  const double last = to_a_time ? end.time : end.limit;
+  const double last = end.last();
   if (is_at_start()) run.collisions = overlapping_.size();
   show(sink, state_.time);
   bool event = true;

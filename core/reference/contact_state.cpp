@@ -33,7 +33,11 @@ struct ImpactScale {
 ContactState::ContactState(const ContactScene& scene, std::span<const BodyState> initial,
                            double start, const ContactScales& scales,
                            std::span<const InitialContact> overlapping)
-    : time(start), scene_(&scene), scales_(scales), dynamics_(scene) {
+    : time(start),
+      scene_(&scene),
+      scales_(scales),
+      dynamics_(scene),
+      hardest_impact_(initial.size(), 0) {
   bool any_soft = false;
   for (const auto& contact : scene.soft) any_soft |= contact.has_value();
   dynamics_.slots = any_soft ? 1 : 0;
@@ -205,10 +209,14 @@ CollisionResult ContactState::collide_now(std::size_t i, std::size_t j) {
   BodyState a = body(i), b = body(j);
   a.velocity -= frame;
   b.velocity -= frame;
+  const double fraction = scales_.rebound_fraction;
+  const double hardest = std::max(hardest_impact_[i], hardest_impact_[j]);
   const CollisionResult result =
-      collide(scene.between(i, j), {scene.confined, scales_.slowest_rebound},
+      collide(scene.between(i, j), {scene.confined, fraction * hardest, fraction},
               {scene.bodies[i], scene.on_substrate(i), a, dynamics_.modes[i].on_plane()},
               {scene.bodies[j], scene.on_substrate(j), b, dynamics_.modes[j].on_plane()});
+  for (const std::size_t k : bodies)
+    hardest_impact_[k] = std::max(hardest_impact_[k], result.impact_speed);
   a.velocity += frame;
   b.velocity += frame;
   set_body(i, a);

@@ -12,9 +12,10 @@ namespace slipcheck {
 
 /// What counts as nothing, from the scene's scales and the tolerance of the integration.
 struct ContactScales {
-  double speed = 0;                                 ///< of the scene, speed_scale() [m/s], > 0
-  double slip_floor = 0;                            ///< slower than this is no slip [m/s]
-  double slowest_rebound = 0, slowest_landing = 0;  ///< as of EventSettings [m/s]
+  double speed = 0;             ///< of the scene, speed_scale() [m/s], > 0
+  double slip_floor = 0;        ///< slower than this is no slip [m/s]
+  double rebound_fraction = 0;  ///< collapse_fraction of EventSettings
+  double slowest_landing = 0;   ///< as of EventSettings [m/s]
 };
 
 /// The state of all bodies with the modes they are in, and the changes of mode at events.
@@ -92,6 +93,8 @@ class ContactState {
   ContactDynamics dynamics_;
   ContactDynamics::Evaluation evaluation_;
   std::vector<std::size_t> free_slots_;
+  std::vector<double>
+      hardest_impact_;  ///< of each body, the normal speed of its hard collisions [m/s]
 };
 
 }  // namespace slipcheck

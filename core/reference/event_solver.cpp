@@ -17,8 +17,7 @@ namespace {
 
 LeastSpeeds least_speeds(const HardScene& scene, std::span<const BodyState> states,
                          const EventSettings& settings) {
-  const double scale = speed_scale(scene, states);
-  return {settings.collapse_fraction * scale, settings.landing_fraction * scale};
+  return {settings.collapse_fraction, settings.landing_fraction * speed_scale(scene, states)};
 }
 
 /// Tells when events have come too fast for too long.
@@ -116,10 +115,13 @@ class EventSolver::EngineOf final : public Engine {
   EventRun run(const RunEnd& end, FrameSink* sink) override {
     EventRun run;
     const bool to_a_time = end.until == Run::Until::time;
-    const double last = to_a_time ? end.time : end.limit;
+    const double last = end.last();
     const std::size_t events = world_.events(), collisions = world_.collisions();
     const std::size_t collapses = world_.collapses();
     RateLimit rate(settings_, world_.size(), now_);
+    const std::size_t most_collapses =
+        settings_.most_collapses +
+        (world_.size() > settings_.most_without_cells ? 1000 * world_.size() : 0);
     world_.set_sink(sink);
     world_.show(now_);
     while (true) {
@@ -145,6 +147,14 @@ class EventSolver::EngineOf final : public Engine {
             "more than {:g} events for each body and second at {:.9g} s: inelastic collapse; "
             "run.collapse or run.most_events decides what then happens",
             settings_.most_events, now_);
+        break;
+      }
+      if (world_.collapses() - collapses > most_collapses) {
+        world_.show(now_);
+        run.reason = fmt::format(
+            "bodies stay in contact at {:.9g} s, of which collisions at instants know nothing: "
+            "run.collapse has changed {} collisions",
+            now_, most_collapses);
         break;
       }
     }

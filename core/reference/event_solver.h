@@ -16,11 +16,15 @@ struct RunEnd {
   Run::Until until = Run::Until::rolling;
   double time = 0;   ///< [s], for Until::time
   double limit = 0;  ///< [s]: the run has failed if it comes to this first
+
+  /// No run goes on beyond this [s]: nothing later needs to be looked for.
+  double last() const { return until == Run::Until::time ? time : limit; }
 };
 
 struct EventSettings {
-  /// A pair that meets slower than this fraction of the scene's speed parts with it, so that an
-  /// endless cascade of ever weaker collisions (inelastic collapse) stays finite.
+  /// A pair parts at least with this fraction of the largest normal speed at which one of the two
+  /// has met another body so far, so that an endless cascade of ever weaker collisions (inelastic
+  /// collapse) stays finite. What happens elsewhere has no part in it.
   double collapse_fraction = 1e-6;
   /// A landing that would rebound slower than this fraction of the scene's speed does not.
   double landing_fraction = 1e-10;
@@ -30,6 +34,9 @@ struct EventSettings {
   double most_events = 1e7;
   /// Looked at over so many events, and 1000 for each body, that no harmless burst counts; > 0.
   std::size_t burst = 1'000'000;
+  /// More collisions, and 1000 for each body where there are many, that the rule for collapse
+  /// changed are no cascade that ends: bodies stay in contact, and the run stops with a reason.
+  std::size_t most_collapses = 1'000'000;
   /// Takes the phases of a tilted and moving plane on any plane.
   bool general = false;
   /// Up to this many bodies on an unbounded plane are each other's neighbours; more have cells.

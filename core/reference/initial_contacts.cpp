@@ -38,7 +38,11 @@ std::vector<InitialContact> initial_contacts(const ContactScene& scene,
   if (std::ranges::none_of(scene.soft, [](const auto& pair) { return pair.has_value(); }))
     return {};
   std::vector<InitialContact> found = overlapping_pairs(scene.hard, states);
-  std::erase_if(found, [&](const auto& pair) { return !scene.between(pair.first, pair.second); });
+  std::erase_if(found, [&](const InitialContact& pair) {
+    const double contact =
+        scene.hard.bodies[pair.first].radius + scene.hard.bodies[pair.second].radius;
+    return !scene.between(pair.first, pair.second) || pair.overlap <= scene.touching * contact;
+  });
   return found;
 }
 

@@ -81,7 +81,7 @@ template <class Scheduler>
 PlanarRun PlanarSolver::run(Scheduler& scheduler, const RunEnd& end, FrameSink* sink,
                             double sample_interval) {
   PlanarRun run;
-  const double last = end.until == Run::Until::time ? end.time : end.limit;
+  const double last = end.last();
   const auto bodies = static_cast<double>(world_.size());
   // Looked at over so many events that no harmless burst of collisions counts.
   const std::size_t window = 1000 * world_.size() + 1'000'000;

@@ -1,10 +1,15 @@
 #include "reference/reference_solver.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "physics/numbers.h"
 #include "reference/initial_contacts.h"
+#include "reference/lasting_contacts.h"
+#include "reference/run_variation.h"
 #include "reference/step_length.h"
 #include "reference/step_solver.h"
 #include "reference/steps_as_events.h"
@@ -14,6 +19,21 @@ namespace {
 
 /// Bodies in soft contacts that `automatic` leaves to ContactSolver, whose steps all bodies share.
 constexpr std::size_t kMostIntegrated = 200;
+
+/// A state that is no number stays so: the last ones tell. `solved` fails where there is one.
+SolvedRun checked(SolvedRun solved, const std::vector<BodyState>& states) {
+  const auto is_finite = [](const BodyState& state) {
+    return state.position.allFinite() && state.velocity.allFinite() &&
+           state.angular_velocity.allFinite();
+  };
+  const auto lost = std::ranges::find_if_not(states, is_finite);
+  if (lost == states.end()) return solved;
+  solved.failed = true;
+  solved.reached = false;
+  solved.reason = fmt::format("the state of body {} is not finite at {:.9g} s",
+                              lost - states.begin(), solved.end_time);
+  return solved;
+}
 
 }  // namespace
 
@@ -39,8 +59,14 @@ ReferenceSolver::ReferenceSolver(const ContactScene& scene, const ReferenceSetti
   if (!resolved_ && soft) {
     if (!initial_contacts(scene, scene.hard.initial).empty())
       throw Unsupported("bodies that overlap at the start can only be solved with soft contacts");
-    hardened_ = scene;
-    hardened_->soft.assign(scene.soft.size(), std::nullopt);
+    made_ = scene;
+    made_->soft.assign(scene.soft.size(), std::nullopt);
+  }
+  if (automatic && !soft && scene.hard.bodies.size() <= kMostIntegrated &&
+      has_lasting_contacts(scene.hard)) {
+    collision_time_ = short_collision_time(scene.hard);
+    made_ = with_lasting_contacts(scene.hard, collision_time_);
+    resolved_ = made_.has_value();
   }
   phases_ = !resolved_ && runs_in_phases(scene.hard);
   if (!stepped && !phases_ && periodic)
@@ -87,27 +113,54 @@ SolvedRun ReferenceSolver::run_steps(const RunEnd& end, FrameSink* sink, double 
   solved.reason = run.reason;
   solved.events = solved.collisions = run.collisions;
   solved.steps = run.steps;
-  return solved;
+  return checked(std::move(solved), solver.states());
+}
+
+SolvedRun ReferenceSolver::run_varied(const RunEnd& end, FrameSink* sink,
+                                      SolverAccuracy accuracy) const {
+  ContactScene varied = scene();
+  HardScene& hard = varied.hard;
+  std::optional<ReverseSink> reversing;
+  if (accuracy.reversed) {
+    reverse_bodies(hard);
+    if (sink) reversing.emplace(*sink);
+  }
+  if (accuracy.other_rule) hard.collapse = other_rule(hard);
+  accuracy.reversed = accuracy.other_rule = false;
+  return ReferenceSolver(varied, settings_).run(end, reversing ? &*reversing : sink, accuracy);
 }
 
 SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
                                const SolverAccuracy& accuracy) const {
+  if (accuracy.reversed || accuracy.other_rule) return run_varied(end, sink, accuracy);
   if (is_stepped()) return run_steps(end, sink, accuracy.step);
   const std::vector<BodyState>& initial = scene().hard.initial;
   if (phases_) {
     EventSettings settings = event_settings();
     settings.collapse_fraction *= accuracy.cut_offs;
     settings.landing_fraction *= accuracy.cut_offs;
-    const EventRun run = EventSolver(scene().hard, initial, settings).run(end, sink);
-    return {run.end_time,   run.reached,   false, run.reason,  run.events,
-            run.collisions, run.collapses, 0,     std::nullopt};
+    EventSolver solver(scene().hard, initial, settings);
+    const EventRun run = solver.run(end, sink);
+    return checked({run.end_time, run.reached, false, run.reason, run.events, run.collisions,
+                    run.collapses, 0, std::nullopt},
+                   solver.states());
   }
   ContactSettings settings;
   settings.tolerance = accuracy.tolerance;
   settings.cut_offs = accuracy.cut_offs;
-  const ContactRun run = ContactSolver(scene(), initial, settings).run(end, sink);
-  return {run.end_time,   run.reached,   run.failed, run.reason, run.events,
-          run.collisions, run.collapses, run.steps,  run.balance};
+  std::optional<ContactScene> softer;
+  if (softened_to() > 0 && accuracy.softness != 1)
+    softer = with_lasting_contacts(scene_->hard, accuracy.softness * collision_time_);
+  ContactSolver solver(softer ? *softer : scene(), initial, settings);
+  const ContactRun run = solver.run(end, sink);
+  SolvedRun solved{run.end_time,   run.reached,   run.failed, run.reason, run.events,
+                   run.collisions, run.collapses, run.steps,  run.balance};
+  if (softened_to() > 0 && has_come_apart(scene_->hard, solver.states())) {
+    solved.reached = false;
+    solved.reason =
+        "bodies that rested on each other come apart: how they then collide is not known";
+  }
+  return checked(std::move(solved), solver.states());
 }
 
 std::vector<std::string> ReferenceSolver::loop() const {

@@ -29,6 +29,11 @@ struct SolverAccuracy {
   double tolerance = 1e-13;  ///< of the integrator
   double cut_offs = 1;       ///< factor on what counts as no rebound
   double step = 1;           ///< factor on the step of `steps`
+  double softness = 1;       ///< factor on the collision time of hard contacts that last
+  bool reversed = false;     ///< bodies in reverse order: so are collisions at one instant
+  /// Another rule for collapse than the scene's: the TC model in place of the least rebound, and
+  /// the other way round.
+  bool other_rule = false;
 };
 
 /// The solver that is the truth for a scene, chosen once.
@@ -37,7 +42,8 @@ struct SolverAccuracy {
 /// substrate, to DrivenPhase's bound for many bodies on others. Few bodies on a tilted or moving
 /// substrate have their phases integrated (ContactSolver), as do laws without phases; collisions
 /// are instants.
-/// contact: soft contacts resolved in time, to a tolerance.
+/// contact: soft contacts resolved in time, to a tolerance; `automatic` takes it also for hard
+/// ones where bodies stay in contact (has_lasting_contacts()).
 /// steps: the same in steps of fixed length (StepSolver); for scenes of so many bodies that
 /// `contact` would not come to an end, which `automatic` leaves to it.
 class ReferenceSolver {
@@ -56,8 +62,11 @@ class ReferenceSolver {
   /// What the loop that runs the scene was made for, in a few words each.
   std::vector<std::string> loop() const;
   /// Contacts that last are taken as instants: `event` was asked for.
-  bool hardens() const { return hardened_.has_value(); }
-  const ContactScene& scene() const { return hardened_ ? *hardened_ : *scene_; }
+  bool hardens() const { return made_ && !resolved_; }
+  /// Hard contacts are taken as short ones that last (lasting_contacts.h), as bodies stay in
+  /// contact: so long is a collision [s], else 0.
+  double softened_to() const { return made_ && resolved_ ? collision_time_ : 0; }
+  const ContactScene& scene() const { return made_ ? *made_ : *scene_; }
 
   SolvedRun run(const RunEnd& end, FrameSink* sink, const SolverAccuracy& accuracy = {}) const;
   /// The time [s] of the first contact of two bodies or landing, or infinity where none comes
@@ -75,13 +84,16 @@ class ReferenceSolver {
 
  private:
   EventSettings event_settings() const;
+  SolvedRun run_varied(const RunEnd& end, FrameSink* sink, SolverAccuracy accuracy) const;
   SolvedRun run_steps(const RunEnd& end, FrameSink* sink, double factor) const;
 
   const ContactScene* scene_;
-  std::optional<ContactScene> hardened_;  ///< event asked for a scene of soft contacts
+  /// In place of the scene: its soft contacts hard, as event was asked for, or its hard ones soft.
+  std::optional<ContactScene> made_;
   ReferenceSettings settings_;
   bool resolved_, phases_;
-  double step_ = 0;  ///< [s]
+  double step_ = 0;            ///< [s]
+  double collision_time_ = 0;  ///< of made_, where its contacts last [s]
 };
 
 /// Whether EventSolver has an exact solution for what bodies do between collisions.

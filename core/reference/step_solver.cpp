@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "physics/numbers.h"
-#include "physics/polynomial_roots.h"
+#include "reference/path_collision.h"
 #include "reference/step_kernel.h"
 
 namespace slipcheck {
@@ -156,9 +156,7 @@ class StepSolver::Impl {
         const Vector3 dx = all[i].position - all[j].position;
         const Vector3 dv = all[i].velocity - all[j].velocity;
         const double reach = hard.bodies[i].radius + hard.bodies[j].radius;
-        const Quartic gap = {dx.squaredNorm() - reach * reach, 2 * dx.dot(dv), dv.squaredNorm(), 0,
-                             0};
-        const double t = first_falling_root(gap, limit);
+        const double t = time_to_touch(dx, dv, Vector3::Zero(), reach, limit);
         if (t <= limit) first = std::min(first, 0.5 * t);
       }
     return first;

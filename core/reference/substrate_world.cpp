@@ -244,7 +244,7 @@ std::span<const std::uint32_t> SubstrateWorld<Phase, Near>::collide(std::uint32_
     resolve_cluster(now);
   } else {
     exchange_impulse(0, 1, is_quick ? kElastic : scene_->between(i, j), now);
-    if (is_quick || last_impact_speed_ < least_.rebound) ++collapses_;
+    if (is_quick || was_altered_) ++collapses_;
   }
   for (std::size_t k = 0; k < changed_.size(); ++k) {
     bodies_[changed_[k]].last_collision = now;
@@ -268,15 +268,19 @@ void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_
   const auto is_supported = [&](std::uint32_t k, const BodyState& state) {
     return phases_[k].is_supported() && state.velocity.z() <= 0;
   };
-  const CollisionResult result =
-      slipcheck::collide(contact, {scene_->confined, least_.rebound},
-                         {scene_->bodies[i], scene_->on_substrate(i), of_i, is_supported(i, of_i)},
-                         {scene_->bodies[j], scene_->on_substrate(j), of_j, is_supported(j, of_j)});
+  const double hardest = std::max(bodies_[i].hardest_impact, bodies_[j].hardest_impact);
+  const CollisionResult result = slipcheck::collide(
+      contact, {scene_->confined, least_.rebound_fraction * hardest, least_.rebound_fraction},
+      {scene_->bodies[i], scene_->on_substrate(i), of_i, is_supported(i, of_i)},
+      {scene_->bodies[j], scene_->on_substrate(j), of_j, is_supported(j, of_j)});
   of_j.position -= image;
   of_i.velocity += frame;
   of_j.velocity += frame;
   ++collisions_;
   last_impact_speed_ = result.impact_speed;
+  for (const std::uint32_t k : {i, j})
+    bodies_[k].hardest_impact = std::max(bodies_[k].hardest_impact, result.impact_speed);
+  was_altered_ = result.altered;
   if (sink_)
     frame_.touches.push_back({static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j)),
                               std::max(result.impulse.norm(), 1e-300)});

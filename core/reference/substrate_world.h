@@ -16,12 +16,13 @@
 
 namespace slipcheck {
 
-/// Speeds below which things count as over [m/s].
+/// Below which things count as over.
 struct LeastSpeeds {
-  /// A pair parts at least this fast, whatever the rule for collapse: friction with the substrate
-  /// can press two bodies together for long.
-  double rebound = 0;
-  double landing = 0;  ///< a landing that would rebound slower does not
+  /// A pair parts at least with this part of the largest speed at which one of the two has met
+  /// another body so far, whatever the rule for collapse: friction with the substrate can press two
+  /// bodies together for long.
+  double rebound_fraction = 0;
+  double landing = 0;  ///< a landing that would rebound slower does not [m/s]
 };
 
 /// Hard spheres on a substrate for EventScheduler, each in a phase with a solution of its own:
@@ -84,6 +85,7 @@ class SubstrateWorld {
     double radius = 0;
     double bound = 0;  ///< of the acceleration in the phase [m/s²]
     double last_collision = -kNever;
+    double hardest_impact = 0;  ///< the normal speed of its collisions so far [m/s]
     bool is_parabola = true, is_at_rest = true;
     bool leaves_cell = false;  ///< before its phase ends
   };
@@ -124,6 +126,7 @@ class SubstrateWorld {
   std::size_t events_ = 0, collisions_ = 0, collapses_ = 0, landings_ = 0;
   std::size_t slipping_ = 0, moving_ = 0;
   double last_impact_speed_ = 0;
+  bool was_altered_ = false;  ///< the last collision, by LeastSpeeds
   FrameSink* sink_ = nullptr;
   Frame frame_;
 };

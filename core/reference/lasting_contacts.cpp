@@ -1,0 +1,124 @@
+#include "reference/lasting_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "physics/elastic_pair.h"
+#include "physics/linear_contact.h"
+#include "physics/numbers.h"
+#include "reference/event_solver.h"
+
+namespace slipcheck {
+namespace {
+
+/// Bodies touch whose gap is no larger a part of the sum of their radii: positions are typed.
+constexpr double kTouching = 1e-5;
+
+bool rests_on(const HardScene& scene, std::size_t i, std::size_t j) {
+  const BodyState &upper = scene.initial[i], &lower = scene.initial[j];
+  const double radius = scene.bodies[i].radius;
+  if (upper.position.z() <= radius * (1 + kTouching)) return false;  // the substrate carries it
+  const Vector3 way = upper.position - lower.position;
+  const double contact = radius + scene.bodies[j].radius;
+  return way.norm() <= (1 + kTouching) * contact && way.z() >= 1e-3 * contact;
+}
+
+bool rests_on_bodies(const HardScene& scene) {
+  const auto is_still = [](const BodyState& state) {
+    return state.velocity.isZero(0) && state.angular_velocity.isZero(0);
+  };
+  if (scene.gravity == 0 || !scene.motion.is_still() ||
+      !std::ranges::all_of(scene.initial, is_still))
+    return false;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    for (std::size_t j = 0; j < scene.bodies.size(); ++j)
+      if (i != j && rests_on(scene, i, j)) return true;
+  return false;
+}
+
+bool sticks(const HardScene& scene) {
+  if (scene.gravity == 0 || scene.bodies.size() < 2) return false;
+  return std::ranges::any_of(scene.substrate,
+                             [](const auto& contact) { return contact.kinetic_friction > 0; }) &&
+         std::ranges::any_of(scene.pairs, [](const PairContact& pair) {
+           const double* e = std::get_if<double>(&pair.restitution);
+           return e && *e == 0;
+         });
+}
+
+/// Each body a class of its own: the law of a pair depends on its masses.
+HardScene one_class_each(HardScene scene) {
+  const std::size_t count = scene.bodies.size();
+  HardScene each = scene;
+  each.substrate.clear();
+  each.pairs.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    each.substrate.push_back(scene.on_substrate(i));
+    for (std::size_t j = 0; j < count; ++j) each.pairs.push_back(scene.between(i, j));
+  }
+  std::iota(each.material.begin(), each.material.end(), std::size_t{0});
+  return each;
+}
+
+std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, const Sphere& b,
+                                   double collision_time, double most_restitution) {
+  constexpr double kLeastRestitution = 1e-5, kLeastSlip = 1e-4;
+  const double* e = std::get_if<double>(&hard.restitution);
+  if (!e || (hard.friction > 0 && hard.tangential_restitution > 0)) return std::nullopt;
+  const double mass = effective_mass(a, b);
+  SoftContact made;
+  made.end = ContactEnd::zero_force;
+  const LinearContact linear = LinearContact::with_collision_time(
+      mass, std::clamp(*e, kLeastRestitution, most_restitution), collision_time, made.end);
+  made.normal = LinearForce{linear.stiffness(), linear.damping_rate() * mass};
+  if (hard.friction > 0) {
+    // Over a collision what is left of the slip falls to −β0 of itself.
+    const double left = std::max(-hard.tangential_restitution, kLeastSlip);
+    made.tangential = ViscousForce{
+        -std::log(left) * tangential_mass_ratio(a, b) * mass / collision_time, hard.friction};
+  }
+  return made;
+}
+
+}  // namespace
+
+bool has_lasting_contacts(const HardScene& scene) {
+  return !scene.box && scene.periodic.isZero(0) && (rests_on_bodies(scene) || sticks(scene));
+}
+
+bool has_come_apart(const HardScene& scene, std::span<const BodyState> states) {
+  if (!rests_on_bodies(scene)) return false;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double way = (states[i].position - scene.initial[i].position).norm();
+    if (way > 1e-2 * scene.bodies[i].radius) return true;
+  }
+  return false;
+}
+
+double short_collision_time(const HardScene& scene) {
+  const double part = rests_on_bodies(scene) ? 1e-3 : 1e-4;
+  double radius = kNever;
+  for (const Sphere& sphere : scene.bodies) radius = std::min(radius, sphere.radius);
+  const double fall = std::sqrt(2 * scene.gravity * radius);
+  return part * radius / std::max(fall, speed_scale(scene, scene.initial));
+}
+
+std::optional<ContactScene> with_lasting_contacts(const HardScene& scene, double collision_time) {
+  ContactScene made;
+  made.hard = one_class_each(scene);
+  made.touching = kTouching;
+  // e_n of critical damping, where a contact ends with its force, is e^−2.
+  const double most = rests_on_bodies(scene) ? std::exp(-2.0) : 1;
+  const std::size_t count = scene.bodies.size();
+  made.soft.resize(count * count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < count; ++j) {
+      made.soft[i * count + j] =
+          lasting(scene.between(i, j), scene.bodies[i], scene.bodies[j], collision_time, most);
+      if (!made.soft[i * count + j]) return std::nullopt;
+    }
+  return made;
+}
+
+}  // namespace slipcheck

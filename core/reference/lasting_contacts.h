@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "reference/contact_scene.h"
+
+namespace slipcheck {
+
+/// Whether hard spheres of this scene stay in contact, which collisions at instants cannot show:
+/// nothing moves at the start and a body above the plane rests on others, or a pair does not
+/// rebound at all (e_n = 0) while friction with the substrate can press it together.
+bool has_lasting_contacts(const HardScene& scene);
+
+/// Whether bodies rested on others at the start and no longer do so in `states`: one has moved by
+/// more than 1e-2 of its radius.
+bool has_come_apart(const HardScene& scene, std::span<const BodyState> states);
+
+/// The duration of a collision [s] that is short against all that the scene does otherwise: 1e-4 of
+/// the time in which its smallest body falls, or moves, by its own radius; 1e-3 of it where bodies
+/// rest on each other, whose contacts have nothing else to be short against.
+double short_collision_time(const HardScene& scene);
+
+/// The hard scene with contacts that last: the linear law of each pair's restitution, at least
+/// 1e-5, whose collisions take `collision_time` [s], and viscous friction up to the same Coulomb
+/// limit, which holds but for a creep. Between bodies that rest on each other nothing collides, and
+/// their contacts are at least critically damped. Nothing where a pair has no such law: its
+/// restitution depends on the speed, or friction gives back a part of the slip.
+std::optional<ContactScene> with_lasting_contacts(const HardScene& scene, double collision_time);
+
+}  // namespace slipcheck
