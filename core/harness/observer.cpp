@@ -106,10 +106,6 @@ bool Observer::can_rest(std::size_t i, double time) const {
 
 // --- frame by frame ------------------------------------------------------------------------------
 
-bool Observer::stays_on_substrate(const BodyState& state) const {
-  return std::abs(state.velocity.z()) <= vertical_noise();
-}
-
 bool Observer::touches_substrate(std::size_t i, const Frame& frame) const {
   if (bodies_[i].touched) return true;
   // A sleeping body of an engine is not solved for, yet it lies on the plane.
@@ -135,8 +131,7 @@ void Observer::take(double time, const Frame& frame) {
     const bool touches = touches_substrate(i, frame);
     follow_landing(body, i, frame);
     follow_flight(body, i, touches, t0, t1, frame);
-    body.supported_before = body.supported;
-    body.supported = touches && stays_on_substrate(frame.bodies[i]);
+    follow_support(body, touches, t1, frame.bodies[i]);
     follow_sliding(body, i, t0, t1, frame);
     follow_stopping(body, i, t0, t1, frame);
     body.collided_now = false;
@@ -162,7 +157,7 @@ void Observer::begin(double time, const Frame& frame) {
     body.slide_end = time;
     body.supported = state.position.z() <= scene_->bodies[i].radius * (1 + 1e-9) &&
                      !(state.velocity.z() > body.zero.slip);
-    body.supported_before = body.supported;
+    if (body.supported) body.supported_frames = kSupportedFrames;
     if (!body.supported) body.unsupported_since = time;
     body.began_on_plane = body.supported;
     body.sliding = body.supported && slips(i, state, ground1_);
@@ -186,7 +181,8 @@ bool Observer::anything_slides_or_flies() const {
 }
 
 bool Observer::rolls(const Body& body) const {
-  return !body.sliding && !body.faint && body.supported && (step_ == 0 || body.supported_before);
+  return !body.sliding && !body.faint && body.supported &&
+         (step_ == 0 || body.quiet_frames > 1 || body.supported_frames >= kSupportedFrames);
 }
 
 bool Observer::everything_rests() const {
@@ -196,7 +192,8 @@ bool Observer::everything_rests() const {
 
 double Observer::last_slide_end() const {
   double last = 0;
-  for (const Body& body : bodies_) last = std::max(last, body.slide_end);
+  for (const Body& body : bodies_)
+    last = std::max({last, body.slide_end, body.quiet_frames > 0 ? body.hop_end : 0});
   return last;
 }
 

@@ -47,8 +47,9 @@ class FallingQuantity {
 /// what friction takes in a step, since friction stops a body inside a step; but slip that the next
 /// step takes away too was still sliding, and so the next frame is waited for.
 ///
-/// A body is on the substrate while it touches it and neither comes down nor leaves: one that
-/// bounces flies.
+/// A body is on the substrate while it touches it and neither comes down nor leaves by more than
+/// what gravity adds in a step: one that bounces flies. It rolls once two frames show no vertical
+/// speed, or kSupportedFrames no flight, as some engines never come to rest.
 ///
 /// A contact of two bodies is a collision if it closes faster than 7 % of the pair's fastest
 /// collision so far and 0.1 % of the scene's speed, spins left out; weaker ones are rattling. A
@@ -69,7 +70,6 @@ class Observer final : public FrameSink {
   /// What closes slower than this is no collision [m/s].
   double weakest_collision() const { return kOfSceneSpeed * closing_scale_; }
 
-  /// A body has landed for good once two frames have shown it on the substrate.
   bool anything_slides_or_flies() const;
   bool everything_rests() const;
   /// When the last body stopped to slide or landed, or came to rest [s].
@@ -83,6 +83,9 @@ class Observer final : public FrameSink {
   /// A collision closes at least at these fractions of the pair's fastest and of the scene's speed.
   static constexpr double kOfPairsFastest = 0.07;
   static constexpr double kOfSceneSpeed = 1e-3;
+  static constexpr int kSupportedFrames = 10;
+  /// Of gravity's speed in a step: what an engine leaves to a body that stays on the substrate.
+  static constexpr double kQuiet = 0.05;
   /// What an engine leaves in a quantity that should be zero, of the scene's speed.
   static constexpr double kEngineNoise = 1e-5;
   static constexpr double kRoundOff = 1e-12;
@@ -101,7 +104,9 @@ class Observer final : public FrameSink {
     double origin_time = 0;
     Vector3 origin = Vector3::Zero();  ///< over the substrate, as are all ways below
     bool supported = true, sliding = false, resting = false, spinning = false;
-    bool supported_before = true;  ///< one frame ago
+    /// Frames in succession on the substrate, and among them those without a vertical speed.
+    int supported_frames = 0, quiet_frames = 0;
+    double hop_end = 0;  ///< the last frame that shows the end of a bounce too small for a flight
     /// The slide has ended with some slip left; the next frame tells whether it went on. The rest
     /// of the step is then part of it.
     bool faint = false;
@@ -148,7 +153,7 @@ class Observer final : public FrameSink {
   void begin(double time, const Frame& frame);
   void look_at_ground(double t0, double t1);
   bool touches_substrate(std::size_t i, const Frame& frame) const;
-  bool stays_on_substrate(const BodyState& state) const;
+  void follow_support(Body& body, bool touches, double t1, const BodyState& now) const;
   /// On the substrate and not sliding, as far as the frames tell.
   bool rolls(const Body& body) const;
   void begin_overlaps(double time, const Frame& frame);

@@ -11,6 +11,17 @@ double Observer::vertical_noise() const {
   return std::max(kOfSceneSpeed * speed_scale_, scene_->gravity * step_);
 }
 
+void Observer::follow_support(Body& body, bool touches, double t1, const BodyState& now) const {
+  const double speed = std::abs(now.velocity.z());
+  body.supported = touches && speed <= vertical_noise();
+  const bool quiet =
+      speed <= std::max(kEngineNoise * speed_scale_, kQuiet * scene_->gravity * step_);
+  body.supported_frames =
+      body.supported ? std::min(body.supported_frames + 1, kSupportedFrames) : 0;
+  body.quiet_frames = body.supported && quiet ? body.quiet_frames + 1 : 0;
+  if (!quiet && body.supported_frames < kSupportedFrames) body.hop_end = t1;
+}
+
 void Observer::follow_flight(Body& body, std::size_t i, bool touches, double t0, double t1,
                              const Frame& frame) {
   const BodyState &s0 = last_.bodies[i], &s1 = frame.bodies[i];

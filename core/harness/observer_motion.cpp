@@ -28,7 +28,7 @@ void Observer::follow_sliding(Body& body, std::size_t i, double t0, double t1, c
     body.slide_time += body.faint_time;
     body.slide += body.faint_way;
     slide_ends(body.slip.time_to_zero(slip0, dt));
-  } else if (step_ > 0 && body.supported && !body.supported_before && !slips_now) {
+  } else if (step_ > 0 && body.supported && body.supported_frames == 1 && !slips_now) {
     // It gripped as it came down.
     body.slide_end = t1;
     body.faint = slip1 > body.zero.left_slip;
@@ -55,6 +55,8 @@ void Observer::follow_sliding(Body& body, std::size_t i, double t0, double t1, c
     body.rolling_velocity = kVectorNotObserved;
   else if (std::isnan(body.rolling_velocity.x()))
     body.rolling_velocity = s1.velocity;
+  // What is left of a bounce is no part of it.
+  if (!std::isnan(body.rolling_velocity.x())) body.rolling_velocity.z() = 0;
 }
 
 void Observer::follow_stopping(Body& body, std::size_t i, double t0, double t1,
