@@ -13,6 +13,7 @@
 #include "app/explain_pair.h"
 #include "app/explain_rows.h"
 #include "app/load_files.h"
+#include "app/set_option.h"
 #include "engine/engine_registry.h"
 #include "engine/remote_engine.h"
 #include "harness/closed_form_values.h"

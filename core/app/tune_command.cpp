@@ -71,7 +71,8 @@ TuningResult search(const TuneArguments& arguments, const TuneSetup& setup) {
     progress.improved(step, best, evaluator);
   };
   return tune(setup.record.space, evaluator,
-              {{setup.record.goal, setup.record.seed, improved}, setup.record.final_phases});
+              {{setup.record.goal, setup.record.seed, improved}, setup.record.final_phases},
+              setup.record.start);
 }
 
 int exit_code_of(const TuningResult& result) {
@@ -109,9 +110,9 @@ int tune_engine(TuneArguments& arguments) {
     write_file_atomically(arguments.json, json);
   if (!arguments.quiet) {
     if (arguments.json != "-") fmt::print("{}", tuning_table(record, table_style()));
-    if (record.result.chosen == 0)
+    if (!record.result.improved())
       fmt::print(stderr, "nothing that was tried is better than {}: its settings were written\n",
-                 record.start);
+                 record.result.best().profile);
     if (record.result.overfitted())
       fmt::print(stderr,
                  "warning: overfitted: scenes that were held out deviate more than twice\n");

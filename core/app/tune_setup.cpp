@@ -90,6 +90,19 @@ TuningSpace space_of(const TuneArguments& arguments, const EngineInfo& info,
   }
 }
 
+/// The search may begin from every profile that the engine ships with.
+void add_shipped_profiles(TuningSpace& space, const TuneArguments& arguments,
+                          const EngineExecutable& executable, const EngineInfo& info) {
+  for (const std::string& name : profile_names(executable)) {
+    const auto file = find_profile(executable, name, fs::current_path());
+    if (!file) continue;
+    const Profile profile = load_profile(*file);
+    std::vector<Fault> faults = check_profile(profile, info);
+    if (!faults.empty()) throw BadScenario(std::move(faults));
+    add_start(space, name, profile.settings, arguments.settings);
+  }
+}
+
 /// A program built otherwise may answer otherwise.
 std::string fingerprint(const fs::path& program) {
   std::ifstream in(program, std::ios::binary);
@@ -130,6 +143,7 @@ TuneSetup prepare_tuning(const TuneArguments& arguments) {
   record.version = info.version;
   record.precision = info.precision;
   record.space = space_of(arguments, info, start_settings(arguments, executable, info));
+  add_shipped_profiles(record.space, arguments, executable, info);
 
   setup.scenes = prepare_scenes(std::move(scenarios));
   const std::string nothing = nothing_to_tune(setup.scenes, record.observables);

@@ -17,10 +17,14 @@ Vector3 between(const Vector3& a, const Vector3& b, double fraction) {
 
 double FallingQuantity::time_to_zero(double before, double after, double dt) const {
   const double expected = before - rate_ * dt;
-  if (rate_ <= 0) return dt;
-  if (expected <= 0) return before / rate_;
+  if (rate_ <= 0 || expected <= 0) return time_to_zero(before, dt);
   // It counts as zero but goes on falling as before: its zero lies a little further on.
-  return std::abs(after - expected) <= 0.1 * rate_ * dt ? before / rate_ : dt;
+  return std::abs(after - expected) <= std::min(0.1 * rate_ * dt, 0.5 * expected) ? before / rate_
+                                                                                  : dt;
+}
+
+double FallingQuantity::time_to_zero(double before, double dt) const {
+  return before < rate_ * dt ? before / rate_ : dt;
 }
 
 namespace {
@@ -51,10 +55,12 @@ Observer::Observer(const HardScene& scene, double step, double speed_scale, bool
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Sphere& s = scene.bodies[i];
     const SubstrateContact& c = scene.on_substrate(i);
+    const double slip_per_step = per_step * (1 + s.inverse_shape_factor());
     // Rolling friction that is solved for after the sliding leaves its own step of slip.
-    const double slip_friction = c.kinetic_friction + 2 * c.rolling.largest_up_to(speed_scale);
+    const double left = 2 * slip_per_step * c.rolling.largest_up_to(speed_scale) + driven;
     Resolution& zero = bodies_[i].zero;
-    zero.slip = std::max(floor, per_step * (1 + s.inverse_shape_factor()) * slip_friction + driven);
+    zero.left_slip = std::max(floor, left);
+    zero.slip = std::max(floor, slip_per_step * c.kinetic_friction + left);
     if (resolved && step == 0) zero.slip = std::max(zero.slip, kIntegrationError * speed_scale);
     if (c.coupled_radius > 0) zero.slip = std::max(zero.slip, kCoupledSlip * speed_scale);
     zero.speed = std::max(floor, per_step * c.rolling(0));
@@ -100,7 +106,7 @@ bool Observer::can_rest(std::size_t i, double time) const {
 
 // --- frame by frame ------------------------------------------------------------------------------
 
-bool Observer::is_supported(std::size_t i, const Frame& frame) const {
+bool Observer::touches_substrate(std::size_t i, const Frame& frame) const {
   if (bodies_[i].touched) return true;
   // A sleeping body of an engine is not solved for, yet it lies on the plane.
   const BodyState& state = frame.bodies[i];
@@ -122,10 +128,10 @@ void Observer::take(double time, const Frame& frame) {
   note_touches(t0, t1, frame);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
-    const bool supported = is_supported(i, frame);
+    const bool touches = touches_substrate(i, frame);
     follow_landing(body, i, frame);
-    follow_flight(body, i, supported, t0, t1, frame);
-    body.supported = supported;
+    follow_flight(body, i, touches, t0, t1, frame);
+    follow_support(body, touches, t1, frame.bodies[i]);
     follow_sliding(body, i, t0, t1, frame);
     follow_stopping(body, i, t0, t1, frame);
     body.collided_now = false;
@@ -151,6 +157,7 @@ void Observer::begin(double time, const Frame& frame) {
     body.slide_end = time;
     body.supported = state.position.z() <= scene_->bodies[i].radius * (1 + 1e-9) &&
                      !(state.velocity.z() > body.zero.slip);
+    if (body.supported) body.supported_frames = kSupportedFrames;
     if (!body.supported) body.unsupported_since = time;
     body.began_on_plane = body.supported;
     body.sliding = body.supported && slips(i, state, ground1_);
@@ -170,8 +177,12 @@ void Observer::begin(double time, const Frame& frame) {
 // --- the end -------------------------------------------------------------------------------------
 
 bool Observer::anything_slides_or_flies() const {
-  return std::any_of(bodies_.begin(), bodies_.end(),
-                     [](const Body& body) { return body.sliding || !body.supported; });
+  return !std::ranges::all_of(bodies_, [this](const Body& body) { return rolls(body); });
+}
+
+bool Observer::rolls(const Body& body) const {
+  return !body.sliding && !body.faint && body.supported &&
+         (step_ == 0 || body.quiet_frames > 1 || body.supported_frames >= kSupportedFrames);
 }
 
 bool Observer::everything_rests() const {
@@ -181,7 +192,8 @@ bool Observer::everything_rests() const {
 
 double Observer::last_slide_end() const {
   double last = 0;
-  for (const Body& body : bodies_) last = std::max(last, body.slide_end);
+  for (const Body& body : bodies_)
+    last = std::max({last, body.slide_end, body.quiet_frames > 0 ? body.hop_end : 0});
   return last;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -11,9 +12,10 @@ namespace slipcheck {
 
 /// Below what a quantity counts as zero, for one body.
 struct Resolution {
-  double slip = 0;   ///< [m/s]
-  double speed = 0;  ///< [m/s]
-  double spin = 0;   ///< about the vertical [rad/s]
+  double slip = 0;       ///< [m/s]
+  double left_slip = 0;  ///< what a rolling body of an engine may keep of it in every step [m/s]
+  double speed = 0;      ///< [m/s]
+  double spin = 0;       ///< about the vertical [rad/s]
 };
 
 /// A quantity that falls towards zero and is seen at some instants only: slip, speed, spin.
@@ -24,8 +26,13 @@ class FallingQuantity {
   /// It was `before` and is `after` at the end of an interval `dt` [s], > 0.
   void fall(double before, double after, double dt) { rate_ = (before - after) / dt; }
   /// When it reaches zero, counted from the start of an interval `dt` in which it fell from
-  /// `before` to `after` and came to count as zero. The end of the interval where no rate is known.
+  /// `before` to `after` and came to count as zero. The end of the interval where no rate is known;
+  /// beyond it only where `after` is what a steady fall leaves.
   double time_to_zero(double before, double after, double dt) const;
+  /// The same where it is zero at the end of the interval: not beyond.
+  double time_to_zero(double before, double dt) const;
+  /// What falls in `dt`, or 0 where no rate is known.
+  double falls_in(double dt) const { return std::max(rate_, 0.0) * dt; }
 
  private:
   double rate_ = 0;
@@ -36,8 +43,13 @@ class FallingQuantity {
 ///
 /// The reference shows its frames at the events themselves (`step` = 0). An engine shows one frame
 /// a step: a collision ends with the step that applied its impulse, and what ends inside a step
-/// (the slip, the speed, the spin) is found by extrapolating the last two frames. What counts as
-/// zero is half of what friction takes in a step, since friction stops a body inside a step.
+/// (the slip, the speed, the spin) is found from how it fell before. What counts as zero is half of
+/// what friction takes in a step, since friction stops a body inside a step; but slip that the next
+/// step takes away too was still sliding, and so the next frame is waited for.
+///
+/// A body is on the substrate while it touches it and neither comes down nor leaves by more than
+/// what gravity adds in a step: one that bounces flies. It rolls once two frames show no vertical
+/// speed, or kSupportedFrames no flight, as some engines never come to rest.
 ///
 /// A contact of two bodies is a collision if it closes faster than 7 % of the pair's fastest
 /// collision so far and 0.1 % of the scene's speed, spins left out; weaker ones are rattling. A
@@ -60,7 +72,7 @@ class Observer final : public FrameSink {
 
   bool anything_slides_or_flies() const;
   bool everything_rests() const;
-  /// When the last body stopped to slide, or came to rest [s].
+  /// When the last body stopped to slide or landed, or came to rest [s].
   double last_slide_end() const;
   double last_stop() const;
 
@@ -71,6 +83,9 @@ class Observer final : public FrameSink {
   /// A collision closes at least at these fractions of the pair's fastest and of the scene's speed.
   static constexpr double kOfPairsFastest = 0.07;
   static constexpr double kOfSceneSpeed = 1e-3;
+  static constexpr int kSupportedFrames = 10;
+  /// Of gravity's speed in a step: what an engine leaves to a body that stays on the substrate.
+  static constexpr double kQuiet = 0.05;
   /// What an engine leaves in a quantity that should be zero, of the scene's speed.
   static constexpr double kEngineNoise = 1e-5;
   static constexpr double kRoundOff = 1e-12;
@@ -89,6 +104,14 @@ class Observer final : public FrameSink {
     double origin_time = 0;
     Vector3 origin = Vector3::Zero();  ///< over the substrate, as are all ways below
     bool supported = true, sliding = false, resting = false, spinning = false;
+    /// Frames in succession on the substrate, and among them those without a vertical speed.
+    int supported_frames = 0, quiet_frames = 0;
+    double hop_end = 0;  ///< the last frame that shows the end of a bounce too small for a flight
+    /// The slide has ended with some slip left; the next frame tells whether it went on. The rest
+    /// of the step is then part of it.
+    bool faint = false;
+    double faint_time = 0;
+    Vector3 faint_way = Vector3::Zero();
     bool began_on_plane = true, touched = false, collided_now = false;
     FallingQuantity slip, speed, spin;
     double slide_end = 0, slide_time = 0;
@@ -129,7 +152,10 @@ class Observer final : public FrameSink {
 
   void begin(double time, const Frame& frame);
   void look_at_ground(double t0, double t1);
-  bool is_supported(std::size_t i, const Frame& frame) const;
+  bool touches_substrate(std::size_t i, const Frame& frame) const;
+  void follow_support(Body& body, bool touches, double t1, const BodyState& now) const;
+  /// On the substrate and not sliding, as far as the frames tell.
+  bool rolls(const Body& body) const;
   void begin_overlaps(double time, const Frame& frame);
   void note_touches(double t0, double t1, const Frame& frame);
   void note_collision(Pair& pair, const Touch& touch, double t0, double t1, const Frame& frame);
@@ -138,7 +164,7 @@ class Observer final : public FrameSink {
   void resolve(Pair& pair, double t0, double t1, const Frame& frame);
   void follow_sliding(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
   void follow_stopping(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
-  void follow_flight(Body& body, std::size_t i, bool supported, double t0, double t1,
+  void follow_flight(Body& body, std::size_t i, bool touches, double t0, double t1,
                      const Frame& frame);
   void follow_landing(Body& body, std::size_t i, const Frame& frame);
   void settle_effective_restitution(double t0, double t1, const Frame& frame);

@@ -56,9 +56,15 @@ void Observer::note_touches(double t0, double t1, const Frame& frame) {
     pair.touched_before = pair.touched_now;
     pair.touched_now = false;
   }
-  for (const Touch& touch : frame.touches)
-    if (touch.second != kSubstrate)
-      note_collision(pair_of(touch.first, touch.second), touch, t0, t1, frame);
+  for (const Touch& touch : frame.touches) {
+    if (touch.second == kSubstrate) continue;
+    Pair& pair = pair_of(touch.first, touch.second);
+    // Where its law does not act the contact has not begun anew when it acts again.
+    if (touch.normal_impulse == 0)
+      pair.touched_now = true;
+    else
+      note_collision(pair, touch, t0, t1, frame);
+  }
   for (Pair& pair : pairs_)
     if (!pair.touched_now) pair.colliding = pair.from_start = false;
 }
@@ -114,7 +120,7 @@ void Observer::resolve(Pair& pair, double t0, double t1, const Frame& frame) {
                                                         scene_->bodies[j], frame.bodies[j]));
   if (pair.slid_before || !std::isnan(pair.sliding_onset)) return;
   for (std::size_t k : {i, j})
-    if (is_supported(k, frame) && !slips(k, last_.bodies[k], ground0_) &&
+    if (touches_substrate(k, frame) && !slips(k, last_.bodies[k], ground0_) &&
         slips(k, frame.bodies[k], ground1_))
       pair.sliding_onset = t0 - pair.begin_time;
 }
@@ -178,7 +184,7 @@ void Observer::settle_effective_restitution(double t0, double t1, const Frame& f
   for (Pair& pair : pairs_) {
     if (!pair.awaits_rolling || pair.colliding) continue;
     const Body &a = bodies_[index(pair.first)], &b = bodies_[index(pair.second)];
-    if (a.sliding || b.sliding || !a.supported || !b.supported) continue;
+    if (!rolls(a) || !rolls(b)) continue;
     const double both = std::max(a.slide_end, b.slide_end);
     const auto velocity_then = [&](int k) -> Vector3 {
       const std::size_t i = index(k);
@@ -187,7 +193,7 @@ void Observer::settle_effective_restitution(double t0, double t1, const Frame& f
       // A slide's end is a kink; after it the body goes on as it rolls.
       const bool kink = body.slide_end > t0;
       if (body.slide_end == both || (kink && both >= t1)) return body.rolling_velocity;
-      if (t1 <= t0 || both <= t0 || both >= t1) return now;
+      if (t1 <= t0 || both <= time_before_ || both >= t1) return now;
       const double begin = kink ? body.slide_end : t0;
       const Vector3& before = kink ? body.rolling_velocity : last_.bodies[i].velocity;
       return before + (both - begin) / (t1 - begin) * (now - before);

@@ -55,6 +55,10 @@ const char* name_of(CollapseRule::Model model) {
   return "";
 }
 
+bool is_time(const std::string& name) {
+  return name.ends_with("_time") || name.ends_with(".sliding_onset");
+}
+
 /// The run that the values come from and those that tell their uncertainty.
 struct SolvedRuns {
   Solved value;
@@ -136,6 +140,8 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
     // found up to 2.6 times as large.
     const double safety = solver.is_stepped() || solver.softened_to() > 0 ? 3 : 1;
     double uncertainty = units;
+    // A time has a frame at either end, whatever other steps happen to agree with it.
+    if (solver.is_stepped() && is_time(value_name[k])) uncertainty = 2 * solver.step();
     for (const auto& other : others)
       uncertainty = std::isnan(other[k])
                         ? std::numeric_limits<double>::infinity()

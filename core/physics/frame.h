@@ -9,11 +9,11 @@ namespace slipcheck {
 /// Stands for the substrate where a contact names two bodies.
 inline constexpr int kSubstrate = -1;
 
-/// Two bodies that exchanged a normal impulse since the frame before.
+/// Two bodies that exchanged a normal impulse since the frame before, or that overlap without one.
 struct Touch {
   int first = 0;              ///< body
   int second = kSubstrate;    ///< body, > first, or kSubstrate
-  double normal_impulse = 0;  ///< summed over the pair's contact points [N s], > 0
+  double normal_impulse = 0;  ///< summed over the pair's contact points [N s], >= 0
 };
 
 /// The world at one instant: at the end of an engine's step, or inside it where the engine ends

@@ -78,7 +78,8 @@ class ContactSolver::Impl {
   ContactIntegrator integrator_;
   double initial_energy_, initial_elastic_energy_;
   double next_look_ = -1;
-  std::vector<bool> seen_sliding_;  ///< a frame has shown this body's present slide
+  std::vector<std::size_t> ends_now_;  ///< contacts whose force has just fallen to zero
+  std::vector<bool> seen_sliding_;     ///< a frame has shown this body's present slide
   Frame frame_;
 };
 
@@ -91,6 +92,7 @@ void ContactSolver::Impl::handle_touch(const NextTouch& touch, FrameSink* sink, 
     show(sink, state_.time);
     state_.begin_contact(touch.first, touch.second);
     state_.settle();
+    show(sink, state_.time);  // the first touch may lift a body already
     return;
   }
   show(sink, state_.time);
@@ -140,6 +142,7 @@ void ContactSolver::Impl::handle_root(const ContactWatch::Item& item, int direct
       break;
     case What::force_end:
       state_.clamp_contact(i);
+      ends_now_.push_back(i);
       break;
     case What::force_begin:
       state_.release_contact(i);
@@ -197,8 +200,9 @@ void ContactSolver::Impl::handle(const Happening& happening, FrameSink* sink, Co
         frame_.touches.push_back(
             {static_cast<int>(item.index), kSubstrate, scene_->hard.bodies[item.index].mass});
   }
-  show(sink, state_.time);
   // A contact is shown once more at its end.
+  show(sink, state_.time);
+  ends_now_.clear();
   std::vector<std::size_t> ended;
   for (const auto& [item, direction] : happening.roots)
     if (item.what == What::contact_end) ended.push_back(item.index);
@@ -218,9 +222,12 @@ void ContactSolver::Impl::show(FrameSink* sink, double time, std::optional<Touch
   for (std::size_t i = 0; i < dynamics.modes.size(); ++i)
     if (dynamics.modes[i].on_plane())
       frame_.touches.push_back({static_cast<int>(i), kSubstrate, scene_->hard.bodies[i].mass});
-  for (const ContactMode& contact : dynamics.contacts)
+  for (std::size_t c = 0; c < dynamics.contacts.size(); ++c) {
+    const ContactMode& contact = dynamics.contacts[c];
+    const bool acts = !contact.clamped || std::ranges::count(ends_now_, c) > 0;
     frame_.touches.push_back(
-        {static_cast<int>(contact.first), static_cast<int>(contact.second), 1e-300});
+        {static_cast<int>(contact.first), static_cast<int>(contact.second), acts ? 1e-300 : 0});
+  }
   if (hit) frame_.touches.push_back(*hit);
   sink->take(time, frame_);
   frame_.touches.clear();
@@ -289,6 +296,8 @@ ContactRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
   const double last = end.last();
   if (is_at_start()) run.collisions = overlapping_.size();
   show(sink, state_.time);
+  // What overlaps from the start may lift a body at once.
+  if (is_at_start() && !overlapping_.empty()) show(sink, state_.time);
   bool event = true;
   while (true) {
     // Only an event changes what a run ends with, but where bodies lean on each other.

@@ -78,7 +78,9 @@ Json json_of(const TuningRecord& tuning) {
       {"evaluations", result.evaluations},
       {"candidates", result.candidates},
       {"converged", result.converged},
-      {"improved", result.chosen != 0},
+      {"improved", result.improved()},
+      {"no_better_than",
+       result.improved() ? Json(nullptr) : Json(valid_utf8(result.best().profile))},
       {"overfitted", result.overfitted()},
       {"start", finalist_json(tuning, result.start())},
       {"chosen", finalist_json(tuning, result.best())}};

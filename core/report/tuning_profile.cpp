@@ -29,9 +29,14 @@ void add_scenes(std::vector<std::string>& lines, const std::string& key, const T
   lines.insert(lines.end(), scenes.begin(), scenes.end());
 }
 
-std::string score_text(const Score& score) {
-  return score.failed > 0 ? quoted(percent(score.failed) + " of phases fail")
-                          : fmt::format("{:.4g}", score.worst);
+/// Of the runs that are held out or not: their worst error, or what fails in them.
+std::string score_text(const TuningRecord& tuning, const TuningFinalist& finalist, bool held_out) {
+  const Score& score = held_out ? *finalist.held_out : finalist.training;
+  if (score.failed == 0) return fmt::format("{:.4g}", score.worst);
+  std::size_t worst = 0;
+  for (std::size_t k = 0, run = 0; k < tuning.tasks.size(); ++k)
+    if (tuning.tasks[k].held_out == held_out && run++ == score.worst_run) worst = k;
+  return quoted(fmt::format("{}: {}", tuning.tasks[worst].scene, finalist.runs[worst].reason));
 }
 
 std::string goal_text(const TuningRecord& tuning) {
@@ -41,14 +46,17 @@ std::string goal_text(const TuningRecord& tuning) {
 
 std::vector<std::string> provenance(const TuningRecord& tuning) {
   const TuningResult& result = tuning.result;
-  // A path would tell of the machine.
-  const std::string start = std::filesystem::path(tuning.start).filename().string();
+  const auto named = [](const std::string& profile) {
+    // A path would tell of the machine.
+    return quoted(std::filesystem::path(profile).filename().string());
+  };
   std::vector<std::string> lines = {
       fmt::format("slipcheck: {{version: {}, commit: {}}}", quoted(context().version),
                   quoted(context().commit)),
       fmt::format("engine: {{name: {}, version: {}, precision: {}}}", quoted(tuning.engine),
                   quoted(tuning.version), tuning.precision),
-      fmt::format("start: {}", quoted(start)), fmt::format("goal: {}", quoted(goal_text(tuning)))};
+      fmt::format("start: {}", named(tuning.start)),
+      fmt::format("goal: {}", quoted(goal_text(tuning)))};
   add_scenes(lines, "scenes", tuning, false);
   add_scenes(lines, "held_out", tuning, true);
   if (!tuning.observables.named.empty())
@@ -59,11 +67,16 @@ std::vector<std::string> provenance(const TuningRecord& tuning) {
   lines.push_back(fmt::format("seed: {}", tuning.seed));
   lines.push_back(fmt::format("evaluations: {:.0f}", result.evaluations));
   lines.push_back(fmt::format("converged: {}", result.converged));
+  for (const TuningFinalist& each : result.finalists)
+    if (!each.profile.empty() && each.settings != result.start().settings)
+      lines.push_back("begun_from: " + named(each.profile));
+  if (!result.improved())
+    lines.push_back("no_better_than: " + named(result.best().profile) + "  # its settings");
   lines.push_back("worst_error:  # in tolerances, or of what it must be within");
-  lines.push_back(fmt::format("  start: {}", score_text(result.start().training)));
-  lines.push_back(fmt::format("  profile: {}", score_text(result.best().training)));
+  lines.push_back(fmt::format("  start: {}", score_text(tuning, result.start(), false)));
+  lines.push_back(fmt::format("  profile: {}", score_text(tuning, result.best(), false)));
   if (result.best().held_out)
-    lines.push_back(fmt::format("  held_out: {}", score_text(*result.best().held_out)));
+    lines.push_back(fmt::format("  held_out: {}", score_text(tuning, result.best(), true)));
   return lines;
 }
 

@@ -17,8 +17,19 @@ namespace {
 std::string cost_text(double cost) { return fmt::format("{:.3g} ms/s", 1e3 * cost); }
 
 std::string error_text(const Score& score) {
-  if (score.failed > 0) return fmt::format("✗ {} of phases fail", percent(score.failed));
-  return plain_number(score.worst);
+  return score.failed > 0 ? "✗ fails" : plain_number(score.worst);
+}
+
+/// What fails in the runs of `settings`, line by line.
+std::string failures(const TuningRecord& tuning, const std::string& settings,
+                     const TuningFinalist& finalist, const TableStyle& style) {
+  std::string text;
+  for (std::size_t k = 0; k < tuning.tasks.size(); ++k)
+    if (finalist.runs[k].failed > 0)
+      text += fmt::format("  {} {}, {} at {:g} Hz: {}\n", inked("✗", Tone::bad, style), settings,
+                          tuning.tasks[k].scene, tuning.tasks[k].rate,
+                          printable(finalist.runs[k].reason));
+  return text;
 }
 
 /// What an error of one means.
@@ -48,12 +59,15 @@ std::string runs_table(const TuningRecord& tuning, const TableStyle& style) {
     const TuningTask& task = tuning.tasks[k];
     const RunScore &before = start.runs[k], &after = best.runs[k];
     const bool good = after.failed == 0 && after.worst <= 1;
+    const auto error = [](const RunScore& run) {
+      return run.failed > 0 ? "fails" : tuning_error_text(run);
+    };
     rows.push_back({{task.scene},
                     {fmt::format("{:g} Hz", task.rate)},
-                    {tuning_error_text(before)},
-                    {tuning_error_text(after), good ? Tone::good : Tone::bad},
+                    {error(before)},
+                    {error(after), good ? Tone::good : Tone::bad},
                     {good ? "✓" : "✗", good ? Tone::good : Tone::bad},
-                    {after.failed > 0 ? after.reason : after.observable, Tone::faint},
+                    {after.failed > 0 ? "" : after.observable, Tone::faint},
                     {task.held_out ? "held out" : "", Tone::faint}});
   }
   return aligned({{"scene"},
@@ -63,7 +77,9 @@ std::string runs_table(const TuningRecord& tuning, const TableStyle& style) {
                   {""},
                   {"worst in", false, 1},
                   {""}},
-                 std::move(rows), style, 2);
+                 std::move(rows), style, 2) +
+         failures(tuning, tuning.start, start, style) +
+         failures(tuning, tuning.profile, best, style);
 }
 
 std::string summary(const TuningRecord& tuning, const TableStyle& style) {
@@ -122,7 +138,7 @@ std::string settings_table(const TuningRecord& tuning, const TableStyle& style) 
 }  // namespace
 
 std::string tuning_error_text(const RunScore& run) {
-  if (run.failed > 0) return fmt::format("{} of phases fail", percent(run.failed));
+  if (run.failed > 0) return run.reason;
   return run.worst >= kLargestError ? fmt::format("> {:g}", kLargestError)
                                     : fmt::format("{:.3g}", run.worst);
 }
@@ -134,6 +150,9 @@ std::string tuning_table(const TuningRecord& tuning, const TableStyle& style) {
   text += runs_table(tuning, style);
   text += '\n';
   text += summary(tuning, style);
+  if (!result.improved())
+    text += fmt::format("  {} nothing that was tried is better than {}: {} has its settings\n",
+                        inked("!", Tone::bad, style), result.best().profile, tuning.profile);
   text += fmt::format("\n{}, {} phases, {} settings seen by all, {:.0f} evaluations{}\n",
                       inked("Accuracy against time", Tone::strong, style), tuning.phases,
                       result.candidates, result.evaluations,

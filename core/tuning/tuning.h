@@ -15,6 +15,7 @@ struct TuningOptions {
 
 /// Settings on all phases of the last comparison.
 struct TuningFinalist {
+  std::string profile;  ///< of those to begin from; empty: found by the search
   Settings settings;
   std::vector<RunScore> runs;  ///< of all tasks, in the evaluator's order
   Score training;
@@ -23,10 +24,10 @@ struct TuningFinalist {
 
 /// How a tuning ended.
 struct TuningResult {
-  /// The start first, then the best of the search, best first.
+  /// The start first, then the profile that the search began from where it is another, then the
+  /// best of the search, best first.
   std::vector<TuningFinalist> finalists;
-  std::size_t chosen =
-      0;  ///< of the finalists, by the training scenes alone; 0: nothing was better
+  std::size_t chosen = 0;  ///< of the finalists, by the training scenes alone
   /// Of all that the training tasks have seen in the search: those than which nothing is both
   /// better and cheaper, the cheapest first.
   std::vector<TuningCandidate> front;
@@ -36,14 +37,17 @@ struct TuningResult {
 
   const TuningFinalist& best() const { return finalists[chosen]; }
   const TuningFinalist& start() const { return finalists.front(); }
+  /// The search has found something better than all that it began from.
+  bool improved() const { return best().profile.empty(); }
   /// The worst error on scenes that were not seen is more than twice that on those that were.
   bool overfitted() const;
 };
 
 /// Searches, then compares start and best on final phases, held-out scenes too. Throws
 /// TuningInterrupted.
+/// `start`: the start's name.
 TuningResult tune(const TuningSpace& space, TuningEvaluator& evaluator,
-                  const TuningOptions& options);
+                  const TuningOptions& options, const std::string& start = "start");
 
 /// Those of the candidates than which none is both better (worst error) and cheaper, cheapest
 /// first.

@@ -15,6 +15,11 @@ constexpr double kSameObjective = 1e-3;
 /// Stands for one error where the scene says nothing: 1 %, or 0.01 of a restitution.
 constexpr double kDefaultTolerance = 0.01;
 
+std::string failure_text(const std::string& what, double failed, const std::string& why) {
+  const std::string phases = failed >= 1 ? "all" : fmt::format("{:.3g} % of the", 100 * failed);
+  return fmt::format("{} fails in {} phases{}{}", what, phases, why.empty() ? "" : ": ", why);
+}
+
 double error_of(const RunScore& run, const TuningGoal& goal) {
   if (run.failed > 0) return kLargestError * (1 + run.failed);
   return goal.within ? std::min(run.deviation / *goal.within, kLargestError) : run.worst;
@@ -56,7 +61,7 @@ RunScore score_of(const EngineRecord& record, const TuningObservables& observabl
     const double failed = std::isnan(deviation.max) && missing < 1 ? 1 - missing : missing;
     if (failed > score.failed) {
       score.failed = failed;
-      score.reason = name + ": " + deviation.reason;
+      score.reason = failure_text(name, failed, deviation.reason);
     }
     if (std::isnan(deviation.max)) continue;
     const double error = *tolerance > 0      ? deviation.max / *tolerance
@@ -94,12 +99,10 @@ double objective(const Score& score, const TuningGoal& goal) {
   return score.worst + kMeanShare * score.mean;
 }
 
-double same_cost(const TuningGoal& goal) { return goal.within ? 0.1 : 0.25; }
-
 bool is_better(const Score& a, const Score& b, const TuningGoal& goal) {
   const double left = objective(a, goal), right = objective(b, goal);
   if (std::abs(left - right) > kSameObjective * std::max(left, right)) return left < right;
-  return a.cost < (1 - same_cost(goal)) * b.cost;
+  return goal.within && a.cost < (1 - kSameCost) * b.cost;
 }
 
 }  // namespace slipcheck

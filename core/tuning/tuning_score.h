@@ -22,7 +22,7 @@ struct RunScore {
   double failed = 0;
   double cpu_seconds = 0;        ///< of the stepping
   double simulated_seconds = 0;  ///< that it stepped through, >= 0
-  std::string reason;            ///< why phases failed
+  std::string reason;            ///< what failed, in how many phases, and why
 
   bool operator==(const RunScore&) const = default;
 };
@@ -64,12 +64,12 @@ Score score_of(std::span<const RunScore> runs, const TuningGoal& goal);
 /// is a slope where the worst run does not change. Of a goal with `within`, 1 as soon as it is met.
 double objective(const Score& score, const TuningGoal& goal);
 
-/// The share by which CPU times must differ to count, as they scatter: a tenth where they are what
-/// is searched for, else a quarter.
-double same_cost(const TuningGoal& goal);
+/// The share by which CPU times must differ to count, as they scatter.
+inline constexpr double kSameCost = 0.1;
 
-/// Whether `a` is to be preferred: its objective is smaller by more than 0.1 %, or they are the
-/// same within that and `a` takes less CPU time by more than same_cost.
+/// Whether `a` is to be preferred: its objective is smaller by more than 0.1 %, or, with a goal
+/// `within`, they are the same within that and `a` takes less CPU time by more than kSameCost.
+/// Without, no time decides anything: the same errors make the same search.
 bool is_better(const Score& a, const Score& b, const TuningGoal& goal);
 
 }  // namespace slipcheck

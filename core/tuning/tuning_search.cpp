@@ -115,6 +115,9 @@ bool TuningSearch::run() {
   evaluator_->heed_budget(false);
   const double no_limit = std::numeric_limits<double>::infinity();
   adopt(race(space_->start, no_limit, Entry::free).candidate, "start");
+  for (const TuningStart& other : space_->others)
+    consider(other.settings, other.profile, Entry::free);
+  origin_ = best_.settings;
   evaluator_->heed_budget(true);
   bool converged = true;
   try {
@@ -178,7 +181,7 @@ void TuningSearch::prune() {
     fewer.erase(name);
     const Outcome outcome = race(fewer, limit, Entry::free);
     if (outcome.whole && outcome.objective <= limit &&
-        outcome.candidate.score.cost <= (1 + same_cost(goal)) * best_.score.cost)
+        (!goal.within || outcome.candidate.score.cost <= (1 + kSameCost) * best_.score.cost))
       adopt(outcome.candidate, "pruning");
   }
 }

@@ -27,7 +27,8 @@ struct TuningSearchOptions {
   std::function<void(const std::string& step, const TuningCandidate& best)> improved;
 };
 
-/// The search for the best settings, from the start outward:
+/// The search for the best settings, outward from the best of the start and the space's other
+/// profiles:
 ///
 /// 1. one by one: each candidate of each setting, in a seeded order, keeping what is better, until
 ///    nothing is; then pairs of candidates, as some settings help only together, and again.
@@ -47,10 +48,12 @@ class TuningSearch {
   TuningSearch(const TuningSpace& space, TuningEvaluator& evaluator, TuningSearchOptions options);
 
   /// Searches until nothing improves or the budget is spent, and says which: true where nothing
-  /// improves any more. The start is evaluated whatever the budget. Throws TuningInterrupted.
+  /// improves any more. Start and profiles are seen whatever the budget. Throws TuningInterrupted.
   bool run();
 
   const TuningCandidate& best() const { return best_; }
+  /// From where the search went outward.
+  const Settings& origin() const { return origin_; }
   /// Every candidate that all tasks have seen, in the order of their evaluation; the start first.
   const std::vector<TuningCandidate>& evaluated() const { return evaluated_; }
 
@@ -97,6 +100,7 @@ class TuningSearch {
   std::vector<Stage> stages_;
   std::uint64_t random_;
   TuningCandidate best_;
+  Settings origin_;
   std::vector<TuningCandidate> evaluated_;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "engine/settings.h"
 
@@ -50,6 +51,24 @@ TuningSpace tuning_space(const EngineInfo& info, const Settings& start,
       space.vary.push_back(setting);
   space.start = space.canonical(start);
   return space;
+}
+
+void add_start(TuningSpace& space, const std::string& profile, const Settings& settings,
+               const std::vector<std::string>& only) {
+  Settings chosen = only.empty() ? settings : space.start;
+  for (const std::string& name : only) {
+    const auto there = settings.find(name);
+    if (there == settings.end())
+      chosen.erase(name);
+    else
+      chosen[name] = there->second;
+  }
+  chosen = space.canonical(std::move(chosen));
+  const bool is_known =
+      chosen == space.start || std::ranges::any_of(space.others, [&](const TuningStart& other) {
+        return other.settings == chosen;
+      });
+  if (!is_known) space.others.push_back({profile, std::move(chosen)});
 }
 
 const Setting& value_of(const SettingInfo& info, const Settings& settings) {

@@ -7,11 +7,18 @@
 
 namespace slipcheck {
 
+/// A profile to begin from.
+struct TuningStart {
+  std::string profile;
+  Settings settings;  ///< without what the engine ships with
+};
+
 /// What tuning may change of an engine, and where it begins.
 struct TuningSpace {
-  std::vector<SettingInfo> known;  ///< all that the engine takes
-  std::vector<SettingInfo> vary;   ///< those that tuning may change: with candidates or a range
-  Settings start;                  ///< without what the engine ships with
+  std::vector<SettingInfo> known;   ///< all that the engine takes
+  std::vector<SettingInfo> vary;    ///< those that tuning may change: with candidates or a range
+  Settings start;                   ///< without what the engine ships with
+  std::vector<TuningStart> others;  ///< to begin from where they are better than the start
 
   /// The same settings without those that have the engine's own value: what means the same is the
   /// same.
@@ -23,6 +30,11 @@ struct TuningSpace {
 /// nothing to try. `start` has been checked against what the engine takes.
 TuningSpace tuning_space(const EngineInfo& info, const Settings& start,
                          const std::vector<std::string>& only = {});
+
+/// Adds a profile to begin from, if it differs from the start and the others; of its settings those
+/// in `only`, over the start's, where that names any.
+void add_start(TuningSpace& space, const std::string& profile, const Settings& settings,
+               const std::vector<std::string>& only = {});
 
 /// The value of a setting: the chosen one, or the engine's own.
 const Setting& value_of(const SettingInfo& info, const Settings& settings);

@@ -102,9 +102,34 @@ class Tune(unittest.TestCase):
 
     def test_without_an_improvement_the_start_is_written_and_said_so(self):
         result, report = self.tuning(SYMMETRIC, "--budget", "0")
-        self.assertIn("nothing that was tried is better", result.stderr)
+        # Of the profiles that are shipped one is the best for this scene, and it is said which.
+        best = report["no_better_than"]
+        self.assertIn(f"nothing that was tried is better than {best}", result.stderr)
+        self.assertIn(f"no_better_than: \"{best}\"", self.profile.read_text())
         self.assertFalse(report["improved"])
-        self.assertEqual(report["chosen"], report["start"])
+        shipped = (SOURCE / "bullet_backend" / "profiles" / f"{best}.yaml").read_text()
+        for name, value in report["chosen"]["settings"].items():
+            self.assertIn(f"{name}:", shipped)
+        self.assertLessEqual(report["chosen"]["training"]["worst"],
+                             report["start"]["training"]["worst"])
+
+    def test_the_same_seed_finds_the_same_profile(self):
+        profiles = set()
+        for k in range(3):
+            for old in self.path.iterdir():
+                old.unlink()
+            self.tuning(SYMMETRIC, "--budget", "8", "--workers", k + 1)
+            profiles.add(self.profile.read_text())
+        self.assertEqual(len(profiles), 1, profiles)
+
+    def test_it_says_what_keeps_a_scene_failing(self):
+        # Bullet's spinning friction needs rolling friction: the ball spins for ever.
+        result = run(SCENES / "bullet-facts" / "spin-gate.yaml", *QUICK, "--start", "naive", "--settings", "sor", "--budget",
+                     "0", "--observables", "spin_stopping_time", "-o", self.profile)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        for text in (result.stdout, result.stderr, self.profile.read_text()):
+            self.assertIn(".spin_stopping_time fails in all phases", text)
+            self.assertNotIn("of phases fail", text)
 
     def test_bad_options_are_exit_2_with_rule_and_value_and_write_nothing(self):
         out = ["-o", self.profile]

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../support/extremes.h"
 #include "bullet_run.h"
 
 namespace slipcheck {
@@ -26,8 +27,8 @@ constexpr double kTolerance = 2e-3;
 struct Range {
   double least = 1e300, most = -1e300;
   void include(double x) {
-    least = std::min(least, x);
-    most = std::max(most, x);
+    least = test::least_of(least, x);
+    most = test::largest_of(most, x);
   }
 };
 

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
+#include "../support/extremes.h"
 #include "bullet_run.h"
 
 namespace slipcheck {
@@ -43,8 +43,8 @@ TEST(BulletDenormals, AreFlushedUnlessToldOtherwiseAndNothingElseChanges) {
   look_at_velocities(flushed, [&](double value) { values.push_back(value); });
   std::size_t k = 0;
   double apart = 0;
-  look_at_velocities(kept,
-                     [&](double value) { apart = std::max(apart, std::abs(value - values[k++])); });
+  look_at_velocities(
+      kept, [&](double value) { apart = test::largest_of(apart, std::abs(value - values[k++])); });
   // What is below 1.5e-154 has a square that is denormal.
   EXPECT_LT(apart, 1e-152);
 }

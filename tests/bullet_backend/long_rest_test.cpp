@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <tuple>
 
+#include "../support/extremes.h"
 #include "bullet_run.h"
 
 namespace slipcheck {
@@ -36,8 +36,9 @@ TEST_P(BulletLongRest, BallsStayOnThePlaneAndKeepTheirSpeed) {
   engine.advance(static_cast<std::size_t>(kMinute * rate), [&](const Frame& frame) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       const BodyState& body = frame.bodies[i];
-      off_plane = std::max(off_plane, std::abs(body.position.z() - kRadius));
-      off_velocity = std::max(off_velocity, (body.velocity - scene.initial[i].velocity).norm());
+      off_plane = test::largest_of(off_plane, std::abs(body.position.z() - kRadius));
+      off_velocity =
+          test::largest_of(off_velocity, (body.velocity - scene.initial[i].velocity).norm());
     }
     last = frame;
   });

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "../support/extremes.h"
 #include "bullet_run.h"
 
 namespace slipcheck {
@@ -104,7 +104,7 @@ TEST(BulletRollingFacts, BetweenTwoSpeedsRollingIsUnsteady) {
           scene_of(steel_ball(radius), {rolling_along_x(radius, 0, v)}, ground_with_friction(0.1));
       double largest = 0;
       for (const Frame& frame : run(engine, scene, kDefault, rate, 240)) {
-        largest = std::max(largest, slip_velocity(frame.bodies[0], radius).norm());
+        largest = test::largest_of(largest, slip_velocity(frame.bodies[0], radius).norm());
       }
       return largest;
     };

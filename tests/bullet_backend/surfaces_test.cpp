@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "../support/extremes.h"
 #include "bullet_run.h"
 
 namespace slipcheck {
@@ -104,7 +105,7 @@ TEST_P(BulletSurfaces, StaticFrictionHoldsABallOnAShakerThatKineticFrictionWould
     std::size_t n = 0;
     for (const Frame& frame : run(engine_, scene, settings("step_end"), rate, 333)) {
       const double t = static_cast<double>(++n) / rate;
-      off = std::max(
+      off = test::largest_of(
           off, std::abs(frame.bodies[0].velocity.x() - 2.0 / 7 * scene.motion.velocity(t).x()));
     }
     return off;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "../scenes.h"
+#include "../support/extremes.h"
 #include "harness/motion_quantities.h"
 #include "harness/motion_recorder.h"
 #include "harness/reference_motion.h"
@@ -346,7 +347,7 @@ TEST(RecordedScene, HasTheReferenceAndThreePhasesOfAnEngine) {
   ASSERT_EQ(run.motions.size(), 3u);
   double worst = 0;
   for (const auto& [name, error] : run.errors)
-    if (error.tolerance) worst = std::max(worst, error.max / *error.tolerance);
+    if (error.tolerance) worst = test::largest_of(worst, error.max / *error.tolerance);
   EXPECT_DOUBLE_EQ(run.motions[1].error, worst);
   EXPECT_LE(run.motions[2].error, run.motions[0].error);
   EXPECT_LE(run.motions[0].error, worst);

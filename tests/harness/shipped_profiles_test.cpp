@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/extremes.h"
 #include "harness/scene_run.h"
 #include "scenario/load.h"
 
@@ -46,7 +47,7 @@ double worst(const SceneRecord& scene, const EngineRecord& run, const std::strin
   const EnsembleValue& seen = run.observables.at(name);
   if (seen.missing > 0) return INFINITY;
   const double exact = value_of(scene, name);
-  return std::max(std::abs(seen.max - exact), std::abs(seen.min - exact));
+  return test::largest_of(std::abs(seen.max - exact), std::abs(seen.min - exact));
 }
 
 class TunedCollision : public ::testing::TestWithParam<const char*> {};

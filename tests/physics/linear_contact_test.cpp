@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "../support/extremes.h"
+
 namespace slipcheck {
 namespace {
 
@@ -37,7 +39,7 @@ Collision integrated(const LinearContact& contact, double v, End end) {
       continue;
     }
     x = x1, u = u1, t += h;
-    deepest = std::max(deepest, x);
+    deepest = test::largest_of(deepest, x);
   }
   return {t, -u / v, deepest};
 }

@@ -6,6 +6,8 @@
 #include <functional>
 #include <limits>
 
+#include "../support/extremes.h"
+
 namespace slipcheck::test {
 
 /// Two spheres on a line that collide with the linear law and rub, on a level, still substrate: all
@@ -106,8 +108,8 @@ struct SoftPair {
                   k4 = slope(moved(y, k3, h));
       out.rubbed += h * rubbing_of(moved(y, k1, h / 2));
       y = moved(moved(moved(moved(y, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
-      out.deepest = std::max(out.deepest, y.overlap);
-      out.largest_rubbing = std::max(out.largest_rubbing, rubbing_of(y));
+      out.deepest = test::largest_of(out.deepest, y.overlap);
+      out.largest_rubbing = test::largest_of(out.largest_rubbing, rubbing_of(y));
     }
     out.end = y;
     return out;

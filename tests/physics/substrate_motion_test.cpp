@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../support/extremes.h"
 #include "physics/numbers.h"
 
 namespace slipcheck {
@@ -73,8 +74,8 @@ TEST(SubstrateMotion, OscillationReachesItsLargestSpeedAndAcceleration) {
   const SubstrateMotion motion = oscillation();
   double speed = 0, acceleration = 0;
   for (int n = 0; n <= 20000; ++n) {
-    speed = std::max(speed, motion.velocity(1e-5 * n).norm());
-    acceleration = std::max(acceleration, motion.acceleration(1e-5 * n).norm());
+    speed = test::largest_of(speed, motion.velocity(1e-5 * n).norm());
+    acceleration = test::largest_of(acceleration, motion.acceleration(1e-5 * n).norm());
   }
   // The extreme lies between two samples at most ω h/2 = 1.6e-4 rad away: half of its square.
   EXPECT_NEAR(speed / motion.largest_speed(), 1, 1.3e-8);

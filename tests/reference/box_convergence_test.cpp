@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "../support/extremes.h"
 #include "harness/box_observer.h"
 #include "reference/planar_solver.h"
 #include "soft_box_scenes.h"
@@ -27,7 +27,7 @@ double apart(const std::vector<BodyState>& a, const std::vector<BodyState>& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double spin = (a[i].angular_velocity - b[i].angular_velocity).norm();
-    most = std::max({most, (a[i].velocity - b[i].velocity).norm(), BeadBox::kRadius * spin});
+    most = test::largest_of(most, (a[i].velocity - b[i].velocity).norm(), BeadBox::kRadius * spin);
   }
   return most;
 }

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
 
+#include "../support/extremes.h"
 #include "planar_scenes.h"
 #include "reference/grain_scene.h"
 #include "reference/step_solver.h"
@@ -56,9 +56,9 @@ ContactScene cluster(const Laws& laws, std::size_t side) {
 double largest_difference(const std::vector<BodyState>& a, const std::vector<BodyState>& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
-    largest = std::max({largest, (a[i].position - b[i].position).norm() / kRadius,
-                        (a[i].velocity - b[i].velocity).norm(),
-                        kRadius * (a[i].angular_velocity - b[i].angular_velocity).norm()});
+    largest = test::largest_of(largest, (a[i].position - b[i].position).norm() / kRadius,
+                               (a[i].velocity - b[i].velocity).norm(),
+                               kRadius * (a[i].angular_velocity - b[i].angular_velocity).norm());
   return largest;
 }
 

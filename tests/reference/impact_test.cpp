@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/extremes.h"
 #include "physics/elastic_pair.h"
 #include "physics/linear_contact.h"
 #include "reference/asperity_passivity.h"
@@ -292,8 +293,8 @@ double worst_error(const NormalForce& law, double m, ContactEnd end) {
   double worst = 0;
   for (double log_speed = -9; log_speed <= 5; log_speed += 0.2371) {
     const double v = std::pow(10, log_speed);
-    worst =
-        std::max(worst, std::abs(restitution_at(table, v) - impact(law, m, v, end).restitution));
+    worst = test::largest_of(
+        worst, std::abs(restitution_at(table, v) - impact(law, m, v, end).restitution));
   }
   return worst;
 }

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "../scenes.h"
+#include "../support/extremes.h"
 #include "reference/event_solver.h"
 
 namespace slipcheck {
@@ -33,7 +34,7 @@ struct OverlapWatch final : FrameSink {
       for (std::size_t j = 0; j < i; ++j) {
         const double contact = scene_.bodies[i].radius + scene_.bodies[j].radius;
         const double distance = (frame.bodies[i].position - frame.bodies[j].position).norm();
-        deepest = std::max(deepest, 1 - distance / contact);
+        deepest = test::largest_of(deepest, 1 - distance / contact);
       }
   }
   const HardScene& scene_;

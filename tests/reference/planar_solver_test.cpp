@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
+#include "../support/extremes.h"
 #include "physics/collision.h"
 #include "planar_scenes.h"
 #include "reference/indexed_heap.h"
@@ -192,7 +192,8 @@ TEST(PlanarSolver, NothingOverlapsInManyEvents) {
     double deepest = -1;
     for (std::size_t k = 0; k < events; ++k) {
       scheduler.step();
-      if (k % 1000 == 0) deepest = std::max(deepest, world.deepest_overlap(scheduler.now()));
+      if (k % 1000 == 0)
+        deepest = test::largest_of(deepest, world.deepest_overlap(scheduler.now()));
     }
     // Rounding of a time t moves a body by its speed times 1e-16 t: of its radius at most so much.
     const double speed = scene.box ? 10 : 5, radius = scene.bodies[0].radius;

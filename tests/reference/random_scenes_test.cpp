@@ -4,6 +4,7 @@
 #include <random>
 
 #include "../scenes.h"
+#include "../support/extremes.h"
 #include "reference/event_solver.h"
 
 namespace slipcheck {
@@ -88,15 +89,15 @@ struct Watch final : FrameSink {
     last_time = time;
     const double now = energy(frame);
     ASSERT_TRUE(std::isfinite(now));
-    if (before >= 0) largest_gain = std::max(largest_gain, (now - before) / scale);
+    if (before >= 0) largest_gain = test::largest_of(largest_gain, (now - before) / scale);
     if (before < 0) scale = now + 1e-30;
     before = now;
     for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
       const double radius = scene.bodies[i].radius;
-      deepest = std::max(deepest, 1 - frame.bodies[i].position.z() / radius);
+      deepest = test::largest_of(deepest, 1 - frame.bodies[i].position.z() / radius);
       for (std::size_t j = 0; j < i; ++j) {
         const double contact = radius + scene.bodies[j].radius;
-        deepest = std::max(
+        deepest = test::largest_of(
             deepest, 1 - (frame.bodies[i].position - frame.bodies[j].position).norm() / contact);
       }
     }

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "../scenes.h"
+#include "../support/extremes.h"
 #include "reference/contact_solver.h"
 #include "reference/event_solver.h"
 
@@ -70,8 +71,8 @@ double deepest_overlap(const HardScene& scene, const std::vector<BodyState>& sta
       for (int axis : {0, 1})
         if (const double L = scene.periodic[axis]; L > 0)
           dx[axis] -= L * std::nearbyint(dx[axis] / L);
-      deepest =
-          std::max(deepest, 1 - dx.norm() / (scene.bodies[i].radius + scene.bodies[j].radius));
+      deepest = test::largest_of(deepest,
+                                 1 - dx.norm() / (scene.bodies[i].radius + scene.bodies[j].radius));
     }
   return deepest;
 }

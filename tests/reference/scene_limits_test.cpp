@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "../support/extremes.h"
 #include "bundled_scenes.h"
 
 // The contact solver against the event solver on bundled scenes of soft contacts: the hard contact
@@ -32,9 +33,9 @@ struct Both {
       : contact(play(scenario, Compare::Reference::contact)),
         event(play(scenario, Compare::Reference::event)) {
     for (const auto& [name, value] : contact.seen) {
-      if (ends(name, "contact_time")) collision_time = std::max(collision_time, value);
-      if (ends(name, ".sliding_time")) sliding_time = std::max(sliding_time, value);
-      if (ends(name, ".velocity_after_collision")) speed = std::max(speed, value);
+      if (ends(name, "contact_time")) collision_time = test::largest_of(collision_time, value);
+      if (ends(name, ".sliding_time")) sliding_time = test::largest_of(sliding_time, value);
+      if (ends(name, ".velocity_after_collision")) speed = test::largest_of(speed, value);
     }
   }
   static bool ends(const std::string& name, const std::string& end) {
@@ -62,7 +63,7 @@ struct Both {
 
 double largest(const std::map<std::string, double>& differences) {
   double most = 0;
-  for (const auto& [name, value] : differences) most = std::max(most, std::abs(value));
+  for (const auto& [name, value] : differences) most = test::largest_of(most, std::abs(value));
   return most;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "../support/extremes.h"
 #include "physics/linear_contact.h"
 #include "reference/contact_scene.h"
 #include "reference/event_solver.h"
@@ -171,7 +172,7 @@ class PlainHardBox {
     const double tangential = -std::copysign(box_.friction * normal, u);
     if (box_.friction > 0) {
       const double after = std::abs(u) - 3.5 / share * box_.friction * normal;
-      least_slip = std::min(least_slip, after / g);
+      least_slip = test::least_of(least_slip, after / g);
     }
     const Vector3 impulse = normal * n + tangential * t;
     const double spin = -tangential / (0.4 * BeadBox::kRadius);

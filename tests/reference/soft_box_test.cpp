@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "../support/extremes.h"
 #include "soft_box_scenes.h"
 
 namespace slipcheck {
@@ -226,11 +226,11 @@ TEST(SoftBox, NobodyPassesThroughAnything) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const Vector3& p = bodies[i].position;
       const double radius = scene.hard.bodies[i].radius;
-      deepest = std::max({deepest, radius - p.x(), radius + p.x() - box.box.width,
-                          radius + box.box.floor.height(recorder.times[k]) - p.z()});
+      deepest = test::largest_of(deepest, radius - p.x(), radius + p.x() - box.box.width,
+                                 radius + box.box.floor.height(recorder.times[k]) - p.z());
       for (std::size_t j = 0; j < i; ++j)
-        deepest = std::max(deepest,
-                           radius + scene.hard.bodies[j].radius - (p - bodies[j].position).norm());
+        deepest = test::largest_of(
+            deepest, radius + scene.hard.bodies[j].radius - (p - bodies[j].position).norm());
     }
   }
   // Nobody meets faster than 2 m/s: v t_col/π, twice that where a third pushes.

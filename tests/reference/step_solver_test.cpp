@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "../support/extremes.h"
 #include "physics/elastic_pair.h"
 #include "reference/impact.h"
 #include "step_scenes.h"
@@ -67,7 +67,7 @@ double worst_restitution_error(const SoftContact& contact, double exact, double 
     const ContactScene all = with_contact(scene, contact);
     StepSolver solver(all, scene.initial, {h});
     solver.run(until(1.5 * duration), nullptr);
-    worst = std::max(worst, std::abs(-closing(solver.states()) / 0.1 - exact));
+    worst = test::largest_of(worst, std::abs(-closing(solver.states()) / 0.1 - exact));
   }
   return worst;
 }
@@ -122,8 +122,8 @@ TEST(StepSolver, EnergyOfABoundPairDoesNotDrift) {
       double low = 1e300, high = -1e300;
       for (int n = 1; n <= 400; ++n) {
         solver.run(until(from + n * period / 10), nullptr);
-        low = std::min(low, solver.energy() - first);
-        high = std::max(high, solver.energy() - first);
+        low = test::least_of(low, solver.energy() - first);
+        high = test::largest_of(high, solver.energy() - first);
       }
       return std::pair(low / kinetic, high / kinetic);
     };
@@ -152,7 +152,7 @@ double growth(double damping_ratio, double ratio) {
   double largest = 0;
   for (int n = 1; n <= 2000; ++n) {
     solver.run(until(n * h), nullptr);
-    largest = std::max(largest, std::abs(solver.states()[1].velocity.x()));
+    largest = test::largest_of(largest, std::abs(solver.states()[1].velocity.x()));
   }
   return largest / 1e-10;
 }

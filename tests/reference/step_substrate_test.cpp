@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "../support/extremes.h"
 #include "physics/closed_forms.h"
 #include "physics/coupled_friction.h"
 #include "reference/step_solver.h"
@@ -44,19 +45,20 @@ TEST(StepSolver, SlidingTimeAndDistanceAreOfFirstOrder) {
       StepSolver solver(all, scene.initial, {h});
       const StepRun run = solver.run(kRolling, &watch);
       ASSERT_TRUE(run.reached);
-      time_error = std::max(time_error, std::abs(watch.end - exact.sliding_time) / h);
+      time_error = test::largest_of(time_error, std::abs(watch.end - exact.sliding_time) / h);
       const BodyState s = solver.states()[0];
       const Vector3 place =
           exact.displacement + exact.rolling_velocity * (run.end_time - exact.sliding_time);
-      place_error = std::max(place_error, (s.position - scene.initial[0].position - place).norm() /
-                                              (h * exact.slip.norm()));
+      place_error =
+          test::largest_of(place_error, (s.position - scene.initial[0].position - place).norm() /
+                                            (h * exact.slip.norm()));
       // The impulse that stops the slip is exact.
       EXPECT_LT((s.velocity - exact.rolling_velocity).norm(), 1e-13);
       EXPECT_LT(slip_velocity(s, 0.002).norm(), 1e-15);
     }
     // Both in units of a step: bounded, that is of first order at worst.
     EXPECT_LT(time_error, 1.5);
-    worst_time = std::max(worst_time, time_error);
+    worst_time = test::largest_of(worst_time, time_error);
     EXPECT_LT(place_error, 0.5);
     if (halving > 0) {
       EXPECT_LT(place_error, 1.2 * worst_place);

@@ -37,7 +37,7 @@ TuningRecord tuned() {
 
   const auto finalist = [&](const Settings& settings, double error) {
     const RunScore run{error, "i.sliding_time", error / 100, 0, 0.002, 1, ""};
-    TuningFinalist made{settings, {run, run, run}, {}, {}};
+    TuningFinalist made{settings.empty() ? "default" : "", settings, {run, run, run}, {}, {}};
     made.runs[2].worst = 1.5 * error;
     made.training = score_of(std::span(made.runs).first(2), record.goal);
     made.held_out = score_of(std::span(made.runs).last(1), record.goal);
@@ -108,8 +108,41 @@ TEST(TuningTable, WarnsOfOverfittingAndOfFailures) {
   style.width = 140;
   const std::string text = tuning_table(record, style);
   EXPECT_TRUE(contains(text, "overfitted")) << text;
-  EXPECT_TRUE(contains(text, "25.0 % of phases fail")) << text;
-  EXPECT_TRUE(contains(text, "unstable: not finite")) << text;
+  EXPECT_TRUE(contains(text, "tuned, one at 1000 Hz: unstable: not finite")) << text;
+}
+
+TEST(TuningTable, SaysWhatKeepsASceneFailing) {
+  TuningRecord record = tuned();
+  for (TuningFinalist& each : record.result.finalists) {
+    each.runs[1].failed = 1;
+    each.runs[1].reason = "cue-substrate.restitution fails in all phases";
+    each.training = score_of(std::span(each.runs).first(2), record.goal);
+  }
+  TableStyle style;
+  style.width = 140;
+  const std::string table = tuning_table(record, style);
+  EXPECT_TRUE(contains(table, "one at 1000 Hz: cue-substrate.restitution fails in all phases"))
+      << table;
+  EXPECT_EQ(tuning_error_text(record.result.best().runs[1]),
+            "cue-substrate.restitution fails in all phases");
+  const std::string profile = tuned_profile_yaml(record);
+  EXPECT_TRUE(contains(profile, "profile: \"one: cue-substrate.restitution fails in all phases\""))
+      << profile;
+  EXPECT_FALSE(contains(table + profile, "100 %"));
+}
+
+TEST(TuningProfile, SaysWhereItIsNoBetterThanWhatItBeganFrom) {
+  TuningRecord record = tuned();
+  EXPECT_FALSE(contains(tuned_profile_yaml(record), "no_better_than"));
+  record.result.finalists[1].profile = "physical";
+  TableStyle style;
+  style.width = 140;
+  for (const std::string& text : {tuned_profile_yaml(record), tuning_table(record, style)})
+    EXPECT_TRUE(contains(text, "physical")) << text;
+  EXPECT_TRUE(contains(tuned_profile_yaml(record), "no_better_than: \"physical\""));
+  EXPECT_TRUE(contains(tuned_profile_yaml(record), "begun_from: \"physical\""));
+  EXPECT_EQ(json_of(record)["improved"], false);
+  EXPECT_EQ(json_of(record)["no_better_than"], "physical");
 }
 
 TEST(TuningJson, HoldsBothEndsAndTheTradeOff) {
@@ -123,6 +156,7 @@ TEST(TuningJson, HoldsBothEndsAndTheTradeOff) {
   EXPECT_EQ(json["scenes"].size(), 1u);
   EXPECT_EQ(json["trade_off"][0]["settings"]["erp"], 0);
   EXPECT_EQ(json["improved"], true);
+  EXPECT_EQ(json["no_better_than"], nullptr);
   EXPECT_EQ(json["overfitted"], false);
   EXPECT_EQ(json["within"], nullptr);
 }

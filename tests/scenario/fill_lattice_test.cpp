@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../support/extremes.h"
 #include "scenes.h"
 
 // Dense fills of a box and of a periodic cell, at random and on a lattice.
@@ -32,7 +33,7 @@ double smallest_gap(const Scenario& scene, const Vector2& periodic = Vector2::Ze
       Vector3 apart = a.initial.position - b.initial.position;
       for (int k = 0; k < 2; ++k)
         if (periodic[k] > 0) apart[k] -= periodic[k] * std::round(apart[k] / periodic[k]);
-      least = std::min(least, apart.norm() / (a.sphere.radius + b.sphere.radius) - 1);
+      least = test::least_of(least, apart.norm() / (a.sphere.radius + b.sphere.radius) - 1);
     }
   }
   return least;

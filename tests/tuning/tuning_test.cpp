@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <random>
 
 #include "tuning_synthetic.h"
 
@@ -150,6 +152,48 @@ TEST_F(Tuning, TheStartStaysWhereNothingIsBetter) {
                          {"split", true}};
   const TuningResult result = tuned(synthetic_runs(), false, optimum);
   EXPECT_EQ(result.chosen, 0u);
+  EXPECT_FALSE(result.improved());
+  EXPECT_EQ(result.best().settings, optimum);
+}
+
+TEST_F(Tuning, TheSameSeedFindsTheSameWhateverTheTimes) {
+  // Times of a loaded machine: any factor from 1/100 to 100, never the same.
+  std::mt19937 random(std::random_device{}());
+  std::uniform_real_distribution<> exponent(-2, 2);
+  const TuningRuns scattering = [&](const Settings& settings, std::size_t phases,
+                                    std::span<const TuningTask* const> tasks) {
+    auto scores = synthetic_runs()(settings, phases, tasks);
+    for (auto& score : scores) score->cpu_seconds *= std::pow(10, exponent(random));
+    return scores;
+  };
+  const TuningResult first = tuned(scattering);
+  for (int k = 0; k < 7; ++k) {
+    fs::remove(file);
+    const TuningResult again = tuned(scattering);
+    EXPECT_EQ(again.best().settings, first.best().settings);
+    EXPECT_EQ(again.evaluations, first.evaluations);
+    EXPECT_EQ(again.candidates, first.candidates);
+    ASSERT_EQ(again.finalists.size(), first.finalists.size());
+    for (std::size_t n = 0; n < first.finalists.size(); ++n)
+      EXPECT_EQ(again.finalists[n].settings, first.finalists[n].settings);
+  }
+}
+
+TEST_F(Tuning, AProfileThatNothingBeatsIsChosenByItsName) {
+  const Settings optimum{{"body", std::string("multi")},
+                         {"erp", 0.3},
+                         {"threshold", 1e-3},
+                         {"warm", true},
+                         {"split", true}};
+  TuningSpace space = tuning_space(synthetic_engine(), {});
+  add_start(space, "shipped", optimum);
+  TuningJournal journal;
+  TuningEvaluator evaluator(synthetic_tasks(), "test", {}, 16, synthetic_runs(), journal, {});
+  const TuningResult result = tune(space, evaluator, {{{}, 1, {}}, 64}, "default");
+  EXPECT_EQ(result.start().profile, "default");
+  EXPECT_TRUE(result.start().settings.empty());
+  EXPECT_FALSE(result.improved());
+  EXPECT_EQ(result.best().profile, "shipped");
   EXPECT_EQ(result.best().settings, optimum);
 }
 
