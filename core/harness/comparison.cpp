@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string_view>
+#include <unordered_map>
 
 #include "harness/observables.h"
 #include "scenario/observable_names.h"
@@ -36,28 +38,32 @@ Differences scalar_differences(const UncertainValue& reference, const EnsembleVa
   return differences;
 }
 
-const Body* find_body(const Scenario& scenario, const std::string& name) {
-  for (const Body& body : scenario.bodies)
-    if (body.name == name) return &body;
-  return nullptr;
+/// The bodies of a scene by name: of many none is looked for among all.
+using Bodies = std::unordered_map<std::string_view, const Body*>;
+
+Bodies bodies_of(const Scenario& scenario) {
+  Bodies bodies;
+  for (const Body& body : scenario.bodies) bodies.emplace(body.name, &body);
+  return bodies;
 }
 
 /// Differences of a vector (its bare name) or of one component, on the scale of the vector's
 /// length; a position's scale is the way from the start.
-Differences vector_differences(const Scenario& scenario, const ReferenceResult& reference,
+Differences vector_differences(const Bodies& bodies, const ReferenceResult& reference,
                                const Ensemble& ensemble, const std::string& name,
                                const ObservableName& observable) {
   const FullName full(name);
   const std::string vector = full.owner + "." + std::string(observable.name);
   Differences differences;
   Vector3 length = Vector3::Zero();
-  const Body* body = find_body(scenario, full.owner);
+  const auto body = bodies.find(full.owner);
   std::vector<double> squares;
   for (int k = 0; k < 3; ++k) {
     const std::string component = vector + "." + "xyz"[k];
     const UncertainValue& value = reference.observables.at(component);
     length[k] = value.value;
-    if (observable.name == "final_position" && body) length[k] -= body->initial.position[k];
+    if (observable.name == "final_position" && body != bodies.end())
+      length[k] -= body->second->initial.position[k];
     differences.uncertainty = std::max(differences.uncertainty, value.uncertainty);
     if (name != vector && name != component) continue;
     const auto found = ensemble.find(component);
@@ -77,8 +83,9 @@ std::string missing_phases(const EnsembleValue& value) {
          " phases do not show it";
 }
 
-Deviation deviation(const Scenario& scenario, const ReferenceResult& reference,
-                    const Ensemble& ensemble, const std::string& name) {
+Deviation deviation(const Scenario& scenario, const Bodies& bodies,
+                    const ReferenceResult& reference, const Ensemble& ensemble,
+                    const std::string& name) {
   Deviation result;
   const std::string observable_name = FullName(name).observable;
   const ObservableName* observable = find_observable(observable_name);
@@ -94,7 +101,7 @@ Deviation deviation(const Scenario& scenario, const ReferenceResult& reference,
   const bool is_vector = observable && observable->is_vector;
   Differences differences;
   if (found != ensemble.end())
-    differences = is_vector ? vector_differences(scenario, reference, ensemble, name, *observable)
+    differences = is_vector ? vector_differences(bodies, reference, ensemble, name, *observable)
                             : scalar_differences(expected, found->second);
   if (differences.by_phase.empty()) {
     result.median = result.max = result.rms = kNotObserved;
@@ -202,8 +209,9 @@ std::map<std::string, Deviation> deviations(const Scenario& scenario,
                                             const ReferenceResult& reference,
                                             const Ensemble& ensemble) {
   std::map<std::string, Deviation> result;
+  const Bodies bodies = bodies_of(scenario);
   for (const auto& [name, value] : reference.observables)
-    result[name] = deviation(scenario, reference, ensemble, name);
+    result[name] = deviation(scenario, bodies, reference, ensemble, name);
   // A jump or a landing that only the engine has is a deviation too.
   for (const auto& [name, value] : ensemble) {
     const auto tolerance = scenario.compare.tolerance.find(FullName(name).observable);
@@ -227,6 +235,7 @@ std::vector<double> phase_errors(const Scenario& scenario, const ReferenceResult
   const auto has_tolerance = [&](const std::string& name) {
     return scenario.compare.tolerance.contains(FullName(name).observable);
   };
+  const Bodies bodies = bodies_of(scenario);
   for (std::size_t p = 0; p < phases; ++p) {
     std::map<std::string, double> seen;
     for (const auto& [name, value] : ensemble)
@@ -235,7 +244,7 @@ std::vector<double> phase_errors(const Scenario& scenario, const ReferenceResult
     const Ensemble alone = ensemble_values({seen});
     for (const auto& [name, value] : reference.observables) {
       if (!has_tolerance(name)) continue;
-      const Deviation off = deviation(scenario, reference, alone, name);
+      const Deviation off = deviation(scenario, bodies, reference, alone, name);
       if (off.within && off.max == 0)
         note(0);
       else if (!std::isnan(off.max))

@@ -5,6 +5,7 @@
 #include "physics/numbers.h"
 #include "reference/contact_solver.h"
 #include "reference/impact.h"
+#include "reference/initial_contacts.h"
 
 namespace slipcheck {
 namespace {
