@@ -14,6 +14,7 @@
 #include "app/explain_rows.h"
 #include "app/interrupt.h"
 #include "app/load_files.h"
+#include "app/set_option.h"
 #include "engine/engine_registry.h"
 #include "engine/remote_engine.h"
 #include "harness/closed_form_values.h"

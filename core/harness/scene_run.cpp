@@ -109,11 +109,16 @@ void finish(EngineWork& work) {
   }
 }
 
-void record_motion_of(PreparedScene& scene) {
+void record_motion_of(PreparedScene& scene, double time_limit) {
   const auto* solver = std::get_if<ReferenceSolver>(&scene.solver);
   if (!solver || scene.scenario.bodies.size() > kMostRecordedBodies) return;
   if (scene.reference.observables.empty()) return;  // it has failed
-  scene.reference.motion = reference_motion(*solver, scene.reference.run.end_time);
+  try {
+    const StopScope limit(time_limit);
+    scene.reference.motion = reference_motion(*solver, scene.reference.run.end_time);
+  } catch (const std::exception& fault) {
+    scene.reference.warnings.push_back(std::string("its motion was not recorded: ") + fault.what());
+  }
 }
 
 }  // namespace
@@ -166,7 +171,8 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
     for (EngineRecord& record : runs[s])
       if (record.reason.empty()) tasks.push_back({&prepared[s], &record});
   run_engines(tasks, options);
-  if (options.record_motion) std::ranges::for_each(prepared, record_motion_of);
+  if (options.record_motion)
+    for (PreparedScene& scene : prepared) record_motion_of(scene, options.time_limit);
 
   std::vector<SceneRecord> scenes;
   for (std::size_t s = 0; s < prepared.size(); ++s)

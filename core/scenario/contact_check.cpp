@@ -120,7 +120,8 @@ void check_contact_radius(const WrittenContact& contact, const WrittenScene& wri
   if (!contact.substrate.drilling.contact_radius) return;
   for (const std::string& name : contact.between) {
     const double least = least_radius(name, written);
-    if (*contact.substrate.drilling.contact_radius <= least) continue;
+    if (*contact.substrate.drilling.contact_radius <= least * (1 + 1e-12))
+      continue;  // round-off of units
     reading.fault_at(contact.path + ".drilling.contact_radius",
                      fmt::format("must be at most the radius of the smallest body of {}, {:.6g} {}",
                                  name, least / to_si(1, kLength, reading.units()),
