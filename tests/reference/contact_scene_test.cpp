@@ -350,7 +350,7 @@ TEST(ContactScene, RefusesImpactsThatGoRightThrough) {
   };
   EXPECT_EQ(refusal(text("110")), "");
   EXPECT_EQ(refusal(text("100")),
-            "bad: s.yaml:8:13: contacts[0].normal: must stop impacts at up to 1 m/s before the "
+            "bad: s.yaml:8:5: contacts[0].normal: must stop impacts at up to 1 m/s before the "
             "spheres are through each other, but lets them 2 radii of both deep");
   EXPECT_NE(refusal(pair_text("{model: power, modulus: 1e-23, viscosity: 0}"))
                 .find("before the spheres are through each other"),
@@ -359,7 +359,7 @@ TEST(ContactScene, RefusesImpactsThatGoRightThrough) {
 
 TEST(ContactScene, RefusesDampingBesideWhichThereIsNoSpring) {
   EXPECT_EQ(refusal(pair_text("{model: linear, damping_rate: 1e30, collision_time: 1e-4}")),
-            "bad: s.yaml:8:30: contacts[0].normal.damping_rate: must leave a restitution > 0: "
+            "bad: s.yaml:8:29: contacts[0].normal.damping_rate: must leave a restitution > 0: "
             "exp(-damping_rate collision_time/2), with 0.0001 s, got 1e+30 /s");
   // ω0 = √(k/m̄) with k = 1e10 N/m, m̄ = 16.44 kg: 24663 /s; times 6.7e7 that is 1.65e12 /s.
   const auto damped = [](const std::string& rate) {
@@ -367,7 +367,7 @@ TEST(ContactScene, RefusesDampingBesideWhichThereIsNoSpring) {
   };
   EXPECT_EQ(damped("1.6e12"), "");
   EXPECT_EQ(damped("1e30"),
-            "bad: s.yaml:8:30: contacts[0].normal.damping_rate: must damp at a rate of at most "
+            "bad: s.yaml:8:29: contacts[0].normal.damping_rate: must damp at a rate of at most "
             "1.65e+12 /s, 6.7e+07 over the time of an impact; beyond that the elastic force is "
             "lost in rounding, got a rate of 1e+30 /s");
   const auto rubbed = [](const std::string& rate) {

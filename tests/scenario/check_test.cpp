@@ -120,7 +120,7 @@ TEST(Check, ModelsHaveWhatTheyNeed) {
 TEST(Check, NoMassOutsideOfABody) {
   // I = ∫ r² dm with r <= R everywhere: at most m R², of a ring.
   expect_fault(with(kHard, "sphere: {radius: 0.1}", "sphere: {radius: 0.1, inertia: 1.001}"),
-               "s.yaml:14:65: bodies[0].sphere.inertia: must be > 0 and <= 1, got 1.001");
+               "s.yaml:14:63: bodies[0].sphere.inertia: must be > 0 and <= 1, got 1.001");
   EXPECT_TRUE(
       messages(with(kHard, "sphere: {radius: 0.1}", "sphere: {radius: 0.1, inertia: 1}")).empty());
 }
