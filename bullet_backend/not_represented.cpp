@@ -112,7 +112,8 @@ std::vector<std::string> not_represented(const HardScene& scene, const BulletSet
                     settings.friction_cone && !mlcp;
   const double threshold =
       settings.restitution_velocity_threshold / world_units(scene, settings).speed();
-  const double approach = approach_in_a_step(scene, time_step);
+  // Of all pairs; only some settings ask for it.
+  const double approach = settings.reach > 0 ? approach_in_a_step(scene, time_step) : 0;
   std::vector<std::string> missing;
   const auto note = [&](bool condition, std::string what) {
     if (condition) missing.push_back(std::move(what));

@@ -159,10 +159,10 @@ int check(CheckArguments& arguments) {
   arguments.options.settings = parse_settings(arguments.settings);
   if (all)
     for (const fs::path& file : bundled_scenes()) arguments.files.push_back(file.string());
+  watch_for_interrupts();
   std::vector<Scenario> scenarios = load_files(arguments.files);
   const Baselines baselines = load(arguments, all, scenarios);
 
-  watch_for_interrupts();
   arguments.options.stop = &interrupted();
   arguments.options.limits.memory = arguments.memory_limit << 20;
   if (!arguments.quiet) fmt::print(stderr, "{}", debug_build_warning());
@@ -214,7 +214,7 @@ void add_running(CLI::App& command, CheckArguments& arguments) {
       ->capture_default_str();
   command
       .add_option("--time-limit", arguments.options.time_limit,
-                  "Wall-clock seconds for one run of an engine")
+                  "Wall-clock seconds for one run of an engine, and for a scene's reference")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command.add_option("--memory-limit", arguments.memory_limit, "MiB for one engine")

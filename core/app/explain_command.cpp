@@ -12,6 +12,7 @@
 #include "app/explain_gas.h"
 #include "app/explain_pair.h"
 #include "app/explain_rows.h"
+#include "app/interrupt.h"
 #include "app/load_files.h"
 #include "app/set_option.h"
 #include "engine/engine_registry.h"
@@ -164,7 +165,7 @@ void print_engine(const EngineRecord& run, const HardScene& scene) {
   for (const auto& [name, setting] : run.settings)
     fmt::print("    the profile sets {:<32} {}\n", name, text_of(setting));
   try {
-    RemoteEngine engine(executable->path);
+    RemoteEngine engine(executable->path, {}, &interrupted());
     const Applied applied = engine.configure(scene, run.settings, 1 / run.rate);
     for (const std::string& missing : applied.not_represented)
       fmt::print("    not represented: {}\n", missing);
@@ -244,8 +245,9 @@ void add_explain_command(CLI::App& app, int& exit_code) {
   accept_quiet(*command);
   command->footer("Example:\n  slipcheck explain scenarios/symmetric-30cms.yaml");
   command->callback([files, general, &exit_code] {
+    watch_for_interrupts();
     const std::vector<Scenario> scenarios = load_files(*files);
-    const auto runs = requested_runs(scenarios, {}, nullptr, {}, *general);
+    const auto runs = requested_runs(scenarios, {}, &interrupted(), {}, *general);
     for (std::size_t s = 0; s < scenarios.size(); ++s) explain(scenarios[s], runs[s], *general);
     exit_code = kWithinTolerance;
   });

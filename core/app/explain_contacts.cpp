@@ -62,9 +62,14 @@ std::optional<Partners> partners(const Scenario& scenario, const ContactScene& s
   const double speed = meeting ? meeting->closing_speed() : typical_speed;
   if (meeting && have_it(meeting->first, meeting->second))
     return bodies(scenario, scene, meeting->first, meeting->second, speed);
-  for (std::size_t i = 0; i < scenario.bodies.size(); ++i)
+  // The first of its kind with any other: with the first of the other kind, or the next of its own.
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    const std::string& kind = scenario.bodies[i].material;
+    if (kind != contact.first && kind != contact.second) continue;
     for (std::size_t j = i + 1; j < scenario.bodies.size(); ++j)
       if (have_it(i, j)) return bodies(scenario, scene, i, j, speed);
+    break;
+  }
   return std::nullopt;
 }
 

@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/progress_bar.h"
+#include "base/stop_scope.h"
 #include "figures/paper_figures.h"
 #include "report/csv.h"
 #include "report/figure.h"
@@ -61,7 +62,12 @@ int draw(const FiguresArguments& arguments) {
     for (const PaperFigureMaker& maker : makers) {
       if (interrupted()) break;
       bar.set(page.size(), makers.size());
-      const PaperFigure figure = maker.make();
+      PaperFigure figure;
+      try {
+        figure = maker.make();
+      } catch (const Interrupted&) {
+        break;
+      }
       std::string svg = figure_svg(figure.drawing, figure.name, figure.title, figure.caption);
       write_file_atomically(directory / (figure.name + ".svg"), svg);
       write_file_atomically(directory / (figure.name + ".csv"), csv_text(figure.table));

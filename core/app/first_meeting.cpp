@@ -49,12 +49,25 @@ std::optional<Meeting> first_meeting(const ContactScene& scene, double limit) {
   if (scene.hard.bodies.size() < 2 || scene.hard.box) return std::nullopt;
   if (!initial_contacts(scene, scene.hard.initial).empty()) return std::nullopt;
   const ContactScene hard = with_hard_contacts(scene.hard);
+  UntilTouch sink(scene.hard.periodic);
+  const auto just_after = [](double time) {
+    const double end = time * (1 + 1e-6) + 1e-12;
+    return RunEnd{Run::Until::time, end, end};
+  };
+  if (runs_in_phases(hard.hard)) {
+    // Frames of many bodies cost more than the events between them.
+    EventSolver solver(hard.hard, hard.hard.initial);
+    const double time = solver.next_collision(limit);
+    if (!(time <= limit)) return std::nullopt;
+    const double before = time * (1 - 1e-6);
+    solver.run({Run::Until::time, before, before}, nullptr);
+    solver.run(just_after(time), &sink);
+    return sink.found;
+  }
   const ReferenceSolver solver(hard, Compare::Reference::event);
   const double time = solver.next_collision(hard.hard.initial, 0, limit, 0);
   if (!(time <= limit)) return std::nullopt;
-  UntilTouch sink(scene.hard.periodic);
-  const double end = time * (1 + 1e-6) + 1e-12;
-  solver.run({Run::Until::time, end, end}, &sink);
+  solver.run(just_after(time), &sink);
   return sink.found;
 }
 

@@ -35,7 +35,7 @@ void add_grid_options(CLI::App& command, GridArguments& arguments) {
       ->capture_default_str();
   command
       .add_option("--time-limit", arguments.options.time_limit,
-                  "Wall-clock seconds for one run of an engine")
+                  "Wall-clock seconds for one run of an engine, and for a scene's reference")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command.add_option("--memory-limit", arguments.memory_limit, "MiB for one engine")

@@ -5,6 +5,8 @@
 #include <exception>
 
 #include "app/commands.h"
+#include "app/interrupt.h"
+#include "base/stop_scope.h"
 #include "report/context.h"
 #include "scenario/fault.h"
 #include "scenario/hard_scene.h"
@@ -34,6 +36,7 @@ int main(int argc, char** argv) {
   add_stability_command(app, exit_code);
   add_tune_command(app, exit_code);
   try {
+    const StopScope scope(&interrupted());
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // Help and version end well; everything else is bad input.
@@ -44,6 +47,9 @@ int main(int argc, char** argv) {
   } catch (const Unsupported& unsupported) {
     fmt::print(stderr, "{}\n", unsupported.what());
     return kBadInput;
+  } catch (const Interrupted& stopped) {
+    fmt::print(stderr, "{}\n", stopped.what());
+    return kInterrupted;
   } catch (const BadOption& bad) {
     fmt::print(stderr, "slipcheck: {}\n", bad.what());
     return kBadInput;

@@ -61,11 +61,11 @@ void write_folder(const fs::path& directory, const std::vector<PrecisionScene>& 
 int measure(PrecisionArguments& arguments) {
   GridArguments& common = arguments.common;
   complete(common);
+  watch_for_interrupts();
   std::vector<Scenario> scenarios = load_files(common.files);
   arguments.grid.engines = common.engines;
   std::ranges::sort(arguments.grid.rates);
 
-  watch_for_interrupts();
   if (!common.quiet) fmt::print(stderr, "{}", debug_build_warning());
   std::vector<PrecisionScene> scenes;
   {

@@ -86,9 +86,9 @@ int run(RunArguments& arguments) {
   check_outputs(arguments.outputs);
   if (!arguments.directory.empty()) check_output("--out", arguments.directory, true);
   arguments.options.settings = parse_settings(arguments.settings);
+  watch_for_interrupts();
   std::vector<Scenario> scenarios = load_files(arguments.files);
 
-  watch_for_interrupts();
   arguments.options.stop = &interrupted();
   arguments.options.record_motion = arguments.outputs.show_motion() || !arguments.directory.empty();
   arguments.options.limits.memory = arguments.memory_limit << 20;
@@ -147,7 +147,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--time-limit", arguments->options.time_limit,
-                   "Wall-clock seconds for one run of an engine")
+                   "Wall-clock seconds for one run of an engine, and for a scene's reference")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--memory-limit", arguments->memory_limit, "MiB for one engine")

@@ -102,11 +102,11 @@ int examine(StabilityArguments& arguments) {
   if (whole_catalogue)
     for (const fs::path& file : bundled_scenes("extreme")) common.files.push_back(file.string());
   if (arguments.limits == "auto") arguments.limits = whole_catalogue ? "yes" : "no";
+  watch_for_interrupts();
   std::vector<Scenario> cases = load_files(common.files);
   arguments.grid.engines = common.engines;
   std::ranges::sort(arguments.grid.rates);
 
-  watch_for_interrupts();
   if (!common.quiet) fmt::print(stderr, "{}", debug_build_warning());
   const StabilityResults results = run_all(arguments, std::move(cases));
   const auto json = [&] {

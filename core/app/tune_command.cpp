@@ -88,8 +88,8 @@ int tune_engine(TuneArguments& arguments) {
   check_output("-o", arguments.output, false);
   if (!arguments.json.empty() && arguments.json != "-")
     check_output("--json", arguments.json, false);
-  TuneSetup setup = prepare_tuning(arguments);
   watch_for_interrupts();
+  TuneSetup setup = prepare_tuning(arguments);
   if (!arguments.quiet) fmt::print(stderr, "{}", debug_build_warning());
   try {
     setup.record.result = search(arguments, setup);
@@ -174,7 +174,7 @@ void add_search_options(CLI::App& command, TuneArguments& arguments) {
       ->check(CLI::PositiveNumber);
   command
       .add_option("--time-limit", arguments.time_limit,
-                  "Wall-clock seconds for one run of the engine")
+                  "Wall-clock seconds for one run of the engine, and for a scene's reference")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command

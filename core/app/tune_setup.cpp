@@ -12,6 +12,7 @@
 
 #include "app/commands.h"
 #include "app/load_files.h"
+#include "base/stop_scope.h"
 #include "engine/engine_registry.h"
 #include "engine/profile.h"
 #include "engine/protocol.h"
@@ -145,7 +146,12 @@ TuneSetup prepare_tuning(const TuneArguments& arguments) {
   record.space = space_of(arguments, info, start_settings(arguments, executable, info));
   add_shipped_profiles(record.space, arguments, executable, info);
 
-  setup.scenes = prepare_scenes(std::move(scenarios));
+  setup.scenes = prepare_scenes(std::move(scenarios), false, 1, arguments.time_limit);
+  heed_stop();
+  for (const PreparedScene& scene : setup.scenes)
+    if (scene.reference.run.failed)
+      throw BadOption(fmt::format("{}: must have a reference to fit to, but it {}",
+                                  scene.scenario.file, scene.reference.run.reason));
   const std::string nothing = nothing_to_tune(setup.scenes, record.observables);
   if (!nothing.empty()) throw BadOption(nothing);
   record.tasks = tuning_tasks(setup.scenes, arguments.files.size(), record.rates);

@@ -32,6 +32,8 @@ class Workers {
       return {status_of(failure), failure.what(), std::current_exception()};
     } catch (const Interrupted& interrupted) {
       return {JobStatus::skipped, interrupted.what(), std::current_exception()};
+    } catch (const OutOfTime& late) {
+      return {JobStatus::timed_out, late.what(), std::current_exception()};
     } catch (const Refused& refused) {
       return {JobStatus::skipped, refused.what(), std::current_exception()};
     } catch (const std::exception& error) {
@@ -73,6 +75,7 @@ std::vector<JobResult> WorkerPool::run_all(const std::vector<EngineJob>& jobs,
 
   // Workers die with the thread that started them, so each thread keeps its own.
   const auto loop = [&] {
+    const StopScope scope(stop);
     Workers workers(limits_, stop);
     for (std::size_t i = next++; i < jobs.size(); i = next++) {
       results[i] = workers.run(jobs[i]);

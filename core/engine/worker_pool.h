@@ -22,7 +22,8 @@ struct JobResult {
   enum class Status {
     ok,
     crashed,    ///< the worker failed, for whatever reason but time
-    timed_out,  ///< the worker did not answer in time
+    timed_out,  ///< the worker did not answer in time, or the work took longer than a StopScope
+                ///< says
     skipped,    ///< the engine refused, or the user interrupted
     failed,     ///< the job's own function threw something else, see `error`
   };

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/stop_scope.h"
 #include "engine/fields.h"
 
 namespace slipcheck {
@@ -24,12 +25,6 @@ class WorkerFailure : public std::runtime_error {
 
  private:
   Status status_;
-};
-
-/// The user asked to stop while a worker was at work.
-class Interrupted : public std::runtime_error {
- public:
-  Interrupted() : std::runtime_error("interrupted") {}
 };
 
 struct WorkerLimits {

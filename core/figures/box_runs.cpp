@@ -1,15 +1,13 @@
 #include "figures/box_runs.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <future>
 #include <numbers>
 #include <random>
 #include <stdexcept>
-#include <thread>
 
 #include "harness/box_observer.h"
+#include "harness/in_parallel.h"
 #include "reference/planar_solver.h"
 
 namespace slipcheck {
@@ -96,15 +94,7 @@ HardScene VibratedBox::scene() const {
 
 std::vector<BoxMeans> run_boxes(std::span<const VibratedBox> boxes, double longer) {
   std::vector<BoxMeans> means(boxes.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t k = next++; k < boxes.size(); k = next++) means[k] = run_box(boxes[k], longer);
-  };
-  std::vector<std::future<void>> workers;
-  for (unsigned n = 1; n < std::thread::hardware_concurrency(); ++n)
-    workers.push_back(std::async(std::launch::async, work));
-  work();
-  for (std::future<void>& worker : workers) worker.get();
+  in_parallel(boxes.size(), 0, [&](std::size_t k) { means[k] = run_box(boxes[k], longer); });
   return means;
 }
 

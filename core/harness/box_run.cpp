@@ -26,8 +26,13 @@ double interval_of(const HardScene& scene, const BoxSampling& sampling) {
   return 1 / (frequency * static_cast<double>(sampling.per_period));
 }
 
-void add(const char* name, const BlockedMean& mean, ReferenceResult& result) {
-  if (std::isnan(mean.mean)) return;
+/// Notes in `not_numbers` what has samples and yet no mean.
+void add(const char* name, const BlockedMean& mean, ReferenceResult& result,
+         std::vector<std::string>& not_numbers) {
+  if (std::isnan(mean.mean)) {
+    if (mean.samples > 0) not_numbers.push_back(std::string("all.") + name);
+    return;
+  }
   const double half = mean.half_width95();
   result.observables.emplace(
       std::string("all.") + name,
@@ -78,10 +83,12 @@ ReferenceResult run_box_reference(const BoxSolver& solver, const Scenario& scena
   result.run.steps = run.steps;
 
   const BoxObservables seen = observer.finish(run.energy_error, run.momentum_error);
-  add("height", seen.height, result);
-  add("kinetic_energy", seen.kinetic_energy, result);
-  add("rotational_energy", seen.rotational_energy, result);
-  add("collision_rate", seen.collision_rate, result);
+  std::vector<std::string> not_numbers;
+  add("height", seen.height, result, not_numbers);
+  add("kinetic_energy", seen.kinetic_energy, result, not_numbers);
+  add("rotational_energy", seen.rotational_energy, result, not_numbers);
+  add("collision_rate", seen.collision_rate, result, not_numbers);
+  if (std::isnan(run.energy_error)) not_numbers.push_back("all.energy_drift");
   // Errors are their own uncertainty.
   result.observables["all.energy_drift"] = {run.energy_error, std::abs(run.energy_error)};
   if (!std::isnan(run.momentum_error))
@@ -92,7 +99,8 @@ ReferenceResult run_box_reference(const BoxSolver& solver, const Scenario& scena
     result.warnings.push_back(
         "event takes soft contacts as hard ones of their restitution and friction");
   for (const std::string& warning : solver.scene().warnings) result.warnings.push_back(warning);
-  if (!run.reached) result.warnings.push_back("the run did not end: " + run.reason);
+  fail_because_of_nan(not_numbers, result);
+  if (!result.run.reached) result.warnings.push_back("the run did not end: " + result.run.reason);
   if (!seen.steady)
     result.warnings.push_back(
         "no steady state: H, K or R still drifts over the samples, or there are too few of them; "

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ double root_mean_square(std::span<const double> values);
 /// reference has or any phase has.
 std::map<std::string, EnsembleValue> ensemble_values(
     const std::vector<std::map<std::string, double>>& phases);
+
+/// "1 of 3 phases do not show it"
+std::string missing_phases(const EnsembleValue& value);
 
 /// Why a tolerance judges nothing, where the reference shows nothing of what it names.
 inline constexpr const char* kNothingOccurs = "nothing of it occurs in the reference";

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/stop_scope.h"
 #include "harness/comparison.h"
 #include "harness/engine_state.h"
 #include "harness/observer.h"
@@ -148,6 +149,7 @@ void run_phases(RemoteEngine& engine, const EnsembleTask& task, const EngineReco
   const std::size_t chunk = steps_at_once(task.reference->run.end_time, step);
   try {
     for (std::size_t p = share.first; p < std::min(share.last, starts.size()); ++p) {
+      const StopScope limit(task.time_limit);
       PhaseRun run(task, step, starts[p]);
       engine.start(task.solver->states_at(starts[p]), starts[p]);
       while (!run.ended() || run.wants_more()) {

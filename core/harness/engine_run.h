@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,8 +16,9 @@ struct EnsembleTask {
   const ReferenceSolver* solver = nullptr;
   const ReferenceResult* reference = nullptr;
   const Scenario* scenario = nullptr;
-  std::size_t phases = 32;      ///< >= 1
-  PhaseWatch* watch = nullptr;  ///< sees every frame too
+  std::size_t phases = 32;                                      ///< >= 1
+  double time_limit = std::numeric_limits<double>::infinity();  ///< of wall time for each [s]
+  PhaseWatch* watch = nullptr;                                  ///< sees every frame too
 };
 
 /// Phases of an ensemble that one worker runs.
@@ -35,8 +37,8 @@ struct PhaseShare {
 std::vector<PhaseShare> phase_shares(std::size_t phases, std::size_t count);
 
 /// Runs the share's phases at the rate and with the settings of `record`. A state that is not
-/// finite, or that has left all bounds, ends it. Throws what RemoteEngine throws; what had ended by
-/// then is in the share.
+/// finite, or that has left all bounds, ends it. Throws what RemoteEngine throws, and what
+/// StopScope does; what had ended by then is in the share.
 void run_phases(RemoteEngine& engine, const EnsembleTask& task, const EngineRecord& record,
                 PhaseShare& share);
 

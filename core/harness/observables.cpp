@@ -52,35 +52,46 @@ constexpr std::array kPairScalars = {
     ScalarOfPair{"sliding_onset", &PairObservables::sliding_onset},
 };
 
+constexpr std::size_t kOfBody = kScalars.size() + 4 * kVectors.size();
+
+/// What a body's values are called, in the order of flat_values().
+std::vector<std::string> names_of_body() {
+  std::vector<std::string> names;
+  for (const auto& scalar : kScalars) names.emplace_back(scalar.name);
+  for (const auto& vector : kVectors) {
+    names.emplace_back(vector.name);
+    for (const char* axis : {".x", ".y", ".z"}) names.push_back(std::string(vector.name) + axis);
+  }
+  return names;
+}
+
 }  // namespace
+
+std::string value_name(const Observables& observables, const std::vector<std::string>& body_names,
+                       std::size_t index) {
+  static const std::vector<std::string> kNames = names_of_body();
+  const std::size_t of_bodies = kOfBody * observables.bodies.size();
+  if (index < of_bodies) return body_names[index / kOfBody] + "." + kNames[index % kOfBody];
+  const std::size_t left = index - of_bodies;
+  const PairObservables& pair = observables.pairs[left / kPairScalars.size()];
+  const std::string second = pair.second == kSubstrate
+                                 ? std::string("substrate")
+                                 : body_names[static_cast<std::size_t>(pair.second)];
+  return body_names[static_cast<std::size_t>(pair.first)] + "-" + second + "." +
+         kPairScalars[left % kPairScalars.size()].name;
+}
 
 std::vector<std::string> value_names(const Observables& observables,
                                      const std::vector<std::string>& body_names) {
-  std::vector<std::string> names;
-  names.reserve((kScalars.size() + 4 * kVectors.size()) * observables.bodies.size() +
-                kPairScalars.size() * observables.pairs.size());
-  for (std::size_t i = 0; i < observables.bodies.size(); ++i) {
-    const std::string prefix = body_names[i] + ".";
-    for (const auto& scalar : kScalars) names.push_back(prefix + scalar.name);
-    for (const auto& vector : kVectors) {
-      names.push_back(prefix + vector.name);
-      for (char axis : {'x', 'y', 'z'}) names.push_back(prefix + vector.name + "." + axis);
-    }
-  }
-  for (const PairObservables& pair : observables.pairs) {
-    const std::string second = pair.second == kSubstrate
-                                   ? std::string("substrate")
-                                   : body_names[static_cast<std::size_t>(pair.second)];
-    const std::string prefix =
-        body_names[static_cast<std::size_t>(pair.first)] + "-" + second + ".";
-    for (const auto& scalar : kPairScalars) names.push_back(prefix + scalar.name);
-  }
+  std::vector<std::string> names(kOfBody * observables.bodies.size() +
+                                 kPairScalars.size() * observables.pairs.size());
+  for (std::size_t k = 0; k < names.size(); ++k) names[k] = value_name(observables, body_names, k);
   return names;
 }
 
 std::vector<double> flat_values(const Observables& observables) {
   std::vector<double> values;
-  values.reserve((kScalars.size() + 4 * kVectors.size()) * observables.bodies.size() +
+  values.reserve(kOfBody * observables.bodies.size() +
                  kPairScalars.size() * observables.pairs.size());
   for (const BodyObservables& body : observables.bodies) {
     for (const auto& scalar : kScalars) values.push_back(body.*scalar.value);
@@ -97,10 +108,9 @@ std::vector<double> flat_values(const Observables& observables) {
 std::map<std::string, double> named_values(const Observables& observables,
                                            const std::vector<std::string>& body_names) {
   const std::vector<double> values = flat_values(observables);
-  const std::vector<std::string> names = value_names(observables, body_names);
   std::map<std::string, double> named;
   for (std::size_t k = 0; k < values.size(); ++k)
-    if (!std::isnan(values[k])) named.emplace(names[k], values[k]);
+    if (!std::isnan(values[k])) named.emplace(value_name(observables, body_names, k), values[k]);
   return named;
 }
 

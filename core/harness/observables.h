@@ -1,5 +1,9 @@
 #pragma once
 
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <string>
@@ -9,7 +13,13 @@
 
 namespace slipcheck {
 
-inline constexpr double kNotObserved = std::numeric_limits<double>::quiet_NaN();
+/// What did not happen: a NaN of its own, which arithmetic hands on and never makes.
+inline constexpr double kNotObserved = std::bit_cast<double>(std::uint64_t{0x7ff8'0000'6e6f'6e65});
+/// Else a NaN was computed, which is a fault.
+inline bool is_not_observed(double value) {
+  return std::bit_cast<std::uint64_t>(std::abs(value)) ==
+         std::bit_cast<std::uint64_t>(kNotObserved);
+}
 inline const Vector3 kVectorNotObserved = Vector3::Constant(kNotObserved);
 
 // What a run shows, defined in docs/observables.md. What did not happen is NaN. Times and distances
@@ -56,6 +66,10 @@ struct Observables {
 /// "i.final_velocity.x", "i-j.restitution". A vector's bare name is its length.
 std::vector<std::string> value_names(const Observables& observables,
                                      const std::vector<std::string>& body_names);
+
+/// One of them alone: of many bodies all names take more room than all values.
+std::string value_name(const Observables& observables, const std::vector<std::string>& body_names,
+                       std::size_t index);
 
 /// The values in the order of value_names(), NaN where not observed.
 std::vector<double> flat_values(const Observables& observables);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -22,8 +23,12 @@ struct PreparedScene {
 
 /// Solves these scenes, as many at once as there are threads (0: one for each core); how many
 /// changes no bit. Throws Unsupported where no solver knows a model, before any is run. general: as
-/// of ReferenceSettings.
-std::vector<PreparedScene> prepare_scenes(std::vector<Scenario> scenarios, bool general = false,
-                                          std::size_t threads = 1);
+/// of ReferenceSettings. time_limit: of wall time for each scene's reference, all its runs [s].
+///
+/// A reference that throws, is interrupted or runs out of time has failed, with the reason in its
+/// run; it shows nothing, and the other scenes go on.
+std::vector<PreparedScene> prepare_scenes(
+    std::vector<Scenario> scenarios, bool general = false, std::size_t threads = 1,
+    double time_limit = std::numeric_limits<double>::infinity());
 
 }  // namespace slipcheck

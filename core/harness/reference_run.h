@@ -49,6 +49,10 @@ struct ReferenceResult {
 ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
                               const std::vector<std::string>& body_names);
 
+/// What computed a NaN has no result: the run has failed, its reason names what is NaN, and nothing
+/// else of it is shown. Does nothing where `names` is empty.
+void fail_because_of_nan(const std::vector<std::string>& names, ReferenceResult& result);
+
 RunEnd run_end(const Scenario& scenario);
 std::vector<std::string> body_names(const Scenario& scenario);
 

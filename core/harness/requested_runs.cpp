@@ -22,6 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A message to an engine holds so many bodies: 64 MiB and 4 million items, of which each takes
+/// about 140 bytes and 9 items.
+constexpr std::size_t kMostBodies = 400'000;
+
 /// Every engine that the project or this machine knows of.
 std::vector<std::string> engine_names() {
   std::set<std::string> names(known_engines().begin(), known_engines().end());
@@ -62,6 +66,18 @@ class Profiles {
       settings.try_emplace("leaves_out", false);
     settings.merge(record.settings);
     record.settings = std::move(settings);
+  }
+
+  /// Notes a scene that no engine can be told of.
+  void check_size(const Scenario& scenario) {
+    const std::size_t bodies = scenario.bodies.size();
+    if (scenario.compare.engines.empty() || bodies <= kMostBodies) return;
+    note(
+        fault_at(scenario, "compare.engines",
+                 fmt::format("must be [] with more than {} bodies, the reference alone: no message "
+                             "to an engine holds more",
+                             kMostBodies),
+                 fmt::format("{} bodies", bodies)));
   }
 
   void throw_faults() const {
@@ -178,6 +194,7 @@ std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario
   std::vector<std::vector<EngineRecord>> runs;
   for (const Scenario& scenario : scenarios) {
     std::vector<EngineRecord>& records = runs.emplace_back();
+    profiles.check_size(scenario);
     for (std::size_t k = 0; k < scenario.compare.engines.size(); ++k) {
       const EngineRequest& request = scenario.compare.engines[k];
       EngineRecord record;

@@ -27,9 +27,9 @@ EngineRecord::Status status_of(JobResult::Status status) {
     case JobResult::Status::timed_out:
       return EngineRecord::Status::timed_out;
     case JobResult::Status::skipped:
+    case JobResult::Status::failed:  // a fault of ours is no result of an engine
       return EngineRecord::Status::skipped;
     case JobResult::Status::crashed:
-    case JobResult::Status::failed:
       break;
   }
   return EngineRecord::Status::crashed;
@@ -42,8 +42,8 @@ class EngineWork {
   EngineWork(const EngineTask& task, const RunOptions& options, std::size_t workers)
       : task_(&task), options_(&options) {
     if (const auto* solver = std::get_if<ReferenceSolver>(&task.scene->solver)) {
-      ensemble_ = {solver, &task.scene->reference, &task.scene->scenario, options.phases,
-                   task.watch};
+      ensemble_ = {solver,         &task.scene->reference, &task.scene->scenario,
+                   options.phases, options.time_limit,     task.watch};
       records_motion_ = options.record_motion && !task.watch &&
                         solver->scene().hard.bodies.size() <= kMostRecordedBodies;
       shares_ = phase_shares(options.phases, task.watch || records_motion_ ? 1 : workers);
@@ -90,18 +90,35 @@ class EngineWork {
 /// The first part that did not come to its end tells the record's status.
 void note_failure(const JobResult& result, std::size_t phases, EngineRecord& record) {
   if (result.status == JobResult::Status::ok) return;
-  // A fault of ours is no result of an engine.
-  if (result.status == JobResult::Status::failed) std::rethrow_exception(result.error);
   record.status = status_of(result.status);
-  record.reason = result.reason;
+  record.errors.clear();
+  record.reason = result.status == JobResult::Status::failed
+                      ? "it could not be compared: " + result.reason
+                      : result.reason;
   if (record.phases > 0)
     record.reason += fmt::format(" (in phase {} of {})", record.phases + 1, phases);
 }
 
-void record_motion_of(PreparedScene& scene) {
+/// Deviations of a run that came to its end; a fault in them is no result of the engine.
+void finish(EngineWork& work) {
+  try {
+    work.finish();
+  } catch (const std::exception& fault) {
+    note_failure({JobResult::Status::failed, fault.what(), std::current_exception()}, 0,
+                 work.record());
+  }
+}
+
+void record_motion_of(PreparedScene& scene, double time_limit) {
   const auto* solver = std::get_if<ReferenceSolver>(&scene.solver);
   if (!solver || scene.scenario.bodies.size() > kMostRecordedBodies) return;
-  scene.reference.motion = reference_motion(*solver, scene.reference.run.end_time);
+  if (scene.reference.observables.empty()) return;  // it has failed
+  try {
+    const StopScope limit(time_limit);
+    scene.reference.motion = reference_motion(*solver, scene.reference.run.end_time);
+  } catch (const std::exception& fault) {
+    scene.reference.warnings.push_back(std::string("its motion was not recorded: ") + fault.what());
+  }
 }
 
 }  // namespace
@@ -132,8 +149,8 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
   const std::vector<JobResult> results = pool.run_all(jobs, options.progress, options.stop);
   auto result = results.begin();
   for (EngineWork& work : works) {
-    work.finish();
     const auto end = result + static_cast<std::ptrdiff_t>(work.parts());
+    finish(work);
     const auto failed = std::find_if(
         result, end, [](const JobResult& each) { return each.status != JobResult::Status::ok; });
     // What an unstable phase before it says stands.
@@ -144,15 +161,17 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
 }
 
 std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOptions& options) {
+  const StopScope scope(options.stop);
   std::vector<std::vector<EngineRecord>> runs =
       requested_runs(scenarios, options.limits, options.stop, options.settings, options.general);
   std::vector<PreparedScene> prepared =
-      prepare_scenes(std::move(scenarios), options.general, options.workers);
+      prepare_scenes(std::move(scenarios), options.general, options.workers, options.time_limit);
   std::vector<EngineTask> tasks;
   for (std::size_t s = 0; s < prepared.size(); ++s)
     for (EngineRecord& record : runs[s]) tasks.push_back({&prepared[s], &record});
   run_engines(tasks, options);
-  if (options.record_motion) std::ranges::for_each(prepared, record_motion_of);
+  if (options.record_motion)
+    for (PreparedScene& scene : prepared) record_motion_of(scene, options.time_limit);
 
   std::vector<SceneRecord> scenes;
   for (std::size_t s = 0; s < prepared.size(); ++s)

@@ -21,9 +21,11 @@ struct RunOptions {
   /// than kMostRecordedBodies.
   bool record_motion = false;
   std::size_t workers = 0;  ///< at once; 0: one for each core
-  double time_limit = 60;   ///< of wall time for one phase of an engine [s], > 0
+  /// Of wall time for one phase of an engine, and for the reference of a scene [s], > 0.
+  double time_limit = 60;
   WorkerLimits limits;
-  const std::atomic<bool>* stop = nullptr;  ///< once set, what has not begun is skipped
+  /// Once set, what has not begun is skipped and what is at work ends within a second.
+  const std::atomic<bool>* stop = nullptr;
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< of ensembles
 };
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/stop_scope.h"
 #include "engine/engine_registry.h"
 #include "engine/remote_engine.h"
 #include "harness/in_parallel.h"
@@ -21,8 +22,6 @@ namespace slipcheck {
 namespace {
 
 constexpr const char* kIterations = "solver_iterations";
-
-bool is_stopped(const RunOptions& options) { return options.stop != nullptr && *options.stop; }
 
 void refuse_boxes(const std::vector<Scenario>& scenarios) {
   std::vector<Fault> faults;
@@ -116,8 +115,8 @@ struct Work {
   const ReferenceSolver& solver() const { return std::get<ReferenceSolver>(scene->solver); }
 };
 
+/// Of a scene whose reference has an end to be held against.
 void run_reference_solvers(Work& work, const PrecisionGrid& grid, const RunOptions& options) {
-  if (is_stopped(options)) return;
   const double end = work.scene->reference.run.end_time;
   work.path = travelled_path(work.solver(), work.scene->reference);
   for (const double rate : grid.rates) {
@@ -125,6 +124,14 @@ void run_reference_solvers(Work& work, const PrecisionGrid& grid, const RunOptio
     work.samples[rate] = trajectory_samples(work.solver(), end, 1 / rate, starts);
   }
   work.reference = reference_curves(*work.scene, work.path, grid);
+}
+
+/// There is nothing to hold the scene's engines against.
+void skip(Work& work, const std::string& reason) {
+  for (EngineCurve& curve : work.engines)
+    for (EngineRecord& record : curve.records)
+      if (record.reason.empty())
+        record.reason = "there is no reference to hold it against: " + reason;
 }
 
 void run_all_engines(std::vector<Work>& works, const RunOptions& options) {
@@ -177,11 +184,13 @@ std::vector<MethodCurve> curves_of(Work& work) {
 
 std::vector<PrecisionScene> run_precision(std::vector<Scenario> scenarios,
                                           const PrecisionGrid& grid, const RunOptions& options) {
+  const StopScope scope(options.stop);
   refuse_boxes(scenarios);
   std::vector<Scenario> asked = scenarios;
   for (Scenario& scenario : asked) ask_for(scenario, grid.engines, grid.rates);
   const auto records = requested_runs(asked, options.limits, options.stop, options.settings);
-  std::vector<PreparedScene> prepared = prepare_scenes(std::move(scenarios), false, options.workers);
+  std::vector<PreparedScene> prepared =
+      prepare_scenes(std::move(scenarios), false, options.workers, options.time_limit);
 
   OwnIterations own(options);
   std::vector<Work> works(prepared.size());
@@ -189,8 +198,15 @@ std::vector<PrecisionScene> run_precision(std::vector<Scenario> scenarios,
     works[s].scene = &prepared[s];
     works[s].engines = engine_curves(records[s], grid, own);
   }
-  in_parallel(works.size(), options.workers,
-              [&](std::size_t s) { run_reference_solvers(works[s], grid, options); });
+  in_parallel(works.size(), options.workers, [&](std::size_t s) {
+    const SolvedRun& run = prepared[s].reference.run;
+    if (run.failed) return skip(works[s], run.reason);
+    try {
+      run_reference_solvers(works[s], grid, options);
+    } catch (const std::exception& fault) {
+      skip(works[s], fault.what());
+    }
+  });
   // A scene's timing counts as one ensemble more.
   RunOptions with_timing = options;
   std::size_t ensembles = 0;
@@ -208,9 +224,12 @@ std::vector<PrecisionScene> run_precision(std::vector<Scenario> scenarios,
     scene.simulated = prepared[s].reference.run.end_time;
     scene.path_length = works[s].path.length;
     scene.curves = curves_of(works[s]);
-    if (!is_stopped(options)) {
+    try {
+      heed_stop();
       std::vector<TimedWork> timed = timed_works(prepared[s], scene.curves, workers);
       time_in_turn(timed, grid.repeats, options.stop);
+    } catch (const Interrupted&) {
+      // What is not timed has no cost.
     }
     for (MethodCurve& curve : scene.curves)
       find_convergence(prepared[s].scenario, prepared[s].reference, curve);

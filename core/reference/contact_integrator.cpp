@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stop_scope.h"
 #include "physics/numbers.h"
 
 namespace slipcheck {
@@ -129,6 +130,7 @@ ContactIntegrator::Happening ContactIntegrator::advance(double limit) {
   Happening happening;
   // What is due within rounding of now needs no step.
   if (last <= state_.time + 4e-16 * std::abs(state_.time)) {
+    heed_stop();
     state_.time = std::max(state_.time, last);
     happening.kink = last == kink;
     add_landings(last, happening);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,6 +16,9 @@
 
 namespace slipcheck {
 namespace {
+
+/// γ/ω0 up to which γ² + ω0² is not γ² to the last digit: 1/√ε of a double.
+constexpr double kMostDamping = 6.7e7;
 
 double dissipation_of(const Material& material, const std::pair<double, double>& eta) {
   return dissipation_time(eta.first, eta.second, *material.young_modulus, *material.poisson_ratio);
@@ -86,7 +91,28 @@ SoftContact ContactMaker::soft(const ClassPair& pair) {
   made.end = end();
   made.tangential = std::visit(
       [&](const auto& model) { return tangential(model, made.normal, pair); }, contact_.tangential);
+  check_damping(made, pair);
   return made;
+}
+
+void ContactMaker::check_damping(const SoftContact& made, const ClassPair& pair) const {
+  const ImpactScales at_one = impact_scales(made.normal, pair.mass(), 1);
+  const auto check = [&](std::initializer_list<const char*> keys, double rate) {
+    if (rate * at_one.time <= kMostDamping) return;
+    const auto written = std::ranges::find_if(
+        keys, [&](const char* key) { return scenario_.locations.contains(contact_.path + key); });
+    throw BadScenario({fault_of(
+        scenario_, contact_.path + (written == keys.end() ? ".normal.model" : *written),
+        fmt::format("must damp at a rate of at most {:.3g} /s, {:.2g} over the time of an impact; "
+                    "beyond that the elastic force is lost in rounding",
+                    kMostDamping / at_one.time, kMostDamping),
+        fmt::format("a rate of {:.3g} /s", rate))});
+  };
+  check({".normal.damping_rate", ".normal.viscosity", ".normal.dissipation_time"},
+        at_one.dissipation / at_one.time);
+  if (const auto* viscous = std::get_if<ViscousForce>(&made.tangential))
+    check({".tangential.damping_rate", ".tangential.damping_ratio"},
+          viscous->damping / pair.mass());
 }
 
 PairContact ContactMaker::hard_equivalent(const SoftContact& soft, const ClassPair& pair) {
@@ -147,6 +173,14 @@ NormalForce ContactMaker::normal(const HardNormal&, const ClassPair& pair) {
 
 NormalForce ContactMaker::normal(const LinearNormal& model, const ClassPair& pair) {
   const LinearContact contact = linear_contact(model, pair.mass());
+  // As where it is given, the restitution is above 0.
+  if (model.damping_rate && model.collision_time && !(contact.restitution() > 0))
+    throw BadScenario({fault_of(
+        scenario_, contact_.path + ".normal.damping_rate",
+        fmt::format(
+            "must leave a restitution > 0: exp(-damping_rate collision_time/2), with {:.6g} s",
+            *model.collision_time),
+        fmt::format("{:.6g} /s", *model.damping_rate))});
   return LinearForce{contact.stiffness(), contact.damping_rate() * pair.mass()};
 }
 

@@ -45,7 +45,8 @@ class ContactMaker {
   /// A hard one whose restitution is that of the viscoelastic law.
   bool is_viscoelastic_restitution() const;
 
-  /// Throws BadScenario for a restitution that the law cannot reach.
+  /// Throws BadScenario for a restitution that the law cannot reach, and for a damping beside which
+  /// there is no elastic force.
   SoftContact soft(const ClassPair& pair);
   /// The hard contact that comes closest to a soft one.
   PairContact hard_equivalent(const SoftContact& soft, const ClassPair& pair);
@@ -55,6 +56,7 @@ class ContactMaker {
 
  private:
   ContactEnd end() const;
+  void check_damping(const SoftContact& made, const ClassPair& pair) const;
   NormalForce normal(const HardNormal& model, const ClassPair& pair);
   NormalForce normal(const LinearNormal& model, const ClassPair& pair);
   NormalForce normal(const HertzNormal& model, const ClassPair& pair);

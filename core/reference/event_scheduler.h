@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/stop_scope.h"
 #include "physics/numbers.h"
 #include "reference/calendar_queue.h"
 
@@ -67,10 +68,14 @@ class EventScheduler {
     if constexpr (!KeepsPlans<World>) plans_.resize(world.size());
     const auto n = static_cast<std::uint32_t>(world.size());
     for (std::uint32_t i = 0; i < n; ++i) {
+      heed_stop();
       forget_collision(i);
       plan_own_event(i);
     }
-    for (std::uint32_t i = 0; i < n; ++i) plan_collision(i);
+    for (std::uint32_t i = 0; i < n; ++i) {
+      heed_stop();
+      plan_collision(i);
+    }
   }
 
   /// The same plans for a copy of the world.
@@ -82,7 +87,9 @@ class EventScheduler {
   double next_time() { return queue_.first().time; }
 
   /// Performs the next event; there must be one at a finite time. Some only mend a plan.
+  /// Heeds stops, as the constructor does.
   void step() {
+    heed_stop();
     const auto [time, i] = queue_.first();
     if constexpr (kLooksAhead) look_ahead();
     // A root may lie a rounding error before the last event; time never runs back.

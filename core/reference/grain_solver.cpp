@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/stop_scope.h"
 #include "physics/numbers.h"
 #include "reference/grain_islands.h"
 #include "reference/grain_kernels.h"
@@ -73,6 +74,7 @@ class GrainSolver::Impl {
 
   void advance(std::size_t steps) {
     while (steps > 0) {
+      heed_stop();
       if (!(fastest_ * step_ <= 0.5 * radius()))
         throw StepTooLong("bodies move by more than half a radius in a step");
       const std::size_t length = next_block(steps);

@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "base/stop_scope.h"
+
 namespace slipcheck {
 namespace {
 
@@ -126,6 +128,7 @@ void Ode::start(double t, std::span<const double> y, double tolerance,
 }
 
 Ode::Stop Ode::step(double limit) {
+  heed_stop();
   Memory& m = *memory_;
   m.message.clear();
   m.before = m.now;

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/stop_scope.h"
 #include "physics/elastic_pair.h"
 #include "reference/scaled_impact.h"
 #include "reference/scaled_pair.h"
@@ -169,6 +170,7 @@ void collide_batch(const SoftContact& contact, const Sphere& first, const Sphere
     throw std::invalid_argument(fmt::format("steps must be at least 8, got {}", steps));
   Batch batch(contact, first, second, steps);
   for (std::size_t k = 0; k < out.size(); k += kBlock) {
+    heed_stop();
     const std::size_t n = std::min(kBlock, out.size() - k);
     batch.collide(normal_speed.subspan(k, n), tangential_speed.subspan(k, n), out.subspan(k, n));
   }

@@ -123,7 +123,7 @@ PlanarRun PlanarSolver::run(Scheduler& scheduler, const RunEnd& end, FrameSink* 
   run.dissipated = world_.dissipated();
   const double sum = std::abs(first_energy_) + std::abs(run.work) + run.dissipated;
   run.energy_error =
-      sum > 0 ? std::abs(run.energy - first_energy_ - run.work + run.dissipated) / sum : 0;
+      sum == 0 ? 0 : std::abs(run.energy - first_energy_ - run.work + run.dissipated) / sum;
   double mass = 0;
   for (const Sphere& sphere : scene_->bodies) mass += sphere.mass;
   Vector2 given = world_.wall_impulse();

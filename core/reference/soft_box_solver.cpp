@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "base/stop_scope.h"
 #include "physics/numbers.h"
 #include "reference/soft_box_dynamics.h"
 #include "reference/soft_box_flight.h"
@@ -50,6 +51,7 @@ class SoftBoxSolver::Impl {
     SoftBoxRun run;
     if (sink) show(now_, state_);
     while (now_ < end.time && steps_ < settings_.max_steps) {
+      heed_stop();
       if (now_ >= flight_.valid_until() || must_list_) list();
       const Near* meeting = flight_.next_meeting(now_);
       double until = std::min(end.time, flight_.valid_until());
@@ -79,7 +81,7 @@ class SoftBoxSolver::Impl {
     const double last = energy();
     const double scale = std::max(
         {std::abs(first_energy_), std::abs(last), std::abs(run.work), std::abs(run.dissipated)});
-    if (scale > 0) run.energy_error = (last - first_energy_ - run.work + run.dissipated) / scale;
+    if (scale != 0) run.energy_error = (last - first_energy_ - run.work + run.dissipated) / scale;
     return run;
   }
 

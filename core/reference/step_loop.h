@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stop_scope.h"
 #include "reference/step_kernel.h"
 #include "reference/step_pair.h"
 
@@ -47,12 +48,17 @@ class StepLoop final : public StepKernel {
   }
 
   void advance(StepWorld& world, std::size_t steps, StepStop stop) override {
-    for (std::size_t k = 0; k < steps; ++k) {
-      find_forces(world);
-      if (stop != StepStop::never && is_met(world, stop)) return;
-      move(world);
-      ++world.n;
-      world.forces_known = false;
+    const std::size_t batch = 1 + kBodySteps / world.bodies.size();
+    for (std::size_t begin = 0; begin < steps; begin += batch) {
+      heed_stop();
+      const std::size_t end = std::min(steps, begin + batch);
+      for (std::size_t k = begin; k < end; ++k) {
+        find_forces(world);
+        if (stop != StepStop::never && is_met(world, stop)) return;
+        move(world);
+        ++world.n;
+        world.forces_known = false;
+      }
     }
   }
 
@@ -89,6 +95,9 @@ class StepLoop final : public StepKernel {
   }
 
  private:
+  /// Steps, times the bodies, between two looks at whether to stop.
+  static constexpr std::size_t kBodySteps = 4096;
+
   /// On the first of two bodies, and of that the part across the line of centres, which alone turns
   /// them [N].
   struct Force {

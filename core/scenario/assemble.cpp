@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -169,10 +170,11 @@ void resolve_bodies(const WrittenScene& written, Scenario& scenario, Reading& re
 
   std::vector<Body> placed = explicit_bodies;
   auto next = explicit_bodies.begin();
+  const std::size_t fills = written.fill.size() + written.bodies.size() - explicit_bodies.size();
   const auto add_fill = [&](const Fill& fill) {
-    const std::vector<Body> filled = resolve(fill, written, placed, reading);
-    placed.insert(placed.end(), filled.begin(), filled.end());
-    scenario.bodies.insert(scenario.bodies.end(), filled.begin(), filled.end());
+    std::vector<Body> filled = resolve(fill, written, placed, reading);
+    if (fills > 1) placed.insert(placed.end(), filled.begin(), filled.end());
+    std::ranges::move(filled, std::back_inserter(scenario.bodies));
   };
   for (const auto& entry : written.bodies) {
     if (const auto* fill = std::get_if<Fill>(&entry)) {

@@ -9,17 +9,17 @@ namespace {
 constexpr std::int64_t kMostBodies = 1'000'000;
 constexpr std::int64_t kLargestSeed = std::int64_t{1} << 53;  // exact as a double
 
-/// q of I = q m R².
+/// q of I = q m R². No mass lies further from the axis than R: I = ∫ r² dm <= m R².
 Rule<double> inertia_rule() {
   const auto shape =
       choice<double>({{"solid", 2.0 / 5}, {"shell", 2.0 / 3}, {"disk", 1.0 / 2}, {"ring", 1.0}});
-  return one_form_of<double>("must be solid, shell, disk, ring or a number > 0",
+  return one_form_of<double>("must be solid, shell, disk, ring or a number in (0, 1]",
                              {{[](const YamlNode& node) {
                                  return is_scalar(node) && node.text[0] >= 'a' &&
                                         node.text[0] <= 'z';
                                },
                                shape},
-                              {is_scalar, number(kPureNumber, kPositive)}});
+                              {is_scalar, number(kPureNumber, {{}, 0, 1, {}})}});
 }
 
 Rule<WrittenSpin> spin_rule() {

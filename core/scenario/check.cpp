@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/stop_scope.h"
 #include "scenario/rules.h"
 
 namespace slipcheck {
@@ -91,6 +92,7 @@ void check_names(const WrittenScene& written, Reading& reading) {
   for (const Fill* fill : fills) {
     check_material(fill->material, fill->path + ".material", written, reading);
     for (std::int64_t i = 1; fill->complete && i <= fill->count; ++i) {
+      heed_stop();
       const std::string name = fill->prefix + std::to_string(i);
       if (path_of.emplace(name, fill->path).second) continue;
       reading.fault_at(

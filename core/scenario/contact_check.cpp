@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -96,6 +97,38 @@ void check_models(const WrittenContact& contact, const WrittenScene& written, Re
   }
 }
 
+/// The least radius of the bodies of a material [m]; infinite where there are none.
+double least_radius(const std::string& material, const WrittenScene& written) {
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](const std::string& of, double radius) {
+    if (of == material && radius > 0) least = std::min(least, radius);
+  };
+  for (const auto& entry : written.bodies) {
+    if (const auto* body = std::get_if<WrittenBody>(&entry)) {
+      look(body->material, body->sphere.radius);
+    } else {
+      look(std::get<Fill>(entry).material, std::get<Fill>(entry).least_radius);
+    }
+  }
+  for (const Fill& fill : written.fill) look(fill.material, fill.least_radius);
+  return least;
+}
+
+/// A sphere's contact is a part of its cross section.
+void check_contact_radius(const WrittenContact& contact, const WrittenScene& written,
+                          Reading& reading) {
+  if (!contact.substrate.drilling.contact_radius) return;
+  for (const std::string& name : contact.between) {
+    const double least = least_radius(name, written);
+    if (*contact.substrate.drilling.contact_radius <= least * (1 + 1e-12))
+      continue;  // round-off of units
+    reading.fault_at(contact.path + ".drilling.contact_radius",
+                     fmt::format("must be at most the radius of the smallest body of {}, {:.6g} {}",
+                                 name, least / to_si(1, kLength, reading.units()),
+                                 unit_name(kLength, reading.units())));
+  }
+}
+
 void check_on_substrate(const WrittenContact& contact, const WrittenScene& written,
                         Reading& reading) {
   const MaterialOnSubstrate& on = contact.substrate;
@@ -119,6 +152,7 @@ void check_on_substrate(const WrittenContact& contact, const WrittenScene& writt
                                    on.friction.static_));
     }
   }
+  check_contact_radius(contact, written, reading);
   if (on.drilling.model != Drilling::Model::none && !on.drilling.contact_radius) {
     for (const std::string& name : contact.between) {
       need_elastic(name, contact.path + ".drilling", "contact_radius: hertz", written, reading);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <random>
 
+#include "base/stop_scope.h"
 #include "scenario/fill_lattice.h"
 #include "scenario/fill_plane.h"
 
@@ -88,6 +89,7 @@ std::vector<Vector3> free_sites(const Fill& fill, const WrittenScene& scene, con
   std::vector<Vector3> sites;
   for (double row = 0; row < lattice.rows(); ++row) {
     for (double column = 0; column < lattice.columns(row); ++column) {
+      heed_stop();
       if (static_cast<std::int64_t>(sites.size()) == fill.count || ++attempts > kAllAttempts)
         return sites;
       const Vector2 site = Vector2(area[0], area[1]) + lattice.site(row, column);
@@ -157,6 +159,7 @@ std::vector<Body> expand(const Fill& fill, const WrittenScene& scene,
   };
   std::vector<Body> bodies;
   for (std::int64_t n = 1; n <= fill.count; ++n) {
+    heed_stop();
     Body body{fill.prefix + std::to_string(n), fill.material, {}, {}};
     const double radius = random.between(fill.least_radius, fill.most_radius);
     body.sphere.radius = radius;

@@ -23,6 +23,7 @@ FillPlane::FillPlane(const Fill& fill, const WrittenScene& scene)
       size_(fill.area[2] - fill.area[0], fill.area[3] - fill.area[1]),
       cell_(2 * fill.most_radius) {
   if (scene.substrate) periodic_ = scene.substrate->periodic;
+  cells_.reserve(static_cast<std::size_t>(fill.count));
 }
 
 bool FillPlane::has_few_cells() const { return size_.maxCoeff() / cell_ < kMostCells; }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "base/stop_scope.h"
 #include "harness/prepared_scene.h"
 #include "reference/step_solver.h"
 #include "stability/closed_contact.h"
@@ -33,28 +34,30 @@ Limit limit_of(Limit::Kind kind, std::string scene) {
   return limit;
 }
 
-void search(Limit& limit, LimitRange range, const std::function<Trial(double)>& trial,
-            const std::atomic<bool>* stop) {
+void search(Limit& limit, LimitRange range, const std::function<Trial(double)>& trial) {
   limit.low = range.low;
   limit.high = range.high;
   LimitSearch search(range);
-  while (!search.is_done() && !(stop && *stop)) {
-    std::vector<Trial> trials;
-    for (const double value : search.wanted()) trials.push_back(trial(value));
-    search.tell(trials);
+  try {
+    while (!search.is_done()) {
+      heed_stop();
+      std::vector<Trial> trials;
+      for (const double value : search.wanted()) trials.push_back(trial(value));
+      search.tell(trials);
+    }
+  } catch (const Interrupted&) {
+    // fill_in() says so.
   }
   fill_in(limit, search);
 }
 
-Limit closed_contact_limit(double damping_ratio, const std::atomic<bool>* stop) {
+Limit closed_contact_limit(double damping_ratio) {
   Limit limit =
       limit_of(Limit::Kind::stable_step, fmt::format("closed-contact, γ/ω0 = {:g}", damping_ratio));
   limit.theory = step_limit(kOmega0, damping_ratio * kOmega0);
   limit.theory_name = damping_ratio == 0 ? "2/ω0" : "2 (√(1 + ε²) − ε)/ω0, ε = γ/ω0";
-  search(
-      limit, {0.01 / kOmega0, 10 / kOmega0, LimitRange::GoodEnd::low, 4, kRatio},
-      [&](double step) { return closed_contact_trial(kOmega0, damping_ratio * kOmega0, step); },
-      stop);
+  search(limit, {0.01 / kOmega0, 10 / kOmega0, LimitRange::GoodEnd::low, 4, kRatio},
+         [&](double step) { return closed_contact_trial(kOmega0, damping_ratio * kOmega0, step); });
   return limit;
 }
 
@@ -65,16 +68,19 @@ Limit collision_limit(bool by_restitution, const LimitGrid& grid, const RunOptio
   Limit limit = limit_of(Limit::Kind::accurate_step,
                          scenario.name + (by_restitution ? ", restitution alone" : ""));
   const std::vector<PreparedScene> prepared = prepare_scenes({std::move(scenario)});
+  const ReferenceResult& reference = prepared.front().reference;
+  if (reference.run.failed) {
+    limit.reason = reference.run.reason;
+    return limit;
+  }
   const ReferencePath path(prepared.front());
-  const double duration = prepared.front().reference.observables.at("i-j.contact_time").value;
-  search(
-      limit,
-      {duration / 1000, 10 * duration, LimitRange::GoodEnd::low, grid.per_decade, grid.ratio},
-      [&](double step) {
-        FixedStepOutcome seen = fixed_step_outcome(path, step, options.phases, grid.criteria);
-        return Trial{seen.outcome == Outcome::accurate, seen.outcome, std::move(seen.why)};
-      },
-      options.stop);
+  const double duration = reference.observables.at("i-j.contact_time").value;
+  search(limit,
+         {duration / 1000, 10 * duration, LimitRange::GoodEnd::low, grid.per_decade, grid.ratio},
+         [&](double step) {
+           FixedStepOutcome seen = fixed_step_outcome(path, step, options.phases, grid.criteria);
+           return Trial{seen.outcome == Outcome::accurate, seen.outcome, std::move(seen.why)};
+         });
   return limit;
 }
 
@@ -83,7 +89,7 @@ Limit collision_limit(bool by_restitution, const LimitGrid& grid, const RunOptio
 std::vector<Limit> fixed_step_limits(const LimitGrid& grid, const RunOptions& options) {
   std::vector<Limit> limits;
   for (const double damping_ratio : kDampingRatios)
-    limits.push_back(closed_contact_limit(damping_ratio, options.stop));
+    limits.push_back(closed_contact_limit(damping_ratio));
   for (const bool by_restitution : {false, true})
     limits.push_back(collision_limit(by_restitution, grid, options));
   return limits;

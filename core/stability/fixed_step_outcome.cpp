@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/stop_scope.h"
 #include "harness/comparison.h"
 #include "harness/engine_state.h"
 #include "harness/observer.h"
@@ -79,6 +80,8 @@ FixedStepOutcome fixed_step_outcome(const ReferencePath& path, double step, std:
         lost = run_lost.why;
       }
     }
+  } catch (const Interrupted&) {
+    throw;
   } catch (const std::runtime_error& refused) {
     // Unsupported, or the reference cannot say where a phase begins.
     result.why = refused.what();

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/stop_scope.h"
 #include "stability/engine_limits.h"
 #include "stability/fixed_step_limits.h"
 #include "stability/limit_trials.h"
@@ -14,6 +15,7 @@ namespace slipcheck {
 double Limit::value() const { return good && bad ? std::sqrt(*good * *bad) : kNotObserved; }
 
 LimitResults find_limits(const LimitGrid& grid, const RunOptions& options) {
+  const StopScope scope(options.stop);
   const std::vector<EngineRecord> methods = methods_of(grid.engines, options);
   std::vector<const EngineRecord*> mapped;
   for (const EngineRecord& method : methods) {
@@ -38,7 +40,12 @@ LimitResults find_limits(const LimitGrid& grid, const RunOptions& options) {
     keep(speed_restitution_map(*method, grid, scenes, trials));
     keep(step_speed_map(*method, grid, scenes, trials));
   }
-  if (!trials.is_interrupted()) keep(step_stiffness_map(grid, options));
+  try {
+    heed_stop();
+    keep(step_stiffness_map(grid, options));
+  } catch (const Interrupted&) {
+    // A map with holes is none.
+  }
   return results;
 }
 

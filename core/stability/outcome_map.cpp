@@ -102,7 +102,7 @@ std::optional<OutcomeMap> step_speed_map(const EngineRecord& method, const Limit
   });
 }
 
-std::optional<OutcomeMap> step_stiffness_map(const LimitGrid& grid, const RunOptions& options) {
+OutcomeMap step_stiffness_map(const LimitGrid& grid, const RunOptions& options) {
   OutcomeMap map;
   map.name = "step-stiffness-fixed-step";
   map.title = "fixed-step, e_n = 0.9";
@@ -131,13 +131,11 @@ std::optional<OutcomeMap> step_stiffness_map(const LimitGrid& grid, const RunOpt
   map.outcome.resize(columns * paths.size(), Outcome::refused);
   map.worst_error.resize(map.outcome.size(), kNotObserved);
   in_parallel(map.outcome.size(), options.workers, [&](std::size_t cell) {
-    if (options.stop && *options.stop) return;
     const FixedStepOutcome seen = fixed_step_outcome(
         paths[cell / columns], map.x.values[cell % columns], options.phases, grid.criteria);
     map.outcome[cell] = seen.outcome;
     map.worst_error[cell] = restitution_error(seen.errors);
   });
-  if (options.stop && *options.stop) return std::nullopt;
   return map;
 }
 

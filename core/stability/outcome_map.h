@@ -18,7 +18,7 @@ std::optional<OutcomeMap> step_speed_map(const EngineRecord& method, const Limit
                                          VariedScenes& scenes, EnsembleTrials& trials);
 
 /// The reference's fixed-step solver on the soft pair over the step and the stiffness, with the
-/// line of step_limit(); the restitution alone counts.
-std::optional<OutcomeMap> step_stiffness_map(const LimitGrid& grid, const RunOptions& options);
+/// line of step_limit(); the restitution alone counts. Throws Interrupted.
+OutcomeMap step_stiffness_map(const LimitGrid& grid, const RunOptions& options);
 
 }  // namespace slipcheck

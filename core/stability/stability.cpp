@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/stop_scope.h"
 #include "harness/in_parallel.h"
 #include "harness/requested_runs.h"
 #include "scenario/fault.h"
@@ -44,10 +45,10 @@ struct PreparedCase {
   ReferenceOutcome outcome;
 };
 
-PreparedCase prepare(const Scenario& scenario) {
+PreparedCase prepare(const Scenario& scenario, double time_limit) {
   PreparedCase made;
   try {
-    made.scene = prepare_scenes({scenario});
+    made.scene = prepare_scenes({scenario}, false, 1, time_limit);
     made.outcome = reference_outcome(made.scene.front());
   } catch (const Unsupported& unsupported) {
     made.outcome.refused = true;
@@ -68,6 +69,7 @@ bool is_interrupted(const RunOptions& options) { return options.stop && *options
 
 std::vector<StabilityCase> run_stability(std::vector<Scenario> cases, const StabilityGrid& grid,
                                          const RunOptions& options) {
+  const StopScope scope(options.stop);
   refuse_boxes(cases);
   for (Scenario& scenario : cases) ask_for(scenario, grid.engines, rates_of(scenario, grid));
   std::vector<std::vector<EngineRecord>> records =
@@ -78,7 +80,7 @@ std::vector<StabilityCase> run_stability(std::vector<Scenario> cases, const Stab
     if (is_interrupted(options))
       prepared[k].outcome.why = "interrupted";
     else
-      prepared[k] = prepare(cases[k]);
+      prepared[k] = prepare(cases[k], options.time_limit);
   });
 
   std::vector<OutcomeTask> tasks;

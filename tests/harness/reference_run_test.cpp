@@ -2,6 +2,7 @@
 
 #include <cfenv>
 #include <cmath>
+#include <limits>
 
 #include "../reference/soft_scenes.h"
 #include "../support/extremes.h"
@@ -55,6 +56,32 @@ TEST(ReferenceRun, SoftContactsHaveTheUncertaintyOfTheIntegration) {
   EXPECT_LT(time.uncertainty, 1e-10 * time.value);
   // 4 μ_k g/(π v_rel ω0) of itself longer than the law's own (K App. D).
   EXPECT_NEAR(time.value / 2.55e-5 - 1, 3.4e-5, 0.4e-5);
+}
+
+TEST(ReferenceRun, ANaNIsAFailureAndNotNothing) {
+  // A ball that spins on the spot, at no number of turns.
+  HardScene scene = test::steel_scene(1);
+  scene.initial[0] = test::rolling_at(0, 0, 0, 0);
+  scene.initial[0].angular_velocity.z() = std::sqrt(-scene.gravity);
+  const ReferenceResult result = test::run_hard(scene, {Run::Until::time, 1, 1}, {"i"});
+  EXPECT_TRUE(result.run.failed);
+  EXPECT_FALSE(result.run.reached);
+  EXPECT_EQ(result.run.reason.find("NaN in i."), 0u) << result.run.reason;
+  EXPECT_TRUE(result.observables.empty());
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_EQ(result.warnings[0], "the run did not end: " + result.run.reason);
+}
+
+TEST(Observables, WhatDidNotHappenIsNotWhatCouldNotBeComputed) {
+  const double zero = test::rolling_at(0, 0, 0, 0).velocity.x();
+  EXPECT_TRUE(is_not_observed(kNotObserved));
+  EXPECT_TRUE(is_not_observed(-kNotObserved));
+  EXPECT_TRUE(is_not_observed(3 * (kNotObserved - 1)));
+  EXPECT_TRUE(is_not_observed(kVectorNotObserved.norm()));
+  EXPECT_FALSE(is_not_observed(zero / zero));
+  EXPECT_FALSE(is_not_observed(std::sqrt(zero - 1)));
+  EXPECT_FALSE(is_not_observed(std::numeric_limits<double>::infinity() * zero));
+  EXPECT_FALSE(is_not_observed(zero));
 }
 
 TEST(ReferenceRun, SaysWhenEventTakesSoftContactsAsHard) {

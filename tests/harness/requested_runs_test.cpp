@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "engine/protocol.h"
 #include "scenario/fault.h"
 #include "scenario/load.h"
 
@@ -161,6 +162,37 @@ TEST_F(RequestedRunsTest, EverythingThatIsWrongIsToldAtOnceAndOnce) {
   };
   EXPECT_EQ(faults({scene}), expected);
   EXPECT_EQ(faults({scene, scene}), expected);
+}
+
+TEST_F(RequestedRunsTest, MoreBodiesThanAMessageHoldsAreRefused) {
+  // What each further body adds to the longest message, of 64 MiB at most.
+  const auto bytes = [](std::size_t bodies) {
+    HardScene scene;
+    scene.bodies.assign(bodies, {0.1, 1.0 / 3, 0.4});
+    scene.material.assign(bodies, 0);
+    scene.initial.resize(bodies);
+    scene.substrate.resize(1);
+    scene.pairs.resize(1);
+    return protocol::encode(protocol::Configure{scene, {}, 0.01}).size();
+  };
+  EXPECT_LT((bytes(2000) - bytes(1000)) * 400, protocol::kMaxMessage);
+
+  Scenario scenario;
+  scenario.file = "s.yaml";
+  scenario.bodies.resize(400'001);
+  scenario.locations["compare.engines"] = {7, 12};
+  EXPECT_NO_THROW(requested_runs({scenario}));  // the reference alone
+  scenario.compare.engines.resize(1);
+  scenario.compare.engines[0].engine = "bullet";
+  scenario.compare.engines[0].rates = {240};
+  try {
+    requested_runs({scenario});
+    FAIL() << "not refused";
+  } catch (const BadScenario& bad) {
+    EXPECT_STREQ(bad.what(),
+                 "s.yaml:7:12: compare.engines: must be [] with more than 400000 bodies, the "
+                 "reference alone: no message to an engine holds more, got 400001 bodies");
+  }
 }
 
 }  // namespace

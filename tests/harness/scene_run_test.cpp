@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <string>
+#include <thread>
 
 #include "engine/profile.h"
 #include "scenario/fault.h"
@@ -68,6 +71,66 @@ TEST(SceneRun, AnOverlapAtTheStartIsRunOnce) {
   ASSERT_FALSE(engine.warnings.empty());
   EXPECT_EQ(engine.warnings.back(),
             "the first contact is there from the start: it has one phase only");
+}
+
+/// Balls in an elastic gas that runs for 300 years.
+std::string endless_scene() {
+  return R"(slipcheck: 1
+name: endless
+title: A gas for ever
+materials: {m: {density: 1000}}
+contacts:
+  - {between: [m, m], normal: {model: hard, restitution: 1}}
+  - {between: [m, substrate]}
+substrate: {periodic: [1, 1]}
+fill: {prefix: g, count: 20, material: m, radius: 0.01, area: [0, 0, 1, 1], speed: 1}
+run: {until: 1e10}
+compare: {engines: []}
+)";
+}
+
+TEST(SceneRun, AReferenceOutOfTimeEndsItselfAndNotTheOthers) {
+  use_test_engines();
+  RunOptions options;
+  options.phases = 1;
+  options.time_limit = 0.5;
+  const auto scenes = run_scenes(
+      {parse_scenario(endless_scene(), "endless.yaml"),
+       parse_scenario(pair_scene("{engine: bullet, precision: double, rate: 240}"), "pair.yaml")},
+      options);
+  ASSERT_EQ(scenes.size(), 2u);
+  const ReferenceResult& endless = scenes[0].reference;
+  EXPECT_TRUE(endless.run.failed);
+  EXPECT_FALSE(endless.run.reached);
+  EXPECT_EQ(endless.run.reason, "took longer than the time limit of 0.5 s (--time-limit)");
+  EXPECT_EQ(endless.warnings,
+            std::vector<std::string>{"the run did not end: " + endless.run.reason});
+  EXPECT_TRUE(endless.observables.empty());
+  // (2.5 e_n − 1)/3.5 of two that roll towards each other, and an engine beside it.
+  EXPECT_NEAR(scenes[1].reference.observables.at("i-j.effective_restitution").value, 1.25 / 3.5,
+              1e-12);
+  EXPECT_EQ(scenes[1].runs.at(0).status, EngineRecord::Status::ok);
+}
+
+TEST(SceneRun, InterruptedItKeepsWhatIsFinished) {
+  use_test_engines();
+  std::atomic<bool> stop = false;
+  RunOptions options;
+  options.phases = 1;
+  options.workers = 2;
+  options.stop = &stop;
+  const std::jthread user([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    stop = true;
+  });
+  const auto scenes = run_scenes(
+      {parse_scenario(pair_scene("{engine: bullet, precision: double, rate: 240}"), "pair.yaml"),
+       parse_scenario(endless_scene(), "endless.yaml")},
+      options);
+  EXPECT_TRUE(scenes.at(0).reference.run.reached);
+  EXPECT_EQ(scenes[0].runs.at(0).status, EngineRecord::Status::skipped);
+  EXPECT_EQ(scenes[0].runs[0].reason, "interrupted");
+  EXPECT_EQ(scenes[1].reference.run.reason, "interrupted");
 }
 
 TEST(SceneRun, BulletsRestitutionIsALotteryOverThePhases) {

@@ -342,6 +342,46 @@ TEST(ContactScene, WarnsOfImpactsDeeperThanARadius) {
   EXPECT_TRUE(warnings("1e4").empty());
 }
 
+TEST(ContactScene, RefusesImpactsThatGoRightThrough) {
+  // ξ = v √(m̄/k) with m̄ = 16.44 kg: at 1 m/s and k = 100 N/m 0.41 m, just beyond the 0.4 m at
+  // which one sphere of 0.1 m has come out on the far side of the other.
+  const auto text = [](const std::string& stiffness) {
+    return pair_text("{model: linear, restitution: 1, stiffness: " + stiffness + "}");
+  };
+  EXPECT_EQ(refusal(text("110")), "");
+  EXPECT_EQ(refusal(text("100")),
+            "bad: s.yaml:8:5: contacts[0].normal: must stop impacts at up to 1 m/s before the "
+            "spheres are through each other, but lets them 2 radii of both deep");
+  EXPECT_NE(refusal(pair_text("{model: power, modulus: 1e-23, viscosity: 0}"))
+                .find("before the spheres are through each other"),
+            std::string::npos);
+}
+
+TEST(ContactScene, RefusesDampingBesideWhichThereIsNoSpring) {
+  EXPECT_EQ(refusal(pair_text("{model: linear, damping_rate: 1e30, collision_time: 1e-4}")),
+            "bad: s.yaml:8:29: contacts[0].normal.damping_rate: must leave a restitution > 0: "
+            "exp(-damping_rate collision_time/2), with 0.0001 s, got 1e+30 /s");
+  // ω0 = √(k/m̄) with k = 1e10 N/m, m̄ = 16.44 kg: 24663 /s; times 6.7e7 that is 1.65e12 /s.
+  const auto damped = [](const std::string& rate) {
+    return refusal(pair_text("{model: linear, damping_rate: " + rate + ", stiffness: 1e10}"));
+  };
+  EXPECT_EQ(damped("1.6e12"), "");
+  EXPECT_EQ(damped("1e30"),
+            "bad: s.yaml:8:29: contacts[0].normal.damping_rate: must damp at a rate of at most "
+            "1.65e+12 /s, 6.7e+07 over the time of an impact; beyond that the elastic force is "
+            "lost in rounding, got a rate of 1e+30 /s");
+  const auto rubbed = [](const std::string& rate) {
+    return refusal(pair_text("{model: linear, restitution: 0.9, stiffness: 1e10}",
+                             "{model: viscous, friction: 0.5, damping_rate: " + rate + "}"));
+  };
+  EXPECT_EQ(rubbed("1.6e12"), "");
+  EXPECT_NE(rubbed("1e30").find("contacts[0].tangential.damping_rate: must damp"),
+            std::string::npos);
+  EXPECT_NE(refusal(pair_text("{model: viscoelastic, dissipation_time: 1e30}"))
+                .find("contacts[0].normal.dissipation_time: must damp"),
+            std::string::npos);
+}
+
 TEST(ContactScene, WarnsOfADissipationTimeNearTheDuration) {
   const auto warnings = [](const std::string& time) {
     return scene_of(pair_text("{model: viscoelastic, dissipation_time: " + time + "}")).warnings;

@@ -117,6 +117,31 @@ TEST(Check, ModelsHaveWhatTheyNeed) {
                "model hard, got viscous");
 }
 
+TEST(Check, NoMassOutsideOfABody) {
+  // I = ∫ r² dm with r <= R everywhere: at most m R², of a ring.
+  expect_fault(with(kHard, "sphere: {radius: 0.1}", "sphere: {radius: 0.1, inertia: 1.001}"),
+               "s.yaml:14:63: bodies[0].sphere.inertia: must be > 0 and <= 1, got 1.001");
+  EXPECT_TRUE(
+      messages(with(kHard, "sphere: {radius: 0.1}", "sphere: {radius: 0.1, inertia: 1}")).empty());
+}
+
+TEST(Check, AContactIsNoLargerThanTheBody) {
+  const auto with_radius = [](const std::string& radius) {
+    return with(kHard, "friction: 0.2",
+                "friction: 0.2\n    drilling: {model: coupled, contact_radius: " + radius + "}");
+  };
+  EXPECT_TRUE(messages(with_radius("0.1")).empty());
+  expect_fault(with_radius("1e20"),
+               "s.yaml:12:48: contacts[1].drilling.contact_radius: must be at most the radius of "
+               "the smallest body of steel, 0.1 m, got 1e20");
+  // The smallest counts, of a fill too.
+  EXPECT_EQ(messages(with(with_radius("0.06"), "bodies:",
+                          "fill: {prefix: g, count: 2, material: steel, radius: {uniform: [0.05, "
+                          "0.1]}, area: [5, 5, 9, 9]}\nbodies:"))
+                .size(),
+            1u);
+}
+
 TEST(Check, OneWayToGiveTheDissipation) {
   const auto faults = [](const std::string& normal) {
     std::string text = with(kHard, "{model: hard, restitution: 0.9}", "{model: " + normal + "}");
