@@ -100,7 +100,7 @@ std::vector<double> uncertainty_of(const std::vector<double>& values, const Refe
                                    SolvedRuns& runs) {
   // An error of first order is as large as the difference to twice the step; scattered ones were
   // found up to 2.6 times as large.
-  const double safety = solver.is_stepped() ? 3 : 1;
+  const double safety = solver.is_stepped() || solver.softened_to() > 0 ? 3 : 1;
   std::vector<double> uncertainties;
   uncertainties.reserve(values.size());
   for (const double value : values)
@@ -152,30 +152,16 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
   std::vector<std::string> not_numbers;
   for (std::size_t k = 0; k < values.size(); ++k) {
     const double value = values[k];
-<<<<<<< HEAD
-    if (std::isnan(value)) continue;
-    const double units = 2 * std::numeric_limits<double>::epsilon() * std::abs(value);
-    // An error of first order is as large as the difference to twice the step; scattered ones were
-    // found up to 2.6 times as large.
-    const double safety = solver.is_stepped() || solver.softened_to() > 0 ? 3 : 1;
-    double uncertainty = units;
-    // A time has a frame at either end, whatever other steps happen to agree with it.
-    if (solver.is_stepped() && is_time(value_name[k])) uncertainty = 2 * solver.step();
-    for (const auto& other : others)
-      uncertainty = std::isnan(other[k])
-                        ? std::numeric_limits<double>::infinity()
-                        : std::max(uncertainty, safety * std::abs(other[k] - value));
-    if (!std::isnan(closed[k])) result.closed_form.emplace(value_name[k], closed[k]);
-    result.observables.emplace(std::move(value_name[k]), UncertainValue{value, uncertainty});
-=======
     if (std::isnan(value)) {
       if (!is_not_observed(value)) not_numbers.push_back(value_name(solved.seen, names, k));
       continue;
     }
     std::string name = value_name(solved.seen, names, k);
+    // A time has a frame at either end, whatever other steps happen to agree with it.
+    const double least = solver.is_stepped() && is_time(name) ? 2 * solver.step() : 0;
     if (!std::isnan(closed[k])) result.closed_form.emplace(name, closed[k]);
-    result.observables.emplace(std::move(name), UncertainValue{value, uncertainties[k]});
->>>>>>> stop
+    result.observables.emplace(std::move(name),
+                               UncertainValue{value, std::max(least, uncertainties[k])});
   }
   if (!scene.periodic.isZero(0) && result.run.end_time > 0) {
     // Counts scatter by their square root where collisions are independent.
@@ -183,15 +169,12 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
     result.observables["all.collision_rate"] = {count / result.run.end_time,
                                                 std::sqrt(count) / result.run.end_time};
   }
-<<<<<<< HEAD
+  fail_because_of_nan(not_numbers, result);
   if (solver.softened_to() > 0)
     result.warnings.push_back(
         fmt::format("bodies stay in contact: hard contacts are taken as linear ones "
                     "that last {:.3g} s; the uncertainty holds what twice that time changes",
                     solver.softened_to()));
-=======
-  fail_because_of_nan(not_numbers, result);
->>>>>>> stop
   if (solver.hardens())
     result.warnings.push_back(
         "event takes soft contacts as hard ones of their restitution and friction; pairs that rub "
