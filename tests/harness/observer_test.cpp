@@ -159,6 +159,25 @@ TEST(Observer, EffectiveRestitutionOfACollisionThatAnotherInterruptsIsNotObserve
   EXPECT_FALSE(std::isnan(seen.pairs[0].restitution));
 }
 
+TEST(Observer, EffectiveRestitutionIsNegativeWhereSpinsDriveThePairTogetherAgain) {
+  // e_eff = (A e_n − 1)/(1+A) < 0 for e_n < 1/A. The pair rolls before it meets again if its mean
+  // relative velocity on the way, (e_n + e_eff)/2 of the first, parts it: e_n > 1/(1+2A) = 1/6.
+  // Below, hits follow each other while both slide, until the two lie together.
+  const auto effective = [](double e_n) {
+    const HardScene scene = test::head_on(0.15, -0.15, e_n);
+    EventSolver solver(scene, scene.initial);
+    Observer observer(scene, 0, 0.15);
+    const EventRun run = solver.run({Run::Until::rolling, 0, 5}, &observer);
+    EXPECT_TRUE(run.reached);
+    return observer.finish(run.end_time).pairs.at(0).effective_restitution;
+  };
+  for (const double e_n : {0.39, 0.3, 0.2, 0.17})
+    EXPECT_NEAR(effective(e_n), (2.5 * e_n - 1) / 3.5, 1e-13) << e_n;
+  // The slowest rebound that the rule for collapse leaves is 1e-6 of the scene's speed; the last
+  // collision that counts has at least 7 % of the first.
+  for (const double e_n : {0.16, 0.1, 0.0}) EXPECT_NEAR(effective(e_n), 0, 1e-4) << e_n;
+}
+
 TEST(Observer, MemoryDoesNotGrowWithTheRun) {
   // By design: it holds two frames, whatever their number.
   const HardScene scene = test::head_on(0.01, 0.01, 0.9);
