@@ -11,6 +11,7 @@
 #include "harness/cpu_time.h"
 #include "harness/observer.h"
 #include "reference/initial_contacts.h"
+#include "reference/lasting_contacts.h"
 
 namespace slipcheck {
 namespace {
@@ -85,12 +86,15 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
   runs.cpu_seconds = thread_cpu_seconds() - begin;
   if (runs.value.run.collapses == 0) return runs;
   // Where a rule took part, its size, another rule and another order of what comes at one instant
-  // tell what it decided.
-  const SolverAccuracy coarse{.tolerance = tolerance, .cut_offs = 10};
+  // tell what it decided; and so do contacts that last, which need none.
+  const SolverAccuracy other{.tolerance = tolerance, .cut_offs = 10, .other_rule = true};
   const SolverAccuracy reversed{.tolerance = tolerance, .reversed = true};
-  const SolverAccuracy other{.tolerance = tolerance, .other_rule = true};
-  for (const SolverAccuracy& accuracy : {coarse, reversed, other})
+  for (const SolverAccuracy& accuracy : {other, reversed})
     runs.others.push_back(solve(solver, end, FE_TONEAREST, accuracy).seen);
+  if (const auto lasting = with_lasting_contacts(solver.scene().hard)) {
+    const ReferenceSolver resolved(*lasting, Compare::Reference::contact);
+    runs.others.push_back(solve(resolved, end, FE_TONEAREST, {.tolerance = 1e-10}).seen);
+  }
   return runs;
 }
 

@@ -15,6 +15,10 @@ namespace {
 /// Bodies touch whose gap is no larger a part of the sum of their radii: positions are typed.
 constexpr double kTouching = 1e-5;
 
+bool is_integrable(const HardScene& scene) {
+  return !scene.box && scene.periodic.isZero(0) && scene.bodies.size() <= kMostIntegrated;
+}
+
 bool rests_on(const HardScene& scene, std::size_t i, std::size_t j) {
   const BodyState &upper = scene.initial[i], &lower = scene.initial[j];
   const double radius = scene.bodies[i].radius;
@@ -84,7 +88,7 @@ std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, con
 }  // namespace
 
 bool has_lasting_contacts(const HardScene& scene) {
-  return !scene.box && scene.periodic.isZero(0) && (rests_on_bodies(scene) || sticks(scene));
+  return is_integrable(scene) && (rests_on_bodies(scene) || sticks(scene));
 }
 
 bool has_come_apart(const HardScene& scene, std::span<const BodyState> states) {
@@ -105,6 +109,7 @@ double short_collision_time(const HardScene& scene) {
 }
 
 std::optional<ContactScene> with_lasting_contacts(const HardScene& scene, double collision_time) {
+  if (!is_integrable(scene)) return std::nullopt;
   ContactScene made;
   made.hard = one_class_each(scene);
   made.touching = kTouching;
@@ -119,6 +124,10 @@ std::optional<ContactScene> with_lasting_contacts(const HardScene& scene, double
       if (!made.soft[i * count + j]) return std::nullopt;
     }
   return made;
+}
+
+std::optional<ContactScene> with_lasting_contacts(const HardScene& scene) {
+  return with_lasting_contacts(scene, short_collision_time(scene));
 }
 
 }  // namespace slipcheck

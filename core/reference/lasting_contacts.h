@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -25,7 +26,14 @@ double short_collision_time(const HardScene& scene);
 /// 1e-5, whose collisions take `collision_time` [s], and viscous friction up to the same Coulomb
 /// limit, which holds but for a creep. Between bodies that rest on each other nothing collides, and
 /// their contacts are at least critically damped. Nothing where a pair has no such law: its
-/// restitution depends on the speed, or friction gives back a part of the slip.
+/// restitution depends on the speed, or friction gives back a part of the slip; and where the
+/// integrator does not run the scene: in a box, on a periodic plane, with too many bodies.
 std::optional<ContactScene> with_lasting_contacts(const HardScene& scene, double collision_time);
+/// The same with short_collision_time().
+std::optional<ContactScene> with_lasting_contacts(const HardScene& scene);
+
+/// Bodies in contacts that last which ContactSolver, whose steps all bodies share, is given at
+/// most.
+inline constexpr std::size_t kMostIntegrated = 200;
 
 }  // namespace slipcheck

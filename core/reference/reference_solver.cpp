@@ -17,9 +17,6 @@
 namespace slipcheck {
 namespace {
 
-/// Bodies in soft contacts that `automatic` leaves to ContactSolver, whose steps all bodies share.
-constexpr std::size_t kMostIntegrated = 200;
-
 /// A state that is no number stays so: the last ones tell. `solved` fails where there is one.
 SolvedRun checked(SolvedRun solved, const std::vector<BodyState>& states) {
   const auto is_finite = [](const BodyState& state) {
@@ -62,8 +59,7 @@ ReferenceSolver::ReferenceSolver(const ContactScene& scene, const ReferenceSetti
     made_ = scene;
     made_->soft.assign(scene.soft.size(), std::nullopt);
   }
-  if (automatic && !soft && scene.hard.bodies.size() <= kMostIntegrated &&
-      has_lasting_contacts(scene.hard)) {
+  if (automatic && !soft && has_lasting_contacts(scene.hard)) {
     collision_time_ = short_collision_time(scene.hard);
     made_ = with_lasting_contacts(scene.hard, collision_time_);
     resolved_ = made_.has_value();
@@ -125,7 +121,7 @@ SolvedRun ReferenceSolver::run_varied(const RunEnd& end, FrameSink* sink,
     reverse_bodies(hard);
     if (sink) reversing.emplace(*sink);
   }
-  if (accuracy.other_rule) hard.collapse = other_rule(hard);
+  if (accuracy.other_rule) hard.collapse = other_rule(hard.collapse);
   accuracy.reversed = accuracy.other_rule = false;
   return ReferenceSolver(varied, settings_).run(end, reversing ? &*reversing : sink, accuracy);
 }

@@ -31,9 +31,7 @@ struct SolverAccuracy {
   double step = 1;           ///< factor on the step of `steps`
   double softness = 1;       ///< factor on the collision time of hard contacts that last
   bool reversed = false;     ///< bodies in reverse order: so are collisions at one instant
-  /// Another rule for collapse than the scene's: the TC model in place of the least rebound, and
-  /// the other way round.
-  bool other_rule = false;
+  bool other_rule = false;   ///< for collapse, where it has a contact time
 };
 
 /// The solver that is the truth for a scene, chosen once.

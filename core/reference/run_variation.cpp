@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "reference/event_solver.h"
-
 namespace slipcheck {
 
 void reverse_bodies(HardScene& scene) {
@@ -26,13 +24,13 @@ void ReverseSink::take(double time, const Frame& frame) {
   sink_.take(time, frame_);
 }
 
-/// A pair that friction with the substrate presses together flies about 2w/g at the least rebound
-/// w: the contact time that does as little.
-CollapseRule other_rule(const HardScene& scene) {
+CollapseRule other_rule(CollapseRule rule) {
   using Model = CollapseRule::Model;
-  if (scene.collapse.model != Model::slowest_rebound) return {};
-  const double w = EventSettings{}.collapse_fraction * speed_scale(scene, scene.initial);
-  return {Model::contact_time, scene.gravity > 0 ? 2 * w / scene.gravity : 0};
+  if (rule.model == Model::contact_time)
+    rule.model = Model::largest_velocity;
+  else if (rule.model == Model::largest_velocity)
+    rule.model = Model::contact_time;
+  return rule;
 }
 
 }  // namespace slipcheck

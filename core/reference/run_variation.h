@@ -22,8 +22,8 @@ class ReverseSink final : public FrameSink {
   Frame frame_;
 };
 
-/// What the scene's rule for collapse is held against: the TC model in place of the least rebound,
-/// and the other way round.
-CollapseRule other_rule(const HardScene& scene);
+/// What a rule for collapse with a contact time is held against: the other one of the two, with the
+/// same time. The least rebound has no other, only another size.
+CollapseRule other_rule(CollapseRule rule);
 
 }  // namespace slipcheck
