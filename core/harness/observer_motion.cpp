@@ -13,7 +13,10 @@ void Observer::follow_sliding(Body& body, std::size_t i, double t0, double t1, c
   const bool slips_now = slips(i, s1, ground1_);
   const Vector3 way = position_over(s1, ground1_) - position_over(s0, ground0_);
 
-  const bool was_faint = std::exchange(body.faint, false);
+  // Friction has gone on: it takes half of what it can, or more.
+  const double taken = body.slip.falls_in(dt);
+  const double half = 0.5 * (taken > 0 ? std::min(slip0, taken) : slip0);
+  const bool goes_on = std::exchange(body.faint, false) && slip0 - slip1 >= half;
   const auto slide_ends = [&](double left) {
     body.slide_end = t0 + left;
     body.slide_time += left;
@@ -23,22 +26,21 @@ void Observer::follow_sliding(Body& body, std::size_t i, double t0, double t1, c
   if (body.collided_now || dt <= 0) {
     body.slip.reset();
     if (body.sliding && !slips_now && !body.collided_now) body.slide_end = t1;
-  } else if (was_faint && body.supported && slip1 <= std::max(body.zero.left_slip, 0.5 * slip0)) {
-    // Friction has gone on.
-    body.slide_time += body.faint_time;
-    body.slide += body.faint_way;
-    slide_ends(body.slip.time_to_zero(slip0, dt));
   } else if (step_ > 0 && body.supported && body.supported_frames == 1 && !slips_now) {
     // It gripped as it came down.
     body.slide_end = t1;
     body.faint = slip1 > body.zero.left_slip;
     body.faint_time = 0;
     body.faint_way.setZero();
-  } else if (body.sliding && body.supported && !slips_now) {
+  } else if (body.supported && !slips_now && (body.sliding || goes_on)) {
+    if (goes_on) {
+      body.slide_time += body.faint_time;
+      body.slide += body.faint_way;
+    }
     const double left = step_ > 0 ? body.slip.time_to_zero(slip0, dt) : dt;
     slide_ends(left);
     // Where it should have ended in this step a solver may leave a little of what friction takes.
-    const double taken = body.slip.falls_in(dt), little = slip0 < taken ? 0.01 * taken : 0;
+    const double little = slip0 < taken ? 0.01 * taken : 0;
     body.faint = step_ > 0 && slip1 > std::max(body.zero.left_slip, little);
     body.faint_time = dt - left;
     body.faint_way = (1 - left / dt) * way;

@@ -36,8 +36,10 @@ class Tune(unittest.TestCase):
         return result, json.loads((self.path / "out.json").read_text())
 
     def test_the_profile_is_better_than_the_start_and_runs(self):
+        # Of few settings: with all of them a shipped profile is hard to beat.
         result, report = self.tuning(SYMMETRIC, "--held-out", SCENES / "asymmetric.yaml",
-                                     "--budget", "60")
+                                     "--budget", "25", "--settings",
+                                     "erp2,solver_iterations,sor,split_impulse_threshold")
         self.assertEqual(report["schema"], "slipcheck-tuning/1")
         self.assertTrue(report["improved"])
         self.assertLess(report["chosen"]["training"]["worst"],

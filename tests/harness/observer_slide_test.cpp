@@ -70,6 +70,24 @@ TEST(ObserverOfASlide, EndsWhereTheSlipDoesHoweverItFallsIntoTheStep) {
   }
 }
 
+TEST(ObserverOfASlide, EndsInOneOfTheStepsThatAnEngineMakesOfAStep) {
+  // Four frames a step: half of what friction takes in the whole step is two of them.
+  const HardScene scene = test::steel_scene(1);
+  const double h = 1.0 / 240, brake = 3.5 * kMu * kG * h / 4;
+  for (int k = 0; k < 100; ++k) {
+    const double parts = 21 + k / 25.0;
+    Observer observer(scene, h, 1);
+    for (int n = 0; n <= 30; ++n) {
+      const double lost = std::min<double>(n, parts) * brake;
+      observer.take(n * h / 4, sliding(n * h / 4, 1 - lost / 3.5, parts * brake - lost));
+    }
+    EXPECT_FALSE(observer.anything_slides_or_flies());
+    const BodyObservables seen = observer.finish(observer.last_slide_end()).bodies[0];
+    EXPECT_NEAR(seen.sliding_time, parts * h / 4, 1e-12) << parts;
+    EXPECT_NEAR(seen.rolling_velocity.x(), 1 - parts * brake / 3.5, 1e-14) << parts;
+  }
+}
+
 TEST(ObserverOfASlide, NeitherDropsSlipNorGoesPastAFrameThatRolls) {
   // A normal force that is not the same in all steps, as of a ball that jitters. What a solver may
   // leave in the step that ends a slide, a hundredth of what friction takes, is not waited for.
