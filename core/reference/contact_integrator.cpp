@@ -124,6 +124,7 @@ void ContactIntegrator::add_landings(double time, Happening& happening) const {
 ContactIntegrator::Happening ContactIntegrator::advance(double limit) {
   if (must_restart_) restart();
   if (state_.dynamics().modes.size() > 1) state_.evaluate();
+  if (state_.reach_caps()) restart();
   const double kink = state_.dynamics().next_kink;
   const double landing = *std::min_element(landing_.begin(), landing_.end());
   const double last = std::min({limit, kink, landing});

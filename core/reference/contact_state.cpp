@@ -159,6 +159,20 @@ void ContactState::release_contact(std::size_t index) {
                  contact.law->normal);
 }
 
+bool ContactState::reach_caps() {
+  constexpr double kBeyond = 1 + 1e-6;
+  bool reached = false;
+  for (std::size_t c = 0; c < dynamics_.contacts.size(); ++c) {
+    ContactMode& contact = dynamics_.contacts[c];
+    const auto* viscous = std::get_if<ViscousForce>(&contact.law->tangential);
+    if (!viscous || contact.clamped || contact.capped) continue;
+    const auto& forces = evaluation_.contacts[c];
+    if (viscous->viscous(forces.slip.norm()) <= kBeyond * viscous->cap(forces.normal)) continue;
+    contact.capped = reached = true;
+  }
+  return reached;
+}
+
 void ContactState::break_asperity(std::size_t index, double change) {
   ContactMode& contact = dynamics_.contacts[index];
   const auto& law = std::get<AsperityForce>(contact.law->tangential);

@@ -44,6 +44,9 @@ class ContactState {
   /// zero_force: the force is gone, or comes back, while the bodies overlap.
   void clamp_contact(std::size_t contact);
   void release_contact(std::size_t contact);
+  /// A viscous contact that begins at rest has no root at Coulomb's cap: its force and its cap grow
+  /// from zero together. Whether one is found beyond its cap, and now is at it; after evaluate().
+  bool reach_caps();
   void break_asperity(std::size_t contact, double change);
   void switch_growth(std::size_t contact, bool growing);
   /// A hard pair collides at this instant.

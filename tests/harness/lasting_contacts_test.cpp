@@ -1,0 +1,117 @@
+#include "reference/lasting_contacts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "../scenes.h"
+#include "hard_run.h"
+
+namespace slipcheck {
+namespace {
+
+RunEnd until(double time) { return {Run::Until::time, time, time}; }
+
+const UncertainValue& of(const ReferenceResult& result, const std::string& name) {
+  return result.observables.at(name);
+}
+
+/// One ball on three that touch each other, all at rest.
+HardScene pyramid(double friction) {
+  HardScene scene = test::steel_scene(4);
+  const double R = scene.bodies[0].radius;
+  scene.substrate[0].static_friction = scene.substrate[0].kinetic_friction = 0.6;
+  scene.pairs[0] = {0.5, friction, 0.0};
+  scene.initial[1].position.x() = 2 * R;
+  scene.initial[2].position = {R, std::sqrt(3.0) * R, R};
+  scene.initial[3].position = {R, R / std::sqrt(3.0), R + 2 * R * std::sqrt(2.0 / 3)};
+  return scene;
+}
+
+TEST(LastingContacts, AreThoseOfBodiesOnBodiesAndOfPairsThatDoNotRebound) {
+  EXPECT_TRUE(has_lasting_contacts(pyramid(0.5)));
+  HardScene apart = pyramid(0.5);
+  apart.initial[3].position.z() += 1e-3;
+  EXPECT_FALSE(has_lasting_contacts(apart));
+  HardScene on_plane = pyramid(0.5);
+  on_plane.initial[3] = test::rolling_at(1, 1, 0, 0);
+  EXPECT_FALSE(has_lasting_contacts(on_plane));
+  HardScene pair = test::head_on(0.1, -0.1, 0);
+  EXPECT_TRUE(has_lasting_contacts(pair));
+  pair.substrate[0].kinetic_friction = 0;  // nothing presses them together
+  EXPECT_FALSE(has_lasting_contacts(pair));
+  EXPECT_FALSE(has_lasting_contacts(test::head_on(0.1, -0.1, 0.5)));
+}
+
+TEST(LastingContacts, APyramidStandsAsStaticsSays) {
+  // At the angle θ of the line of centres to the vertical, sin θ = 1/√3, a lower ball is held by
+  // the friction N tan(θ/2) = 0.318 N at both its contacts.
+  const double tan_half = std::tan(0.5 * std::asin(1 / std::sqrt(3.0)));
+  ASSERT_LT(tan_half, 0.5);
+  const HardScene scene = pyramid(0.5);
+  const ReferenceResult stands = test::run_hard(scene, until(0.5), {"a", "b", "c", "top"});
+  EXPECT_EQ(stands.solver, "contact");
+  ASSERT_TRUE(stands.run.reached) << stands.run.reason;
+  const double R = scene.bodies[0].radius;
+  const UncertainValue& z = of(stands, "top.final_position.z");
+  const double height = scene.initial[3].position.z();
+  EXPECT_LE(std::abs(z.value - height), z.uncertainty);
+  EXPECT_LT(z.uncertainty, 1e-2 * R);
+  // Below that angle's friction it falls, and how it then goes on is not decided.
+  ASSERT_GT(tan_half, 0.1);
+  const ReferenceResult falls = test::run_hard(pyramid(0.1), until(0.5), {"a", "b", "c", "top"});
+  EXPECT_FALSE(falls.run.reached);
+  EXPECT_NE(falls.run.reason.find("come apart"), std::string::npos) << falls.run.reason;
+}
+
+TEST(LastingContacts, PairThatDoesNotReboundIsPressedTogetherUntilItsSpinsAreSpent) {
+  // v = 0 from the meeting on; the slip R Ω falls with A μ_k g alone, as the other ball takes the
+  // push: Ω(t) = v/R − A μ_k g t/R.
+  const double v = 0.15, push = 2.5 * 0.1 * 9.81, R = 0.002;
+  const double meeting = (0.01 - 0.004) / (2 * v), spent = v / push;
+  const HardScene scene = test::head_on(v, -v, 0);
+  const double half = 0.5 * spent;
+  const ReferenceResult pressed = test::run_hard(scene, until(meeting + half), {"i", "j"});
+  EXPECT_EQ(pressed.solver, "contact");
+  EXPECT_LE(pressed.run.collisions, 3u);
+  // The contact's own duration and a restitution of 1e-5 in place of 0.
+  const double share = 1e-5 + short_collision_time(scene) / half;
+  EXPECT_NEAR(of(pressed, "i.final_angular_velocity.y").value, 0.5 * v / R, 2 * share * v / R);
+  EXPECT_NEAR(of(pressed, "i.final_velocity.x").value, 0, 2 * share * v);
+  EXPECT_NEAR(of(pressed, "i.final_position.x").value, -R, share * R);
+  const ReferenceResult ended = test::run_hard(scene, {Run::Until::rolling, 0, 10}, {"i", "j"});
+  ASSERT_TRUE(ended.run.reached) << ended.run.reason;
+  EXPECT_NEAR(of(ended, "i.final_velocity.x").value, 0, 2 * share * v);
+  EXPECT_NEAR(of(ended, "i.final_position.x").value, -R, share * R);
+}
+
+TEST(LastingContacts, ALineThatDoesNotReboundGoesOnWithTheMomentumOfOne) {
+  // Four balls: all go on with v/4, but for what the substrate takes, at most μ_k g t of each.
+  const double v = 1, friction = 1e-4, end = 0.06;
+  HardScene scene = test::steel_scene(4);
+  scene.substrate[0].kinetic_friction = friction;
+  scene.pairs[0].restitution = 0.0;
+  for (std::size_t k = 0; k < 4; ++k)
+    scene.initial[k].position.x() = 0.0044 * static_cast<double>(k);
+  scene.initial[0].velocity.x() = v;
+  const ReferenceResult result = test::run_hard(scene, until(end), {"a", "b", "c", "d"});
+  ASSERT_TRUE(result.run.reached) << result.run.reason;
+  for (const char* name : {"a", "b", "c", "d"})
+    EXPECT_NEAR(of(result, std::string(name) + ".final_velocity.x").value, v / 4,
+                friction * 9.81 * end + 1e-5 * v)
+        << name;
+}
+
+TEST(LastingContacts, AStateThatIsNoNumberFailsTheRunByName) {
+  HardScene scene = test::head_on(0.1, -0.1, 0.9);
+  scene.initial[1].angular_velocity.z() = std::numeric_limits<double>::quiet_NaN();
+  const ReferenceResult result = test::run_hard(scene, until(0.01), {"i", "j"});
+  EXPECT_TRUE(result.run.failed);
+  EXPECT_FALSE(result.run.reached);
+  EXPECT_NE(result.run.reason.find("the state of body 1 is not finite"), std::string::npos)
+      << result.run.reason;
+}
+
+}  // namespace
+}  // namespace slipcheck
