@@ -18,10 +18,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Of the sum of both radii: an impact that goes deeper has left the other sphere behind, and comes
-/// back from the far side.
-constexpr double kThrough = 2;
-
 /// The velocities at which bodies of one class start, or those of a surface, as a box.
 struct Velocities {
   Vector3 least = Vector3::Constant(kInfinity);
@@ -73,7 +69,6 @@ struct Worst {
   double passive_speed = kInfinity;
   double depth = 0;        ///< of an impact, over the smaller radius
   double depth_speed = 0;  ///< its speed [m/s]
-  double through = 0;      ///< the same depth over the sum of the radii
 };
 
 /// What an impact compresses without damping.
@@ -86,8 +81,6 @@ void look_at_depth(const ClassPair& pair, const NormalForce& force, double speed
   if (depth <= worst.depth) return;
   worst.depth = depth;
   worst.depth_speed = speed;
-  worst.through = depth * std::min(pair.first.radius, pair.second.radius) /
-                  (pair.first.radius + pair.second.radius);
 }
 
 void look_at_quasistatic(const ClassPair& pair, double A, double speed, Worst& worst) {
@@ -156,12 +149,6 @@ std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneO
     }
   }
 
-  if (worst.through > kThrough)
-    throw BadScenario({fault_of(
-        scenario, contact.path + ".normal",
-        fmt::format("must stop impacts at up to {:.3g} m/s before the spheres are through each "
-                    "other, but lets them {:.2g} radii of both deep",
-                    worst.depth_speed, worst.through))});
   std::vector<std::string> warnings;
   const auto warn = [&](const char* key, const std::string& text) {
     warnings.push_back(fault_of(scenario, contact.path + key, text).message());

@@ -10,8 +10,7 @@ namespace slipcheck {
 
 /// Where the law of this contact leaves the range in which it holds, one text for each reason: B
 /// (11), (12) by the speeds at which bodies and floor start, and the printed asperities that can
-/// create energy. Throws BadScenario where bodies of the scene would come out of an impact on the
-/// far side of each other.
+/// create energy.
 std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneOutline& outline,
                                           ContactMaker& maker);
 
