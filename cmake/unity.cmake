@@ -7,7 +7,7 @@ set(SLIPCHECK_UNITY_FILES 20)  # at most in one
 # also those inside of functions, which must not hide others. An alias that two files give alike is one.
 function(slipcheck_names_in file result)
   file(STRINGS ${file} lines REGEX
-    "^( *(static )?constexpr|const|inline|static|struct|class|enum|using|#define|[A-Za-z][A-Za-z0-9_:<>, ]*[&*]? [a-z_0-9]+\\()")
+    "^( *(static )?constexpr| +using [A-Za-z0-9_]+ *=|const|inline|static|struct|class|enum|using|#define|[A-Za-z][A-Za-z0-9_:<>, ]*[&*]? [a-z_0-9]+\\()")
   set(names)
   foreach(line IN LISTS lines)
     if(line MATCHES "^using namespace|[ *&](to|from)_json\\(")  # of many types by their nature
@@ -16,6 +16,8 @@ function(slipcheck_names_in file result)
       set(name ${CMAKE_MATCH_1})
       string(MD5 meaning "${line}")
       list(APPEND names ${name} alias-${name}-${meaning})
+    elseif(line MATCHES "^ +using ([A-Za-z0-9_]+)")  # hides what has its name outside
+      list(APPEND names ${CMAKE_MATCH_1})
     elseif(line MATCHES "^(struct|class|enum class|enum|#define) +([A-Za-z0-9_]+)")
       list(APPEND names ${CMAKE_MATCH_2})
     elseif(line MATCHES "^using .*::([A-Za-z0-9_]+)")
