@@ -7,6 +7,8 @@
 #include <random>
 
 #include "../scenes.h"
+#include "../support/extremes.h"
+#include "engine/remote_engine.h"
 #include "harness/observer.h"
 #include "reference/event_solver.h"
 
@@ -189,6 +191,38 @@ TEST(ObserverOfALanding, ABodyThatComesDownRollingEndsItsRunThere) {
   EXPECT_NEAR(observer.last_slide_end(), lands, 1e-3);
   EXPECT_NEAR(ended, lands, 2e-3);
   EXPECT_NEAR(observer.finish(ended).bodies[0].rolling_velocity.x(), 0.2, 1e-12);
+}
+
+/// Two balls that meet at 30 cm/s in Bullet with its own settings, phase by phase: e_eff is the
+/// speed at which the frames part once no frame slips any more, and nothing else.
+TEST(ObserverOfBullet, EffectiveRestitutionIsThatOfFramesThatRoll) {
+  const double speed = 0.3, rate = 1000;
+  double most = 0;
+  RemoteEngine engine(SLIPCHECK_BINARY_DIR "/slipcheck-engine-bullet-double");
+  for (int k = 0; k < 64; ++k) {
+    const HardScene scene =
+        test::head_on(speed / 2, -speed / 2, 0.9, kR + (3 + (k + 0.5) / 64) * speed / rate / 2);
+    engine.configure(scene, {}, 1 / rate);
+    engine.start(scene.initial);
+    Observer observer(scene, 1 / rate, speed / 2);
+    Frame frame;
+    frame.bodies = scene.initial;
+    frame.touches = {{0, kSubstrate, 1}, {1, kSubstrate, 1}};
+    observer.take(0, frame);
+    int n = 0;
+    double parting = 0;
+    engine.advance(150, [&](const Frame& now) {
+      observer.take(++n / rate, now);
+      parting = now.bodies[1].velocity.x() - now.bodies[0].velocity.x();
+    });
+    const double effective = observer.finish(n / rate).pairs.at(0).effective_restitution;
+    // What a solver leaves in the step that ends a slide, a hundredth of what friction takes from
+    // each ball, μ g h and half as much again where the ball jitters.
+    EXPECT_NEAR(effective, parting / speed, 2 * 0.015 * kMu * kG / rate / speed) << k;
+    most = test::largest_of(most, effective);
+  }
+  // (5 e_n − 2)/7 of the largest e_n, 0.9 + 0.2 · 127/128: docs/bullet-facts.md.
+  EXPECT_NEAR(most, (5 * (0.9 + 0.2 * 127 / 128) - 2) / 7, 2e-3);
 }
 
 }  // namespace
