@@ -137,6 +137,7 @@ void Observer::take(double time, const Frame& frame) {
     body.collided_now = false;
   }
   settle_effective_restitution(t0, t1, frame);
+  keep_frames_of_the_end();
   std::swap(before_last_, last_);
   time_before_ = t0;
   last_ = frame;
@@ -206,7 +207,29 @@ double Observer::last_stop() const {
   return last;
 }
 
+void Observer::keep_frames_of_the_end() {
+  if (step_ == 0) return;  // the reference ends with a frame
+  const double end = last_slide_end();
+  if (end > end_) {
+    end_ = end;
+    end_is_kept_ = false;
+  } else if (!end_is_kept_) {
+    end_before_ = before_last_;
+    end_after_ = last_;
+    end_time_before_ = time_before_;
+    end_time_after_ = time_;
+    end_is_kept_ = true;
+  }
+}
+
 Observables Observer::finish(double end) const {
+  // What comes after the end is no part of it, though a few frames were needed to tell.
+  const bool is_kept = end_is_kept_ && end <= end_time_after_;
+  const Frame& before = is_kept ? end_before_ : before_last_;
+  const Frame& after = is_kept ? end_after_ : last_;
+  const double t0 = is_kept ? end_time_before_ : time_before_;
+  const double t1 = is_kept ? end_time_after_ : time_;
+  const double fraction = t1 > t0 ? std::clamp((end - t0) / (t1 - t0), 0.0, 1.0) : 1;
   Observables seen;
   seen.bodies.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -237,9 +260,7 @@ Observables Observer::finish(double end) const {
     out.flight_time = body.flight_time;
     if (!std::isnan(body.lift_off_speed) && (!body.jumping || last_.bodies[i].velocity.z() <= 0))
       out.jump_height = body.peak - body.lift_off_height;
-    const double dt = time_ - time_before_;
-    const double fraction = dt > 0 && end < time_ ? (end - time_before_) / dt : 1;
-    const BodyState &s0 = before_last_.bodies[i], &s1 = last_.bodies[i];
+    const BodyState &s0 = before.bodies[i], &s1 = after.bodies[i];
     out.final_position = between(s0.position, s1.position, fraction);
     out.final_velocity = between(s0.velocity, s1.velocity, fraction);
     out.final_angular_velocity = between(s0.angular_velocity, s1.angular_velocity, fraction);

@@ -152,6 +152,7 @@ class Observer final : public FrameSink {
 
   void begin(double time, const Frame& frame);
   void look_at_ground(double t0, double t1);
+  void keep_frames_of_the_end();
   bool touches_substrate(std::size_t i, const Frame& frame) const;
   void follow_support(Body& body, bool touches, double t1, const BodyState& now) const;
   /// On the substrate and not sliding, as far as the frames tell.
@@ -193,6 +194,10 @@ class Observer final : public FrameSink {
   bool started_ = false;
   double time_ = 0, time_before_ = 0;
   Frame last_, before_last_;
+  /// The frames around the latest end of a slide, or landing, once it is not between the last two.
+  Frame end_before_, end_after_;
+  double end_ = 0, end_time_before_ = 0, end_time_after_ = 0;
+  bool end_is_kept_ = false;
   Ground ground0_, ground1_;  ///< at the start and at the end of the interval
   std::vector<Body> bodies_;
   std::vector<Pair> pairs_;

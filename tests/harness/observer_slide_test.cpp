@@ -193,6 +193,36 @@ TEST(ObserverOfALanding, ABodyThatComesDownRollingEndsItsRunThere) {
   EXPECT_NEAR(observer.finish(ended).bodies[0].rolling_velocity.x(), 0.2, 1e-12);
 }
 
+TEST(ObserverOfALanding, ARunsEndIsShownByTheFramesAroundIt) {
+  // A ball that slides for 20.5 steps, x = v t − ½ μ g t², and rolls on; then an engine trembles,
+  // at last in two frames that are 1e-9 s apart. What follows the end is no part of it.
+  const double h = 1e-3, u0 = 20.5 * 3.5 * kMu * kG * h;
+  const HardScene scene = test::steel_scene(1);
+  Observer observer(scene, h, 1);
+  double time = 0, x = 0, v = 1, u = u0;
+  observer.take(0, sliding(x, v, u));
+  const auto step = [&](double dt, double tremble) {
+    const double sliding_for = std::min(dt, u / (3.5 * kMu * kG));
+    x += v * dt - kMu * kG * sliding_for * (dt - 0.5 * sliding_for);
+    v -= kMu * kG * sliding_for;
+    u = std::max(0.0, u - 3.5 * kMu * kG * sliding_for);
+    time += dt;
+    Frame frame = sliding(x, v, u);
+    frame.bodies[0].velocity.z() = tremble;
+    observer.take(time, frame);
+  };
+  for (int n = 0; n < 21; ++n) step(h, 0);
+  for (int n = 0; n < 8; ++n) step(h, n % 2 ? 1e-3 : -1e-3);
+  step(1e-9, 1e-3);
+  const double end = observer.last_slide_end();
+  EXPECT_NEAR(end, 20.5 * h, 1e-12);
+  const BodyObservables seen = observer.finish(end).bodies[0];
+  // Positions are linear between frames: off by at most μ g h²/8.
+  EXPECT_NEAR(seen.final_position.x(), end - 0.5 * kMu * kG * end * end, kMu * kG * h * h / 8);
+  EXPECT_NEAR(seen.final_velocity.x(), 1 - kMu * kG * end, kMu * kG * h);
+  EXPECT_EQ(seen.final_velocity.z(), 0);
+}
+
 /// Two balls that meet at 30 cm/s in Bullet with its own settings, phase by phase: e_eff is the
 /// speed at which the frames part once no frame slips any more, and nothing else.
 TEST(ObserverOfBullet, EffectiveRestitutionIsThatOfFramesThatRoll) {
