@@ -200,9 +200,12 @@ std::vector<PrecisionScene> run_precision(std::vector<Scenario> scenarios,
   }
   in_parallel(works.size(), options.workers, [&](std::size_t s) {
     const SolvedRun& run = prepared[s].reference.run;
-    if (run.failed) return skip(works[s], run.reason);
     try {
+      heed_stop();
+      if (run.failed) return skip(works[s], run.reason);
       run_reference_solvers(works[s], grid, options);
+    } catch (const Interrupted&) {
+      // The runs of its engines will say so.
     } catch (const std::exception& fault) {
       skip(works[s], fault.what());
     }
