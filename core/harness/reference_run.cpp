@@ -180,7 +180,7 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
                     "that last {:.3g} s; the uncertainty holds what twice that time changes",
                     solver.softened_to()));
   if (solver.hardens())
-    result.warnings.push_back(
+    result.warnings.emplace_back(
         "event takes soft contacts as hard ones of their restitution and friction; pairs that rub "
         "or press each other onto the substrate part differently, however stiff they are");
   for (const std::string& warning : solver.scene().warnings) result.warnings.push_back(warning);

@@ -13,7 +13,7 @@ struct CheckReport {
   std::string baselines;   ///< folder, as the user named it
   std::size_t phases = 0;  ///< of each ensemble
   std::vector<SceneCheck> scenes;
-  std::string advice;  ///< how to make baselines where there are none; else empty
+  std::string advice = {};  ///< how to make baselines where there are none; else empty
 };
 
 /// All scenes in numbers.

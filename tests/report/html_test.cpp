@@ -105,7 +105,7 @@ TEST(Html, ShowsAVectorAsItsDistanceFromTheReference) {
   }
   scene.reference.observables["i.final_velocity"] = {0.5, 0};
   scene.runs[0].observables["i.final_velocity"].values = {0.5};
-  scene.runs[0].errors["i.final_velocity"] = {0.283, 0.283, 0.1, false, false, ""};
+  scene.runs[0].errors["i.final_velocity"] = {0.283, 0.283, 0.1, false, Verdict::deviates, ""};
   const auto spread = phase_spread(scene, "i.final_velocity");
   ASSERT_TRUE(spread);
   EXPECT_DOUBLE_EQ(spread->runs[0].values[0], 0.1 * std::sqrt(2.0));
@@ -136,7 +136,7 @@ TEST(Html, ChartsTheWorstSixObservables) {
     scene.reference.observables[name] = {0.01, 0};
     EnsembleValue& value = scene.runs[0].observables[name];
     value.values = {0.01 * (1 + body)};
-    scene.runs[0].errors[name] = {1. * body, 1. * body, 0.01, false, false, ""};
+    scene.runs[0].errors[name] = {1. * body, 1. * body, 0.01, false, Verdict::deviates, ""};
   }
   std::vector<std::string> names;
   for (const PhaseChart& chart : phase_charts(scene)) names.push_back(chart.spread.name);

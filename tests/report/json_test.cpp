@@ -78,7 +78,7 @@ TEST(JsonReport, TellsErrorsRelativeAndAbsolute) {
 
 TEST(JsonReport, GivesNoToleranceWhereThereIsNone) {
   SceneRecord scene = lottery_scene();
-  scene.runs[0].errors["i-j.restitution"] = {0.1, 0.2, std::nullopt, true, true, ""};
+  scene.runs[0].errors["i-j.restitution"] = {0.1, 0.2, std::nullopt, true, Verdict::unjudged, ""};
   const Json error = read_back(scene)["runs"][0]["errors"]["i-j.restitution"];
   EXPECT_FALSE(error.contains("tolerance"));
   EXPECT_EQ(error["within"], true);
@@ -139,8 +139,9 @@ TEST(JsonReport, WritesNullWithAReasonForWhatIsNotFinite) {
   scene.reference.closed_form["i.sliding_time"] = kNaN;
   scene.runs[0].cpu_seconds = kInfinity;
   scene.runs[0].observables["i.sliding_time"].max = kInfinity;
-  scene.runs[0].errors["i.sliding_time"] = {kNaN, kNaN, 0.01, false, false, "the reference is 0"};
-  scene.runs[0].errors["j.sliding_time"] = {0.1, kInfinity, 0.01, false, false, ""};
+  scene.runs[0].errors["i.sliding_time"] = {
+      kNaN, kNaN, 0.01, false, Verdict::deviates, "the reference is 0"};
+  scene.runs[0].errors["j.sliding_time"] = {0.1, kInfinity, 0.01, false, Verdict::deviates, ""};
   scene.runs[0].applied.settings["limit"] = kInfinity;
   const Json json = read_back(scene);
 

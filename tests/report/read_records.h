@@ -77,10 +77,10 @@ inline SceneRecord rich_record() {
   fast.observables["i.final_velocity.x"] = {
       -0.05, -0.06, -0.04, {-0.04, -0.05, -0.05, -0.05, -0.06}, 0};
   fast.observables["i-j.restitution"] = {0.9, 0.9, 0.9, {0.9, 0.9, 0.9, 0.9, 0.9}, 0};
-  fast.errors["i.sliding_time"] = {0.001, 0.003, 0.01, false, false, "1 of 5 phases do not show it",
-                                   0.002};
-  fast.errors["j.sliding_time"] = {kNaN, kInfinity, 0.01, false, false, "", kNaN};
-  fast.errors["i-j.restitution"] = {kNaN, kNaN, {}, true, true, "", kNaN};
+  fast.errors["i.sliding_time"] = {
+      0.001, 0.003, 0.01, false, Verdict::deviates, "1 of 5 phases do not show it", 0.002};
+  fast.errors["j.sliding_time"] = {kNaN, kInfinity, 0.01, false, Verdict::deviates, "", kNaN};
+  fast.errors["i-j.restitution"] = {kNaN, kNaN, {}, true, Verdict::unjudged, "", kNaN};
   fast.settings["threshold"] = kInfinity;
   fast.applied.settings["limit"] = -kInfinity;
   fast.cpu_seconds = kInfinity;

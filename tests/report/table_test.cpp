@@ -206,7 +206,7 @@ TEST(Table, ShortensASceneOfManyBodies) {
   for (int k = 0; k < 100; ++k) {
     const std::string name = fmt::format("g{}.sliding_time", k);
     scene.reference.observables[name] = {0.1, 0};
-    scene.runs[0].errors[name] = {0.1, 0.1 + 0.01 * k, 0.01, false, false, ""};
+    scene.runs[0].errors[name] = {0.1, 0.1 + 0.01 * k, 0.01, false, Verdict::deviates, ""};
   }
   const std::string table = table_of(scene, kWide);
   EXPECT_TRUE(contains(table, "rows more, none more severe"));

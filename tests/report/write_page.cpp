@@ -17,7 +17,7 @@ const std::string kEvil =
 
 std::vector<SceneRecord> scenes() {
   SceneRecord good = lottery_scene();
-  good.runs[0].errors["i-j.effective_restitution"] = {0, 0, 0.2, true, true, ""};
+  good.runs[0].errors["i-j.effective_restitution"] = {0, 0, 0.2, true, Verdict::within, ""};
   good.runs.resize(1);
 
   SceneRecord evil = lottery_scene();
@@ -34,7 +34,7 @@ std::vector<SceneRecord> scenes() {
 
   SceneRecord numbers = lottery_scene();
   numbers.reference.observables["i.sliding_time"] = {kNaN, kInfinity};
-  numbers.runs[0].errors["i.sliding_time"] = {kNaN, kInfinity, 0.01, false, false, ""};
+  numbers.runs[0].errors["i.sliding_time"] = {kNaN, kInfinity, 0.01, false, Verdict::deviates, ""};
   numbers.runs[0].observables["i-j.effective_restitution"].values[0] = 1e300;
   numbers.runs[1].observables["i-j.effective_restitution"].max = kInfinity;
   numbers.scenario.bodies.clear();
