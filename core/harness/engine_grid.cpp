@@ -42,6 +42,7 @@ void ask_for(Scenario& scenario, const EngineGrid& grid, std::span<const double>
       request.engine = engine;
       request.precision = precision == "single" ? Precision::single_ : Precision::double_;
       request.profile = profile;
+      request.of_grid = true;
       request.rates.assign(rates.begin(), rates.end());
       scenario.compare.engines.push_back(std::move(request));
     }

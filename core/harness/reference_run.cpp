@@ -86,12 +86,15 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
   runs.cpu_seconds = thread_cpu_seconds() - begin;
   if (runs.value.run.collapses == 0) return runs;
   // Where a rule took part, its size, another rule and another order of what comes at one instant
-  // tell what it decided; and so do contacts that last, which need none.
+  // tell what it decided; and so do contacts that last, which need none, where friction with the
+  // substrate presses bodies together.
   const SolverAccuracy other{.tolerance = tolerance, .cut_offs = 10, .other_rule = true};
   const SolverAccuracy reversed{.tolerance = tolerance, .reversed = true};
   for (const SolverAccuracy& accuracy : {other, reversed})
     runs.others.push_back(solve(solver, end, FE_TONEAREST, accuracy).seen);
-  if (const auto lasting = with_lasting_contacts(solver.scene().hard)) {
+  const HardScene& scene = solver.scene().hard;
+  const auto lasting = is_rubbed(scene) ? with_lasting_contacts(scene) : std::nullopt;
+  if (lasting) {
     const ReferenceSolver resolved(*lasting, Compare::Reference::contact);
     runs.others.push_back(solve(resolved, end, FE_TONEAREST, {.tolerance = 1e-10}).seen);
   }
@@ -194,11 +197,13 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
 
 void fail_because_of_nan(const std::vector<std::string>& names, ReferenceResult& result) {
   if (names.empty()) return;
+  if (!result.run.failed) {  // else the solver has said more
+    result.run.reason = "NaN in " + names.front();
+    if (names.size() > 1)
+      result.run.reason += fmt::format(" and {} more observables", names.size() - 1);
+  }
   result.run.failed = true;
   result.run.reached = false;
-  result.run.reason = "NaN in " + names.front();
-  if (names.size() > 1)
-    result.run.reason += fmt::format(" and {} more observables", names.size() - 1);
   result.first_contact = std::numeric_limits<double>::infinity();
   result.observables.clear();
   result.closed_form.clear();

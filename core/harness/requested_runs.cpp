@@ -47,8 +47,10 @@ class Profiles {
     over_.settings = settings;
   }
 
-  /// The settings for the record of a request; a fault in it is noted.
-  void choose(const Scenario& scenario, const std::string& key, EngineRecord& record) {
+  /// The settings for the record of a request, or of one of a grid the reason why it is skipped; a
+  /// fault in it is noted.
+  void choose(const Scenario& scenario, const std::string& key, bool of_grid,
+              EngineRecord& record) {
     if (std::ranges::find(engines_, record.engine) == engines_.end()) {
       note(fault_at(scenario, key + ".engine",
                     fmt::format("must be one of the engines {}{}", fmt::join(engines_, ", "),
@@ -59,7 +61,7 @@ class Profiles {
     const auto executable = find_engine(record.engine, record.precision);
     over_.engine = record.engine;
     check(over_, record, executable);
-    choose_profile(scenario, key, executable, record);
+    choose_profile(scenario, key, of_grid, executable, record);
     // Of both the setting that is given by hand holds.
     Settings settings = over_.settings;
     if (general_ && executable && takes_leaves_out(executable->path))
@@ -80,18 +82,40 @@ class Profiles {
                  fmt::format("{} bodies", bodies)));
   }
 
+  /// Notes the profiles that no engine of a grid has.
+  void check_grid(const Scenario& scenario, const std::vector<EngineRecord>& records) {
+    std::set<std::string> lacking;
+    for (const EngineRecord& record : records)
+      if (!record.reason.empty()) lacking.insert(record.profile);
+    for (const EngineRecord& record : records)
+      if (record.reason.empty()) lacking.erase(record.profile);
+    std::vector<std::string> names;
+    for (const EngineExecutable& engine : find_engines())
+      for (const std::string& name : profile_names(engine)) names.push_back(name);
+    for (const std::string& profile : lacking)
+      note({scenario.file,
+            {},
+            "--profiles",
+            "must be profiles of the engines" + did_you_mean(profile, names),
+            profile});
+  }
+
   void throw_faults() const {
     if (!faults_.empty()) throw BadScenario(faults_);
   }
 
  private:
-  void choose_profile(const Scenario& scenario, const std::string& key,
+  void choose_profile(const Scenario& scenario, const std::string& key, bool of_grid,
                       const std::optional<EngineExecutable>& executable, EngineRecord& record) {
     if (!executable && !is_profile_path(record.profile)) return;  // the run is skipped for that
     const auto file =
         find_profile(executable.value_or(EngineExecutable{}), record.profile, folder_of(scenario));
     if (!file) {
       if (record.profile == "default") return;  // without a file the engine's own settings
+      if (of_grid) {
+        record.reason = fmt::format("{} has no profile '{}'", record.engine, record.profile);
+        return;
+      }
       std::vector<std::string> names = profile_names(*executable);
       if (std::ranges::find(names, "default") == names.end()) names.push_back("default");
       note(fault_at(scenario, key + ".profile",
@@ -202,9 +226,10 @@ std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario
       record.precision = precision_name(request.precision);
       record.profile = request.profile;
       record.expect = request.expect;
-      profiles.choose(scenario, fmt::format("compare.engines[{}]", k), record);
+      profiles.choose(scenario, fmt::format("compare.engines[{}]", k), request.of_grid, record);
       for (const double rate : request.rates) records.emplace_back(record).rate = rate;
     }
+    profiles.check_grid(scenario, records);
   }
   profiles.throw_faults();
   return runs;

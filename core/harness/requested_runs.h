@@ -10,7 +10,8 @@ namespace slipcheck {
 
 /// The runs that these scenes ask for in compare.engines, each engine at each of its rates, with
 /// the settings that their profiles choose, and these `settings` over them. `general`: engines that
-/// have the setting `leaves_out` are to leave out nothing.
+/// have the setting `leaves_out` are to leave out nothing. One of a grid whose profile its engine
+/// has not is skipped with that reason; a profile that no engine of the grid has is a fault.
 ///
 /// A path of a profile is taken from the scene's own folder. Throws BadScenario with all that is
 /// wrong: engines and profiles that are unknown, files that cannot be read, profiles that are

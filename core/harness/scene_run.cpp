@@ -168,7 +168,8 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
       prepare_scenes(std::move(scenarios), options.general, options.workers, options.time_limit);
   std::vector<EngineTask> tasks;
   for (std::size_t s = 0; s < prepared.size(); ++s)
-    for (EngineRecord& record : runs[s]) tasks.push_back({&prepared[s], &record});
+    for (EngineRecord& record : runs[s])
+      if (record.reason.empty()) tasks.push_back({&prepared[s], &record});
   run_engines(tasks, options);
   if (options.record_motion)
     for (PreparedScene& scene : prepared) record_motion_of(scene, options.time_limit);

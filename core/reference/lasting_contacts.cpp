@@ -42,9 +42,7 @@ bool rests_on_bodies(const HardScene& scene) {
 }
 
 bool sticks(const HardScene& scene) {
-  if (scene.gravity == 0 || scene.bodies.size() < 2) return false;
-  return std::ranges::any_of(scene.substrate,
-                             [](const auto& contact) { return contact.kinetic_friction > 0; }) &&
+  return scene.bodies.size() > 1 && is_rubbed(scene) &&
          std::ranges::any_of(scene.pairs, [](const PairContact& pair) {
            const double* e = std::get_if<double>(&pair.restitution);
            return e && *e == 0;
@@ -86,6 +84,12 @@ std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, con
 }
 
 }  // namespace
+
+bool is_rubbed(const HardScene& scene) {
+  return scene.gravity != 0 && std::ranges::any_of(scene.substrate, [](const auto& contact) {
+           return contact.kinetic_friction > 0;
+         });
+}
 
 bool has_lasting_contacts(const HardScene& scene) {
   return is_integrable(scene) && (rests_on_bodies(scene) || sticks(scene));

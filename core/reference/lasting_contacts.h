@@ -8,6 +8,9 @@
 
 namespace slipcheck {
 
+/// Whether a weight on the substrate rubs, which can press bodies together.
+bool is_rubbed(const HardScene& scene);
+
 /// Whether hard spheres of this scene stay in contact, which collisions at instants cannot show:
 /// nothing moves at the start and a body above the plane rests on others, or a pair does not
 /// rebound at all (e_n = 0) while friction with the substrate can press it together.

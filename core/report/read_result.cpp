@@ -99,11 +99,13 @@ Deviation read_deviation(const JsonNode& json) {
   deviation.reason = json.own_reason({"the error is infinite", "the error is not a number"});
   if (json.has("tolerance")) deviation.tolerance = json.number("tolerance");
   deviation.absolute = json.flag_or("absolute", false);
-  if (deviation.tolerance && json.has("verdict"))
+  const bool within = json.flag("within");
+  if (deviation.tolerance)  // files of version 0.1 have no verdict here
     deviation.verdict =
-        json.one_of<Verdict>("verdict", 4, [](Verdict verdict) { return name_of(verdict); });
-  else if (deviation.tolerance)  // before version 0.2
-    deviation.verdict = json.flag("within") ? Verdict::within : Verdict::deviates;
+        json.has("verdict")
+            ? json.one_of<Verdict>("verdict", 4, [](Verdict verdict) { return name_of(verdict); })
+        : within ? Verdict::within
+                 : Verdict::deviates;
   return deviation;
 }
 

@@ -15,6 +15,20 @@ bool is_component(const std::string& full_name) {
   return observable && owned_name(full_name).observable != observable->name;
 }
 
+/// Whose value of an observable the scene could show: of pairs, those that have met.
+std::vector<std::string> owners(const SceneRecord& scene, ObservableScope scope) {
+  if (scope == ObservableScope::all) return {"all"};
+  std::set<std::string> result;
+  if (scope == ObservableScope::body)
+    for (const Body& body : scene.scenario.bodies) result.insert(body.name);
+  else
+    for (const auto& [name, value] : scene.reference.observables)
+      if (const ObservableName* other = observable_of(name);
+          other && other->scope == ObservableScope::pair)
+        result.insert(std::string(owned_name(name).owner));
+  return {result.begin(), result.end()};
+}
+
 }  // namespace
 
 const ObservableName* observable_of(const std::string& full_name) {
@@ -34,20 +48,18 @@ std::map<std::string, std::string> absent_observables(const SceneRecord& scene) 
   std::map<std::string, std::string> absent;
   for (const auto& [key, tolerance] : scene.scenario.compare.tolerance) {
     if (tolerance.none) continue;
+    const bool is_general = owned_name(key).owner.empty();
+    const std::vector<std::string> named =
+        is_general ? owners(scene, find_observable(key)->scope) : std::vector<std::string>{};
+    for (const std::string& owner : named)
+      if (const std::string full = owner + "." + key; names_observable(scene.scenario, key, full) &&
+                                                      !scene.reference.observables.contains(full))
+        absent[full] = "it does not occur in the reference";
     const auto names_it = [&](const auto& value) {
       return names_observable(scene.scenario, key, value.first);
     };
-    if (std::ranges::none_of(scene.reference.observables, names_it)) {
+    if (named.empty() && std::ranges::none_of(scene.reference.observables, names_it))
       absent[key] = kNothingOccurs;
-      continue;
-    }
-    // Of a name that stands for all bodies, those that do not show it.
-    if (!owned_name(key).owner.empty()) continue;
-    if (find_observable(key)->scope != ObservableScope::body) continue;
-    for (const Body& body : scene.scenario.bodies)
-      if (const std::string full = body.name + "." + key;
-          !scene.reference.observables.contains(full))
-        absent[full] = "it does not occur in the reference";
   }
   return absent;
 }

@@ -18,7 +18,9 @@ using nlohmann::json;
 std::string owner_pattern(ObservableScope scope, Wildcards wildcards) {
   if (scope == ObservableScope::all) return "all";
   const char* word = wildcards == Wildcards::yes ? "[A-Za-z0-9_*]+" : "[A-Za-z0-9_]+";
-  return fmt::format("{0}(-{0}){1}", word, scope == ObservableScope::pair ? '+' : '*');
+  const bool is_pair = scope == ObservableScope::pair;
+  const std::string joined = fmt::format("{0}(-{0}){1}", word, is_pair ? '+' : '*');
+  return is_pair && wildcards == Wildcards::yes ? fmt::format(R"((\*|{}))", joined) : joined;
 }
 
 /// Whether the text has that form: words that are joined by '-'.
@@ -33,7 +35,7 @@ bool has_form_of_owner(std::string_view text, ObservableScope scope, Wildcards w
     is_joined |= c == '-';
     after_word = of_word;
   }
-  return after_word && (scope == ObservableScope::body || is_joined);
+  return after_word && (scope == ObservableScope::body || is_joined || text == "*");
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ bool any_body_matches(const WrittenScene& written, const std::string& pattern) {
 
 /// Whether a pattern with wildcards may stand for a pair of the bodies, or one and the substrate.
 bool any_pair_matches(const WrittenScene& written, const std::string& pattern) {
+  if (pattern == "*") return true;
   for (std::size_t at = pattern.find('-'); at != std::string::npos; at = pattern.find('-', at + 1))
     if (const std::string left = pattern.substr(0, at), right = pattern.substr(at + 1);
         any_body_matches(written, left) &&

@@ -254,6 +254,8 @@ struct EngineRequest {
   std::string profile = "default";
   std::vector<double> rates;  ///< steps per second [Hz], > 0
   std::optional<Expectation> expect;
+  /// One of a grid of engines and profiles: an engine that lacks the profile is skipped.
+  bool of_grid = false;
 };
 
 struct Compare {

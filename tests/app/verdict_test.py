@@ -107,7 +107,7 @@ class Verdicts(unittest.TestCase):
     def test_names_that_nobody_has_are_refused_with_the_nearest(self):
         for engines, words in (
                 ("{engine: bullet, profile: tunde, rate: 240}",
-                 r"pair\.yaml:15:\d+: compare\.engines\[0\]\.profile: must be one of the profiles of "
+                 r"pair\.yaml:14:\d+: compare\.engines\[0\]\.profile: must be one of the profiles of "
                  r"bullet, .*did you mean tuned\?\), got tunde"),
                 ("{engine: bulet, rate: 240}", r"engine: must be one of .*did you mean bullet\?"),
                 ("{engine: bullet, precision: singel, rate: 240}",

@@ -59,7 +59,7 @@ TEST(BaselineFile, ReadsBackToTheLastBit) {
   EXPECT_EQ(read.runs[0].cpu_seconds, 1e-3);
   EXPECT_EQ(read.runs[0].observables, old.runs[0].observables);
   EXPECT_EQ(read.runs[0].observables.at("i.sliding_time").max, std::nextafter(0.0215, 1));
-  EXPECT_FALSE(read.runs[1].verdict);
+  EXPECT_EQ(read.runs[1].verdict, Verdict::undecided);
   EXPECT_EQ(baseline_text(read), baseline_text(old));
 }
 
@@ -90,8 +90,10 @@ TEST(BaselineFile, FaultsHaveFilePlaceRuleAndValue) {
             file +
                 "runs[0].status: must be one of ok, unstable, crashed, timed_out, skipped, got "
                 "\"fine\"");
-  EXPECT_EQ(fault("\"verdict\": \"within\"", "\"verdict\": 1"),
-            file + "runs[0].verdict: must be one of within, deviates, failed, got 1");
+  EXPECT_EQ(
+      fault("\"verdict\": \"within\"", "\"verdict\": 1"),
+      file +
+          "runs[0].verdict: must be one of not judged, within, undecided, deviates, failed, got 1");
   EXPECT_EQ(fault("\"phases\": 4", "\"phases\": 0"), file + "phases: must be >= 1, got 0");
   EXPECT_EQ(fault("\"phases\": 4", "\"phases\": -4"),
             file + "phases: must be a whole number >= 0, got -4");

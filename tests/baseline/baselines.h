@@ -46,6 +46,9 @@ inline SceneRecord meeting() {
                      {"i.final_velocity.x", ensemble(3.1, 3.1, 3.1)},
                      {"i.sliding_time", ensemble(0.021, 0.0205, 0.0215)},
                      {"i.stopping_time", ensemble(0.6, 0.6, 0.6)}};
+  for (const char* name : {"i-j.effective_restitution", "i.final_velocity", "i.sliding_time"})
+    run.errors[name].verdict = Verdict::within;
+  scene.reference.run.reached = true;
   return scene;
 }
 

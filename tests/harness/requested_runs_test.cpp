@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "engine/protocol.h"
+#include "harness/engine_grid.h"
 #include "scenario/fault.h"
 #include "scenario/load.h"
 
@@ -87,12 +88,28 @@ TEST_F(RequestedRunsTest, EachEngineHasARunAtEachOfItsRates) {
   EXPECT_TRUE(found[2].expect);
 }
 
-TEST_F(RequestedRunsTest, ANameIsShippedOrTheRunHasItsReason) {
-  const auto found = runs("    - {engine: faulty, rate: 60, profile: tuned}\n");
+TEST_F(RequestedRunsTest, ANameThatIsNotShippedIsAFaultWithTheNearest) {
   EXPECT_EQ(
-      found[0].reason,
-      "faulty has no profile 'tuned'; it has eat-memory, hang, kill-at-step-10, nan, ok, slow");
-  EXPECT_EQ(found[0].status, EngineRecord::Status::skipped);
+      faults({scenario("    - {engine: faulty, rate: 60, profile: hnag}\n")}),
+      (std::vector<std::string>{
+          "scenes/ball.yaml:12:34: compare.engines[0].profile: must be one of the profiles of "
+          "faulty, eat-memory, hang, kill-at-step-10, nan, ok, slow, default, or a path (did "
+          "you mean hang?), got hnag"}));
+}
+
+TEST_F(RequestedRunsTest, OfAGridTheEnginesThatHaveTheProfileRun) {
+  Scenario scene = scenario("    - {engine: bullet, rate: 60}\n");
+  const std::vector<double> rates = {60};
+  ask_for(scene, {{"faulty", "bullet"}, {"double"}, {"hang", "default"}}, rates);
+  const auto found = requested_runs({scene}).at(0);
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found[0].reason, "");
+  EXPECT_EQ(found[2].reason, "bullet has no profile 'hang'");
+  EXPECT_EQ(found[3].reason, "");
+  ask_for(scene, {{"faulty", "bullet"}, {"double"}, {"hnag"}}, rates);
+  EXPECT_EQ(faults({scene}),
+            (std::vector<std::string>{"scenes/ball.yaml: --profiles: must be profiles of the "
+                                      "engines (did you mean hang?), got hnag"}));
 }
 
 TEST_F(RequestedRunsTest, TheDefaultNeedsNoFile) {
@@ -149,7 +166,7 @@ TEST_F(RequestedRunsTest, EverythingThatIsWrongIsToldAtOnceAndOnce) {
       "    - {engine: faulty, precision: single, rate: 60, profile: none.yaml}\n");
   const std::vector<std::string> expected = {
       "scenes/ball.yaml:12:8: compare.engines[0].engine: must be one of the engines bullet, "
-      "faulty, got bulet",
+      "faulty (did you mean bullet?), got bulet",
       "scenes/ball.yaml:13:34: compare.engines[1].profile: scenes/none.yaml must be a readable "
       "file: No such file or directory, got none.yaml",
       "scenes/typo.yaml:3:1: nam: is not a key here (did you mean name?)",

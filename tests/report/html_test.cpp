@@ -251,6 +251,8 @@ TEST(Html, DrawsTheFloorsSwingAndAPeriodicCell) {
 TEST(Html, CanBeEmpty) {
   EXPECT_TRUE(contains(page_of({}), "</html>"));
   SceneRecord scene;
+  EXPECT_TRUE(contains(page_of({scene}), "? undecided"));
+  scene.reference.run.reached = true;
   EXPECT_TRUE(contains(page_of({scene}), "– reference alone"));
 }
 

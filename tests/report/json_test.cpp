@@ -67,7 +67,7 @@ TEST(JsonReport, KeepsEveryBitOfAValue) {
 TEST(JsonReport, TellsErrorsRelativeAndAbsolute) {
   const Json errors = read_back(lottery_scene())["runs"][0]["errors"];
   EXPECT_EQ(keys(errors["i.sliding_time"]),
-            (std::vector<std::string>{"median", "max", "rms", "tolerance", "within"}));
+            (std::vector<std::string>{"median", "max", "rms", "tolerance", "within", "verdict"}));
   EXPECT_EQ(errors["i.sliding_time"]["within"], true);
   EXPECT_EQ(errors["i.sliding_time"]["rms"], 0);
   EXPECT_EQ(errors["i-j.effective_restitution"]["absolute"], true);
