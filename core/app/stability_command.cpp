@@ -143,7 +143,6 @@ void add_stability_command(CLI::App& app, int& exit_code) {
       "works");
   auto arguments = std::make_shared<StabilityArguments>();
   arguments->common.options.phases = 16;
-  arguments->common.options.time_limit = 30;
   command->add_option("FILE", arguments->common.files,
                       "Scenario files; else the catalogue, scenarios/extreme");
   add_grid_options(*command, arguments->common);

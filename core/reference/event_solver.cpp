@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "physics/numbers.h"
 #include "reference/event_scheduler.h"
 #include "reference/indexed_heap.h"
+#include "reference/lasting_contacts.h"
 #include "reference/scan_queue.h"
 #include "reference/substrate_world.h"
 
@@ -119,9 +121,11 @@ class EventSolver::EngineOf final : public Engine {
     const std::size_t events = world_.events(), collisions = world_.collisions();
     const std::size_t collapses = world_.collapses();
     RateLimit rate(settings_, world_.size(), now_);
-    const std::size_t most_collapses =
-        settings_.most_collapses +
-        (world_.size() > settings_.most_without_cells ? 1000 * world_.size() : 0);
+    const std::size_t of_many =
+        world_.size() > settings_.most_without_cells ? 1000 * world_.size() : 0;
+    // What nothing presses together comes to an end, however long a cascade it is.
+    const std::size_t most_collapses = is_rubbed(*scene_) ? settings_.most_collapses + of_many
+                                                          : std::numeric_limits<std::size_t>::max();
     world_.set_sink(sink);
     world_.show(now_);
     while (true) {

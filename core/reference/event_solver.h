@@ -35,7 +35,8 @@ struct EventSettings {
   /// Looked at over so many events, and 1000 for each body, that no harmless burst counts; > 0.
   std::size_t burst = 1'000'000;
   /// More collisions, and 1000 for each body where there are many, that the rule for collapse
-  /// changed are no cascade that ends: bodies stay in contact, and the run stops with a reason.
+  /// changed, where friction can press bodies together, are no cascade that ends: they stay in
+  /// contact, and the run stops with a reason.
   std::size_t most_collapses = 1'000'000;
   /// Takes the phases of a tilted and moving plane on any plane.
   bool general = false;

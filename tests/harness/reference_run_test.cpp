@@ -66,10 +66,23 @@ TEST(ReferenceRun, ANaNIsAFailureAndNotNothing) {
   const ReferenceResult result = test::run_hard(scene, {Run::Until::time, 1, 1}, {"i"});
   EXPECT_TRUE(result.run.failed);
   EXPECT_FALSE(result.run.reached);
-  EXPECT_EQ(result.run.reason.find("NaN in i."), 0u) << result.run.reason;
+  EXPECT_EQ(result.run.reason, "the state of body 0 is not finite at 1 s");
   EXPECT_TRUE(result.observables.empty());
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_EQ(result.warnings[0], "the run did not end: " + result.run.reason);
+}
+
+TEST(ReferenceRun, ANaNAmongTheObservablesIsAFailureByName) {
+  ReferenceResult result;
+  result.run.reached = true;
+  result.observables["i.final_velocity"] = {1, 0};
+  fail_because_of_nan({}, result);
+  EXPECT_TRUE(result.run.reached);
+  fail_because_of_nan({"i.sliding_time", "j.sliding_time"}, result);
+  EXPECT_TRUE(result.run.failed);
+  EXPECT_FALSE(result.run.reached);
+  EXPECT_EQ(result.run.reason, "NaN in i.sliding_time and 1 more observables");
+  EXPECT_TRUE(result.observables.empty());
 }
 
 TEST(Observables, WhatDidNotHappenIsNotWhatCouldNotBeComputed) {

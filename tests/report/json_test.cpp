@@ -174,7 +174,7 @@ TEST(JsonReport, SaysWhatTheReferenceDoesNotShow) {
   scene.reference.observables.erase("i-j.restitution");
   scene.reference.observables.erase("i-j.effective_restitution");
   EXPECT_EQ(read_back(scene)["reference"]["observables"]["effective_restitution"]["reason"],
-            "no pair collides in the reference");
+            "nothing of it occurs in the reference");
 }
 
 TEST(JsonReport, TellsHowTheMeansOverABoxCameAbout) {
