@@ -28,7 +28,8 @@ struct Box {
 /// What keeps an endless cascade of ever weaker collisions (inelastic collapse) finite.
 struct CollapseRule {
   enum class Model {
-    /// A pair parts at least with a small fraction of its bodies' hardest impact (box: scene's speed).
+    /// A pair parts at least with a small fraction of its bodies' hardest impact (box: scene's
+    /// speed).
     slowest_rebound,
     /// TC model, Luding and McNamara 1998: a collision does not dissipate if one of the two had its
     /// last one less than `contact_time` ago.
