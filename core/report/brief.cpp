@@ -6,7 +6,6 @@
 
 #include "report/comparison_rows.h"
 #include "report/expectation_rows.h"
-#include "report/findings.h"
 #include "report/selection.h"
 #include "report/verdict_look.h"
 
@@ -39,6 +38,13 @@ std::string short_name(const EngineRecord& run) {
   return fmt::format("{} {} {} {:g} Hz", run.engine, run.precision, run.profile, run.rate);
 }
 
+/// "undecided: flight_time", "skipped"
+std::string undecided_text(const EngineRecord& run) {
+  for (const auto& [name, error] : run.errors)
+    if (error.verdict == Verdict::undecided) return "undecided: " + name;
+  return status_text(run.status);
+}
+
 /// The worst deviation of a scene, else the first thing that is not as expected or not decided; may
 /// be empty.
 std::string worst_text(const SceneRecord& scene) {
@@ -50,8 +56,8 @@ std::string worst_text(const SceneRecord& scene) {
     if (const std::string unmet = unmet_expectation(run, false); !unmet.empty())
       return unmet + ", " + short_name(run);
   for (const EngineRecord& run : scene.runs)
-    if (run.verdict() == Verdict::undecided) return finding_text(scene, run);
-  return scene.verdict() == Verdict::undecided ? scene.reference.run.reason : "";
+    if (run.verdict() == Verdict::undecided) return undecided_text(run) + ", " + short_name(run);
+  return scene.verdict() == Verdict::undecided ? "the reference did not end" : "";
 }
 
 }  // namespace

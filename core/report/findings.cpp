@@ -19,6 +19,15 @@ bool is_worse(const ComparisonRow& a, const ComparisonRow& b) {
   return rank(a) > rank(b);
 }
 
+/// The first tolerance by which nothing of a run can be judged, "flight_time: nothing of it occurs
+/// in the reference"; empty where there is none.
+std::string first_undecided(const EngineRecord& run) {
+  if (run.expect || run.status != RunStatus::ok) return {};
+  for (const auto& [name, error] : run.errors)
+    if (error.verdict == Verdict::undecided) return printable(name + ": " + error.reason);
+  return {};
+}
+
 }  // namespace
 
 std::string run_label(const EngineRecord& run) {
@@ -46,20 +55,13 @@ std::string deviation_text(const ComparisonRow& row) {
   return row.note.empty() ? text : text + "; " + row.note;
 }
 
-std::string undecided_text(const EngineRecord& run) {
-  if (run.expect || run.status != RunStatus::ok) return {};
-  for (const auto& [name, error] : run.errors)
-    if (error.verdict == Verdict::undecided) return printable(name + ": " + error.reason);
-  return {};
-}
-
 std::string finding_text(const SceneRecord& scene, const EngineRecord& run) {
   if (run.verdict() <= Verdict::within) return {};
   if (run.expect && !run.expect->status && run.status == RunStatus::ok)
     return printable(unmet_expectation(run, true));
   if (const auto worst = worst_deviation(scene, run); worst && !run.expect)
     return printable(deviation_text(*worst));
-  if (const std::string undecided = undecided_text(run); !undecided.empty())
+  if (const std::string undecided = first_undecided(run); !undecided.empty())
     return "undecided: " + undecided;
   std::string text = outcome_text(run);
   return printable(run.reason.empty() ? text : text + ": " + run.reason);

@@ -20,10 +20,6 @@ std::optional<ComparisonRow> worst_deviation(const SceneRecord& scene, const Eng
 /// with the row's note.
 std::string deviation_text(const ComparisonRow& row);
 
-/// The first tolerance by which nothing of a run can be judged, "flight_time: nothing of it occurs
-/// in the reference"; empty where there is none.
-std::string undecided_text(const EngineRecord& run);
-
 /// Why a run is not within, in one line; empty where it is or nothing judges it: the status with
 /// its reason, what is not as expected, the worst deviation, or what cannot be decided.
 std::string finding_text(const SceneRecord& scene, const EngineRecord& run);

@@ -251,7 +251,7 @@ TEST(Table, NamesWhatIsUndecidedAndWhy) {
   EXPECT_TRUE(contains(run, "effective_restitution: nothing of it occurs in the reference"));
   EXPECT_TRUE(contains(brief_of({vacuous_scene()}, kWide), "symmetric-steel  ?          0/1"));
   EXPECT_TRUE(contains(brief_of({vacuous_scene()}, kWide),
-                       "undecided: effective_restitution: nothing of it occurs"));
+                       "undecided: effective_restitution, bullet double default 240 Hz"));
 }
 
 TEST(Table, AReferenceWithoutAnEndIsUndecidedAlsoAlone) {
