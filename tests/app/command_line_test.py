@@ -555,8 +555,9 @@ class CommandLine(unittest.TestCase):
         scenes = sorted(SCENES.glob("*.yaml"))
         if SANITIZED:  # a minute for 200 balls, whose code other tests go through
             scenes = [scene for scene in scenes if not scene.stem.startswith("gas-")]
-        report = json.loads(run("run", *scenes, "--json", "-",
-                                "--phases", "1").stdout)
+        # Sanitizers are slow, and this is no test of limits.
+        report = json.loads(run("run", *scenes, "--json", "-", "--phases", "1",
+                                "--time-limit", "600").stdout)
         for result in report["results"]:
             reference = result["reference"]
             name = result["scenario"]["name"]
