@@ -88,7 +88,8 @@ void ContactIntegrator::set_floors() {
   std::fill(floor_.begin() + static_cast<std::ptrdiff_t>(dynamics.slot_at(0)), floor_.end(), 1e30);
   for (const ContactMode& contact : dynamics.contacts) {
     double* floor = floor_.data() + dynamics.slot_at(contact.slot);
-    floor[0] = tolerance * contact.overlap_scale;
+    // What an impact leaves together is pressed to the digits that its velocities have.
+    floor[0] = (contact.law->after_impact ? 1e4 : 1) * tolerance * contact.overlap_scale;
     double bend = contact.overlap_scale;
     if (const auto* asperity = std::get_if<AsperityForce>(&contact.law->tangential)) {
       bend = asperity->size;

@@ -17,6 +17,9 @@ struct SoftContact {
   NormalForce normal;
   ContactEnd end = ContactEnd::zero_overlap;
   TangentialForce tangential;
+  /// Bodies that meet exchange the impulse of their hard contact first; these forces only hold what
+  /// that leaves together.
+  bool after_impact = false;
 };
 
 /// What a box's surfaces do to bodies where those contacts last; by material.

@@ -86,9 +86,11 @@ class ContactSolver::Impl {
 // --- events --------------------------------------------------------------------------------------
 
 void ContactSolver::Impl::handle_touch(const NextTouch& touch, FrameSink* sink, ContactRun& run) {
-  ++run.collisions;
   state_.project();
-  if (scene_->between(touch.first, touch.second)) {
+  const auto& soft = scene_->between(touch.first, touch.second);
+  const bool is_impact = !soft || (soft->after_impact && state_.meet(touch.first, touch.second));
+  if (is_impact || !soft->after_impact) ++run.collisions;
+  if (!is_impact) {
     show(sink, state_.time);
     state_.begin_contact(touch.first, touch.second);
     state_.settle();
@@ -98,6 +100,7 @@ void ContactSolver::Impl::handle_touch(const NextTouch& touch, FrameSink* sink, 
   show(sink, state_.time);
   const CollisionResult result = state_.collide_now(touch.first, touch.second);
   if (result.altered) ++run.collapses;
+  state_.hand_impulses_on();
   state_.settle();
   show(sink, state_.time,
        Touch{static_cast<int>(touch.first), static_cast<int>(touch.second),

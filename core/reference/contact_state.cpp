@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/stop_scope.h"
+#include "physics/numbers.h"
 #include "physics/substrate_phase.h"
 
 namespace slipcheck {
@@ -111,8 +113,13 @@ void ContactState::begin_contact(std::size_t i, std::size_t j, double overlap) {
   const BodyState a = body(i), b = body(j);
   const Vector3 n = (a.position - b.position).normalized();
   // What an overlap holds counts as the approach that would have made it.
+  // What an impact leaves together is pressed by weights alone.
+  const double least =
+      law->after_impact
+          ? scene_->hard.gravity * std::visit(ImpactScale{contact.reduced_mass, 1}, law->normal)
+          : 1e-9 * scales_.speed;
   const double approach =
-      std::hypot(std::max(-n.dot(a.velocity - b.velocity), 1e-9 * scales_.speed),
+      std::hypot(std::max(-n.dot(a.velocity - b.velocity), least),
                  overlap > 0 ? release_speed(*law, overlap, contact.reduced_mass) : 0);
   contact.overlap_scale = std::visit(ImpactScale{contact.reduced_mass, approach}, law->normal);
   contact.time_scale = contact.overlap_scale / approach;
@@ -223,7 +230,8 @@ CollisionResult ContactState::collide_now(std::size_t i, std::size_t j) {
   BodyState a = body(i), b = body(j);
   a.velocity -= frame;
   b.velocity -= frame;
-  const double fraction = scales_.rebound_fraction;
+  // What stays together afterwards needs no rule to end.
+  const double fraction = scene_->between(i, j) ? 0 : scales_.rebound_fraction;
   const double hardest = std::max(hardest_impact_[i], hardest_impact_[j]);
   const CollisionResult result =
       collide(scene.between(i, j), {scene.confined, fraction * hardest, fraction},
@@ -239,6 +247,44 @@ CollisionResult ContactState::collide_now(std::size_t i, std::size_t j) {
   for (std::size_t k : bodies)
     if (dynamics_.modes[k].on_plane()) place(k);
   return result;
+}
+
+double ContactState::approach_speed(std::size_t i, std::size_t j) const {
+  const BodyState a = body(i), b = body(j);
+  return -(a.position - b.position).normalized().dot(a.velocity - b.velocity);
+}
+
+ContactState::Rest ContactState::rest_of(std::size_t i, std::size_t j) const {
+  const auto& soft = scene_->between(i, j);
+  // What an impact leaves together it leaves so up to the round-off of many impulses.
+  const double much = soft && soft->after_impact ? 1e3 : 1;
+  const double contact = scene_->hard.bodies[i].radius + scene_->hard.bodies[j].radius;
+  return {much * 8 * kEpsilon * contact, much * 1e-13 * scales_.speed, much * 1e-12};
+}
+
+bool ContactState::meet(std::size_t i, std::size_t j) const {
+  return approach_speed(i, j) > rest_of(i, j).speed;
+}
+
+void ContactState::hand_impulses_on() {
+  if (std::ranges::none_of(scene_->soft, [](const auto& soft) { return soft && soft->after_impact; }))
+    return;
+  std::vector<std::array<std::size_t, 2>> together;
+  for (std::size_t i = 0; i < dynamics_.modes.size(); ++i)
+    for (std::size_t j = i + 1; j < dynamics_.modes.size(); ++j) {
+      const auto& soft = scene_->between(i, j);
+      if (!soft || !soft->after_impact) continue;
+      const double contact = scene_->hard.bodies[i].radius + scene_->hard.bodies[j].radius;
+      const double gap = (body(i).position - body(j).position).norm() - contact;
+      if (gap <= rest_of(i, j).gap) together.push_back({i, j});
+    }
+  const auto speed = [&](const auto& pair) { return approach_speed(pair[0], pair[1]); };
+  while (!together.empty()) {
+    const auto [i, j] = *std::ranges::max_element(together, {}, speed);
+    if (!(approach_speed(i, j) > 1e-2 * rest_of(i, j).speed)) return;
+    heed_stop();
+    collide_now(i, j);
+  }
 }
 
 void ContactState::land_now(std::size_t i) {

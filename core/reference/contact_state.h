@@ -49,8 +49,19 @@ class ContactState {
   bool reach_caps();
   void break_asperity(std::size_t contact, double change);
   void switch_growth(std::size_t contact, bool growing);
-  /// A hard pair collides at this instant.
+  /// What counts as nothing between two bodies that rest against each other: a gap [m], a speed
+  /// [m/s] and a part of what accelerates them.
+  struct Rest {
+    double gap, speed, push;
+  };
+  Rest rest_of(std::size_t i, std::size_t j) const;
+  /// Whether two bodies that touch approach each other.
+  bool meet(std::size_t i, std::size_t j) const;
+  /// The hard contact of a pair acts at this instant.
   CollisionResult collide_now(std::size_t i, std::size_t j);
+  /// Of bodies that were left together by an impact and that another one drives into each other,
+  /// those that approach fastest collide, until none does.
+  void hand_impulses_on();
   void land_now(std::size_t i);
   void lift_off(std::size_t i);
   /// The slip has come to zero: the body sticks if static friction holds it. A slip that merely
@@ -81,6 +92,7 @@ class ContactState {
   bool only_leans() const;
 
  private:
+  double approach_speed(std::size_t i, std::size_t j) const;
   double leaning_speed() const { return 1e-9 * scales_.speed; }
   void place(std::size_t i);
   void set_body(std::size_t i, const BodyState& state);

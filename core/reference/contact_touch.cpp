@@ -61,23 +61,22 @@ double touch_time(const ContactState& state, const Ode& ode, std::size_t i, std:
   const HardScene& scene = state.scene().hard;
   const double contact = scene.bodies[i].radius + scene.bodies[j].radius;
   const double touching = 8 * kEpsilon * contact;
+  const ContactState::Rest rest = state.rest_of(i, j);
   const double begin = state.time, end = ode.time();
   double t = begin;
   const double* now = state.y.data();
   while (true) {
     const auto [gap, closing] = approach(state.dynamics(), now, i, j, contact);
-    if (gap <= touching) {
-      if (closing > 1e-13 * state.scales().speed) return t;
-      // At rest against each other: only a push makes it a contact.
-      if (closing > -1e-13 * state.scales().speed) {
-        const auto& bodies = state.evaluation().bodies;
-        const Vector3 n = state.dynamics().between_centres(i, j, now).normalized();
-        const double pushed = -n.dot(bodies[i].acceleration - bodies[j].acceleration);
-        // Round-off of what acts on them is none.
-        const double acts = std::hypot(scene.gravity, scene.downhill.norm());
-        const bool begins = t == begin && pushed > 1e-12 * (bound + 2 * acts);
-        return begins ? t : kNever;
-      }
+    if (gap <= touching && closing > rest.speed) return t;
+    // At rest against each other: only a push makes it a contact.
+    if (gap <= rest.gap && std::abs(closing) <= rest.speed) {
+      const auto& bodies = state.evaluation().bodies;
+      const Vector3 n = state.dynamics().between_centres(i, j, now).normalized();
+      const double pushed = -n.dot(bodies[i].acceleration - bodies[j].acceleration);
+      // Round-off of what acts on them is none.
+      const double acts = std::hypot(scene.gravity, scene.downhill.norm());
+      const bool begins = t == begin && pushed > rest.push * (bound + 2 * acts);
+      return begins ? t : kNever;
     }
     const double open = std::max(gap, touching);
     const double root = std::sqrt(closing * closing + 2 * bound * open);

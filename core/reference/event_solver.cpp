@@ -19,7 +19,9 @@ namespace {
 
 LeastSpeeds least_speeds(const HardScene& scene, std::span<const BodyState> states,
                          const EventSettings& settings) {
-  return {settings.collapse_fraction, settings.landing_fraction * speed_scale(scene, states)};
+  return {.rebound_fraction = settings.collapse_fraction,
+          .rebound = settings.slowest_rebound,
+          .landing = settings.landing_fraction * speed_scale(scene, states)};
 }
 
 /// Tells when events have come too fast for too long.

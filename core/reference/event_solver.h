@@ -32,6 +32,8 @@ struct EventSettings {
   /// More events for each body and simulated second [1/s], > 0, than any rule for collapse can
   /// still be said to keep finite: the run stops with a reason.
   double most_events = 1e7;
+  /// Every pair parts at least so fast [m/s], >= 0: for a look ahead that asks for harder impacts.
+  double slowest_rebound = 0;
   /// Looked at over so many events, and 1000 for each body, that no harmless burst counts; > 0.
   std::size_t burst = 1'000'000;
   /// More collisions, and 1000 for each body where there are many, that the rule for collapse

@@ -15,6 +15,9 @@ namespace {
 /// Bodies touch whose gap is no larger a part of the sum of their radii: positions are typed.
 constexpr double kTouching = 1e-5;
 
+/// e_n of critical damping where a contact ends with its force, e^−2.
+const double kCritical = std::exp(-2.0);
+
 bool is_integrable(const HardScene& scene) {
   return !scene.box && scene.periodic.isZero(0) && scene.bodies.size() <= kMostIntegrated;
 }
@@ -41,12 +44,14 @@ bool rests_on_bodies(const HardScene& scene) {
   return false;
 }
 
+bool never_rebounds(const PairContact& pair) {
+  const double* e = std::get_if<double>(&pair.restitution);
+  return e && *e == 0;
+}
+
 bool sticks(const HardScene& scene) {
   return scene.bodies.size() > 1 && is_rubbed(scene) &&
-         std::ranges::any_of(scene.pairs, [](const PairContact& pair) {
-           const double* e = std::get_if<double>(&pair.restitution);
-           return e && *e == 0;
-         });
+         std::ranges::any_of(scene.pairs, never_rebounds);
 }
 
 /// Each body a class of its own: the law of a pair depends on its masses.
@@ -71,8 +76,12 @@ std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, con
   const double mass = effective_mass(a, b);
   SoftContact made;
   made.end = ContactEnd::zero_force;
-  const LinearContact linear = LinearContact::with_collision_time(
-      mass, std::clamp(*e, kLeastRestitution, most_restitution), collision_time, made.end);
+  made.after_impact = never_rebounds(hard);
+  const double restitution = made.after_impact
+                                 ? kCritical
+                                 : std::clamp(*e, kLeastRestitution, most_restitution);
+  const LinearContact linear =
+      LinearContact::with_collision_time(mass, restitution, collision_time, made.end);
   made.normal = LinearForce{linear.stiffness(), linear.damping_rate() * mass};
   if (hard.friction > 0) {
     // Over a collision what is left of the slip falls to −β0 of itself.
@@ -117,12 +126,13 @@ std::optional<ContactScene> with_lasting_contacts(const HardScene& scene, double
   ContactScene made;
   made.hard = one_class_each(scene);
   made.touching = kTouching;
-  // e_n of critical damping, where a contact ends with its force, is e^−2.
-  const double most = rests_on_bodies(scene) ? std::exp(-2.0) : 1;
+  const bool rests = rests_on_bodies(scene), others_part = !rests && sticks(scene);
+  const double most = rests ? kCritical : 1;
   const std::size_t count = scene.bodies.size();
   made.soft.resize(count * count);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) {
+      if (others_part && !never_rebounds(scene.between(i, j))) continue;
       made.soft[i * count + j] =
           lasting(scene.between(i, j), scene.bodies[i], scene.bodies[j], collision_time, most);
       if (!made.soft[i * count + j]) return std::nullopt;

@@ -233,6 +233,7 @@ double ReferenceSolver::next_collision(std::span<const BodyState> states, double
   if (runs_in_phases(scene().hard)) {
     EventSettings settings;
     settings.start = start;
+    settings.slowest_rebound = 1e-2 * slowest;  // a cascade of weaker ones would never be it
     return EventSolver(scene().hard, states, settings).next_collision(limit, slowest);
   }
   ContactSettings settings;

@@ -22,6 +22,7 @@ struct LeastSpeeds {
   /// another body so far, whatever the rule for collapse: friction with the substrate can press two
   /// bodies together for long.
   double rebound_fraction = 0;
+  double rebound = 0;  ///< nor slower than this [m/s]
   double landing = 0;  ///< a landing that would rebound slower does not [m/s]
 };
 

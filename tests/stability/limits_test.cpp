@@ -178,11 +178,7 @@ TEST(FindLimits, KnowsWhatBulletDoes) {
   for (const OutcomeMap* physical : {&results.maps[2], &results.maps[3]}) {
     EXPECT_EQ(physical->profile, "physical");
     for (const Outcome outcome : physical->outcome) EXPECT_EQ(outcome, Outcome::accurate);
-    // The reference takes e_n = 0 as contacts that last, of a restitution of 1e-5 at most.
-    ASSERT_EQ(physical->worst_error.size(), 4u);
-    for (const std::size_t inelastic : {0u, 1u})
-      EXPECT_LT(physical->worst_error[inelastic], 1e-5);
-    for (const std::size_t elastic : {2u, 3u}) EXPECT_LT(physical->worst_error[elastic], 1e-9);
+    for (const double error : physical->worst_error) EXPECT_LT(error, 1e-9);
   }
 }
 
