@@ -55,7 +55,7 @@ CollisionResult collide(const PairContact& contact, const CollisionRule& rule, C
   const double un = n.dot(u);
   const double impact = std::max(0.0, -un);
   const double by_law = impact > 0 ? restitution_at(contact.restitution, impact) * impact : 0;
-  const double rebound = std::max({by_law, rule.slowest_rebound, rule.least_restitution * impact});
+  const double rebound = std::max(by_law, rule.slowest_rebound);
   const Vector3 ut = u - un * n;
   const Vector3 change = (rebound - un) * n - (1 + contact.tangential_restitution) * ut;
 

@@ -26,8 +26,6 @@ struct CollisionRule {
   /// The pair parts at least this fast [m/s], >= 0: keeps an endless cascade of ever weaker
   /// collisions finite (inelastic collapse).
   double slowest_rebound = 0;
-  /// And at least with this part of the speed at which it meets, in [0, 1].
-  double least_restitution = 0;
 };
 
 /// Two hard spheres that touch exchange an impulse at once, L (5)-(12) with the mobilities of

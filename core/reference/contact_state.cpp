@@ -234,7 +234,7 @@ CollisionResult ContactState::collide_now(std::size_t i, std::size_t j) {
   const double fraction = scene_->between(i, j) ? 0 : scales_.rebound_fraction;
   const double hardest = std::max(hardest_impact_[i], hardest_impact_[j]);
   const CollisionResult result =
-      collide(scene.between(i, j), {scene.confined, fraction * hardest, fraction},
+      collide(scene.between(i, j), {scene.confined, fraction * hardest},
               {scene.bodies[i], scene.on_substrate(i), a, dynamics_.modes[i].on_plane()},
               {scene.bodies[j], scene.on_substrate(j), b, dynamics_.modes[j].on_plane()});
   for (const std::size_t k : bodies)
@@ -267,7 +267,8 @@ bool ContactState::meet(std::size_t i, std::size_t j) const {
 }
 
 void ContactState::hand_impulses_on() {
-  if (std::ranges::none_of(scene_->soft, [](const auto& soft) { return soft && soft->after_impact; }))
+  if (std::ranges::none_of(scene_->soft,
+                           [](const auto& soft) { return soft && soft->after_impact; }))
     return;
   std::vector<std::array<std::size_t, 2>> together;
   for (std::size_t i = 0; i < dynamics_.modes.size(); ++i)

@@ -77,9 +77,8 @@ std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, con
   SoftContact made;
   made.end = ContactEnd::zero_force;
   made.after_impact = never_rebounds(hard);
-  const double restitution = made.after_impact
-                                 ? kCritical
-                                 : std::clamp(*e, kLeastRestitution, most_restitution);
+  const double restitution =
+      made.after_impact ? kCritical : std::clamp(*e, kLeastRestitution, most_restitution);
   const LinearContact linear =
       LinearContact::with_collision_time(mass, restitution, collision_time, made.end);
   made.normal = LinearForce{linear.stiffness(), linear.damping_rate() * mass};

@@ -270,10 +270,10 @@ void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_
   };
   const double hardest = std::max(bodies_[i].hardest_impact, bodies_[j].hardest_impact);
   const double slowest = std::max(least_.rebound, least_.rebound_fraction * hardest);
-  const CollisionResult result = slipcheck::collide(
-      contact, {scene_->confined, slowest, least_.rebound_fraction},
-      {scene_->bodies[i], scene_->on_substrate(i), of_i, is_supported(i, of_i)},
-      {scene_->bodies[j], scene_->on_substrate(j), of_j, is_supported(j, of_j)});
+  const CollisionResult result =
+      slipcheck::collide(contact, {scene_->confined, slowest},
+                         {scene_->bodies[i], scene_->on_substrate(i), of_i, is_supported(i, of_i)},
+                         {scene_->bodies[j], scene_->on_substrate(j), of_j, is_supported(j, of_j)});
   of_j.position -= image;
   of_i.velocity += frame;
   of_j.velocity += frame;
