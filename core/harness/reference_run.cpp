@@ -96,7 +96,7 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
   const auto lasting = is_rubbed(scene) ? with_lasting_contacts(scene) : std::nullopt;
   if (lasting) {
     const ReferenceSolver resolved(*lasting, Compare::Reference::contact);
-    runs.others.push_back(solve(resolved, end, FE_TONEAREST, {.tolerance = 1e-10}).seen);
+    runs.others.push_back(solve(resolved, end, FE_TONEAREST, {.tolerance = 1e-8}).seen);
   }
   return runs;
 }

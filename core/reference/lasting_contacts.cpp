@@ -49,9 +49,10 @@ bool never_rebounds(const PairContact& pair) {
   return e && *e == 0;
 }
 
+/// Two that nothing presses together meet once; what a third drives into them meets without end.
 bool sticks(const HardScene& scene) {
-  return scene.bodies.size() > 1 && is_rubbed(scene) &&
-         std::ranges::any_of(scene.pairs, never_rebounds);
+  const std::size_t few = is_rubbed(scene) ? 1 : 2;
+  return scene.bodies.size() > few && std::ranges::any_of(scene.pairs, never_rebounds);
 }
 
 /// Each body a class of its own: the law of a pair depends on its masses.

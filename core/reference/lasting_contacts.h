@@ -13,7 +13,8 @@ bool is_rubbed(const HardScene& scene);
 
 /// Whether hard spheres of this scene stay in contact, which collisions at instants cannot show:
 /// nothing moves at the start and a body above the plane rests on others, or a pair does not
-/// rebound at all (e_n = 0) while friction with the substrate can press it together.
+/// rebound at all (e_n = 0) while friction with the substrate, or a third body, can press it
+/// together.
 bool has_lasting_contacts(const HardScene& scene);
 
 /// Whether bodies rested on others at the start and no longer do so in `states`: one has moved by
