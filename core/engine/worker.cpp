@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <optional>
@@ -179,6 +181,16 @@ Bytes encode_or_fail(const protocol::Reply& reply) {
   }
 }
 
+/// What a process holds ends with it: taking a world of many bodies apart takes as long as making
+/// it. A sanitizer is to see that nothing was lost.
+int leave() {
+#ifndef SLIPCHECK_SANITIZE
+  std::fflush(nullptr);
+  std::_Exit(0);
+#endif
+  return 0;
+}
+
 }  // namespace
 
 int run_worker(Engine& engine) {
@@ -189,10 +201,10 @@ int run_worker(Engine& engine) {
   try {
     while (const std::optional<Bytes> body = connection.receive()) {
       const protocol::Request request = protocol::decode_request(*body);
-      if (std::holds_alternative<protocol::Quit>(request)) return 0;
-      if (!connection.send(encode_or_fail(worker.answer(request)))) return 0;
+      if (std::holds_alternative<protocol::Quit>(request)) return leave();
+      if (!connection.send(encode_or_fail(worker.answer(request)))) return leave();
     }
-    return 0;
+    return leave();
   } catch (const protocol::Rubbish& rubbish) {  // nothing after it can be trusted
     connection.send(protocol::encode(protocol::Reply(protocol::Failed{rubbish.what()})));
     return 1;

@@ -186,6 +186,8 @@ class Judge {
   std::string undecided_reason(const std::string& name, const Differences& differences,
                                bool is_zero, const Deviation& deviation) const {
     if (!has_end()) return kDidNotEnd;
+    if (reference_.box && !reference_.box->steady)
+      return "the reference's averages still drift, or are of too few samples";
     const double uncertainty = differences.uncertainty;
     if (std::isinf(uncertainty)) return "the reference does not know whether it shows";
     if (is_zero)

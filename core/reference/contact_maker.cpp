@@ -19,6 +19,8 @@ namespace {
 
 /// γ/ω0 up to which γ² + ω0² is not γ² to the last digit: 1/√ε of a double.
 constexpr double kMostDamping = 6.7e7;
+/// Overlap at 1 m/s in sums of the radii beyond which a contact stops nothing that a scene holds.
+constexpr double kMostOverlap = 1e6;
 
 double dissipation_of(const Material& material, const std::pair<double, double>& eta) {
   return dissipation_time(eta.first, eta.second, *material.young_modulus, *material.poisson_ratio);
@@ -91,18 +93,35 @@ SoftContact ContactMaker::soft(const ClassPair& pair) {
   made.end = end();
   made.tangential = std::visit(
       [&](const auto& model) { return tangential(model, made.normal, pair); }, contact_.tangential);
+  check_stiffness(made, pair);
   check_damping(made, pair);
   return made;
+}
+
+std::string ContactMaker::written_place(std::initializer_list<const char*> keys) const {
+  const auto written = std::ranges::find_if(
+      keys, [&](const char* key) { return scenario_.locations.contains(contact_.path + key); });
+  return contact_.path + (written == keys.end() ? ".normal.model" : *written);
+}
+
+void ContactMaker::check_stiffness(const SoftContact& made, const ClassPair& pair) const {
+  const double overlap = impact_scales(made.normal, pair.mass(), 1).time;  // at 1 m/s [m]
+  const double most = kMostOverlap * (pair.first.radius + pair.second.radius);
+  if (overlap <= most) return;
+  throw BadScenario({fault_of(
+      scenario_, written_place({".normal.stiffness", ".normal.modulus", ".normal.collision_time"}),
+      fmt::format("must be stiff enough to stop bodies that meet at 1 m/s within {:.3g} m, "
+                  "{:g} times the sum of their radii",
+                  most, kMostOverlap),
+      fmt::format("an overlap of {:.3g} m", overlap))});
 }
 
 void ContactMaker::check_damping(const SoftContact& made, const ClassPair& pair) const {
   const ImpactScales at_one = impact_scales(made.normal, pair.mass(), 1);
   const auto check = [&](std::initializer_list<const char*> keys, double rate) {
     if (rate * at_one.time <= kMostDamping) return;
-    const auto written = std::ranges::find_if(
-        keys, [&](const char* key) { return scenario_.locations.contains(contact_.path + key); });
     throw BadScenario({fault_of(
-        scenario_, contact_.path + (written == keys.end() ? ".normal.model" : *written),
+        scenario_, written_place(keys),
         fmt::format("must damp at a rate of at most {:.3g} /s, {:.2g} over the time of an impact; "
                     "beyond that the elastic force is lost in rounding",
                     kMostDamping / at_one.time, kMostDamping),

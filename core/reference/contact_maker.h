@@ -1,6 +1,8 @@
 #pragma once
 
+#include <initializer_list>
 #include <optional>
+#include <string>
 
 #include "physics/elastic_pair.h"
 #include "physics/hard_contact.h"
@@ -56,6 +58,8 @@ class ContactMaker {
 
  private:
   ContactEnd end() const;
+  std::string written_place(std::initializer_list<const char*> keys) const;
+  void check_stiffness(const SoftContact& made, const ClassPair& pair) const;
   void check_damping(const SoftContact& made, const ClassPair& pair) const;
   NormalForce normal(const HardNormal& model, const ClassPair& pair);
   NormalForce normal(const LinearNormal& model, const ClassPair& pair);

@@ -367,6 +367,21 @@ TEST(ContactScene, RefusesDampingBesideWhichThereIsNoSpring) {
             std::string::npos);
 }
 
+TEST(ContactScene, RefusesASpringThatStopsNothing) {
+  // At 1 m/s an overlap of √(m̄/k) with m̄ = 16.44 kg, and R = 0.1 m: 2e5 m for k = 4.11e-10 N/m.
+  const auto of_stiffness = [](const std::string& stiffness) {
+    return refusal(pair_text("{model: linear, restitution: 0.9, stiffness: " + stiffness + "}"));
+  };
+  EXPECT_EQ(of_stiffness("4.2e-10"), "");
+  EXPECT_EQ(of_stiffness("1.644e-23"),
+            "bad: s.yaml:8:47: contacts[0].normal.stiffness: must be stiff enough to stop bodies "
+            "that meet at 1 m/s within 2e+05 m, 1e+06 times the sum of their radii, got an overlap "
+            "of 1e+12 m");
+  EXPECT_NE(refusal(pair_text("{model: power, alpha: 1.5, modulus: 1e-23, viscosity: 0}"))
+                .find("contacts[0].normal.modulus: must be stiff enough"),
+            std::string::npos);
+}
+
 TEST(ContactScene, WarnsOfADissipationTimeNearTheDuration) {
   const auto warnings = [](const std::string& time) {
     return scene_of(pair_text("{model: viscoelastic, dissipation_time: " + time + "}")).warnings;
