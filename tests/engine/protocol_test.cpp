@@ -119,7 +119,8 @@ TEST(Protocol, TheOtherMessagesComeThrough) {
   const auto configure = request_through<Configure>(Configure{some_scene(), settings, 0.01});
   EXPECT_EQ(configure.settings, settings);
   EXPECT_EQ(configure.time_step, 0.01);
-  const auto configured = through<Configured>(Configured{{settings, {"static friction"}, {"rows"}}});
+  const auto configured =
+      through<Configured>(Configured{{settings, {"static friction"}, {"rows"}}});
   EXPECT_EQ(configured.applied.settings, settings);
   EXPECT_EQ(configured.applied.not_represented, std::vector<std::string>{"static friction"});
   EXPECT_EQ(configured.applied.left_out, std::vector<std::string>{"rows"});

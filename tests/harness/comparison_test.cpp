@@ -174,6 +174,21 @@ TEST(Undecided, AReferenceThatDidNotEnd) {
   EXPECT_EQ((SceneRecord{{}, reference({}), {}}).verdict(), Verdict::unjudged);
 }
 
+TEST(Undecided, AveragesOverABoxThatDrift) {
+  ReferenceResult truth = reference({{"all.kinetic_energy", {1, 1e-3}}});
+  for (const bool steady : {true, false}) {
+    truth.box = BoxReference{.steady = steady, .series = {}};
+    for (const double value : {1.001, 5.0})
+      EXPECT_EQ(deviations(with_tolerance("kinetic_energy", 0.02), truth,
+                           ensemble_values({{{"all.kinetic_energy", value}}}))
+                    .at("all.kinetic_energy")
+                    .verdict,
+                !steady     ? Verdict::undecided
+                : value < 2 ? Verdict::within
+                            : Verdict::deviates);
+  }
+}
+
 // Raising the uncertainty makes a verdict undecided, never green or red: at 1.01 of 1 the engine is
 // within 2 % and beyond 0.5 %, whatever the reference knows below that.
 TEST(Undecided, AReferenceLessCertainThanTheTolerance) {
