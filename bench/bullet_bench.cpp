@@ -11,7 +11,7 @@
 #include "engine/engine_registry.h"
 #include "engine/profile.h"
 #include "engine/remote_engine.h"
-#include "harness/cpu_time.h"
+#include "harness/run/cpu_time.h"
 #include "scenes.h"
 
 namespace slipcheck {
@@ -22,8 +22,8 @@ constexpr std::size_t kSteps = 200;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Steel balls that roll one after the other, so that all contacts last and no two meet.
-HardScene rolling(std::size_t balls) {
-  HardScene scene = test::steel_scene(balls);
+Scene rolling(std::size_t balls) {
+  Scene scene = test::steel_scene(balls);
   for (std::size_t i = 0; i < balls; ++i)
     scene.initial[i] = test::rolling_at(0.01 * static_cast<double>(i), 0, 0.3, 0);
   return scene;
@@ -44,7 +44,7 @@ double seconds_of_steps(Engine& engine) {
 /// A step, and the start of a run, without what the scene does not need and with all of it: the
 /// least of many runs of both, in turn.
 void BM_LeavingOut(benchmark::State& state, const std::string& profile, std::size_t balls) {
-  const HardScene scene = rolling(balls);
+  const Scene scene = rolling(balls);
   const std::unique_ptr<Engine> engine = bullet::make_bullet_engine();
   Settings chosen[2] = {settings_of(profile), settings_of(profile)};
   chosen[1]["leaves_out"] = false;
@@ -72,7 +72,7 @@ BENCHMARK_CAPTURE(BM_LeavingOut, physical_two_balls, "physical", 2)->Iterations(
 /// with denormal numbers flushed to zero and kept. "ratio" is what keeping them costs.
 void BM_AtRest(benchmark::State& state, const std::string& precision, double rate) {
   constexpr double kRadius = 0.1;  // [m]
-  HardScene scene = test::steel_scene(8);
+  Scene scene = test::steel_scene(8);
   for (std::size_t i = 0; i < 8; ++i) {
     scene.bodies[i].mass *= std::pow(kRadius / scene.bodies[i].radius, 3);
     scene.bodies[i].radius = kRadius;

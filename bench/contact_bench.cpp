@@ -1,8 +1,8 @@
 #include <benchmark/benchmark.h>
 
-#include "physics/linear_contact.h"
-#include "reference/contact_solver.h"
-#include "reference/step_solver.h"
+#include "physics/contact/linear_contact.h"
+#include "reference/forces/contact_solver.h"
+#include "reference/steps/step_solver.h"
 #include "scenes.h"
 
 namespace slipcheck {

@@ -1,10 +1,10 @@
 #include <benchmark/benchmark.h>
 
-#include "reference/event_scheduler.h"
-#include "reference/indexed_heap.h"
-#include "reference/planar_loop.h"
+#include "reference/events/event_scheduler.h"
+#include "reference/events/indexed_heap.h"
+#include "reference/events/planar_loop.h"
+#include "reference/events/planar_world.h"
 #include "reference/planar_scenes.h"
-#include "reference/planar_world.h"
 
 namespace slipcheck {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 /// Runs until each body has collided a few times, so that nothing remembers the lattice it began
 /// on, and then counts.
 template <class Queue, PlanarFeatures kHas = PlanarFeatures{}>
-void run_events(benchmark::State& state, const HardScene& scene) {
+void run_events(benchmark::State& state, const Scene& scene) {
   constexpr std::size_t kWarmUp = 3;
   PlanarWorld world(scene, scene.initial, 0, 0);
   PlanarLoop<kHas> loop(world);

@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include "grain_gas.h"
-#include "reference/grain_solver.h"
+#include "reference/steps/grain_solver.h"
 
 namespace slipcheck {
 namespace {

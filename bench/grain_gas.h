@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "reference/contact_scene.h"
+#include "scene/contact_scene.h"
 
 namespace slipcheck::bench {
 
@@ -22,7 +22,7 @@ inline double uniform(std::mt19937_64& random) {
 
 /// n grains at random on a periodic square of that area, none overlapping; for area fractions up to
 /// about 0.5.
-inline void place_at_random(HardScene& hard, std::size_t n, double area, std::mt19937_64& random) {
+inline void place_at_random(Scene& hard, std::size_t n, double area, std::mt19937_64& random) {
   const double length = std::sqrt(area);
   const auto cells = static_cast<std::ptrdiff_t>(length);  // at least a diameter wide
   std::vector<std::vector<Vector3>> grid(static_cast<std::size_t>(cells * cells));
@@ -49,7 +49,7 @@ inline void place_at_random(HardScene& hard, std::size_t n, double area, std::mt
 }
 
 /// n grains on a jittered hexagonal lattice that fills a periodic plane of that area.
-inline void place_on_lattice(HardScene& hard, std::size_t n, double area, std::mt19937_64& random) {
+inline void place_on_lattice(Scene& hard, std::size_t n, double area, std::mt19937_64& random) {
   const auto rows = 2 * static_cast<std::size_t>(std::round(
                             std::sqrt(static_cast<double>(n) / (std::sqrt(3.0) / 2)) / 2));
   const std::size_t columns = (n + rows - 1) / rows;
@@ -68,7 +68,7 @@ inline void place_on_lattice(HardScene& hard, std::size_t n, double area, std::m
   }
 }
 
-inline void place(HardScene& hard, std::size_t n, double area, std::mt19937_64& random) {
+inline void place(Scene& hard, std::size_t n, double area, std::mt19937_64& random) {
   const bool is_dilute = static_cast<double>(n) * std::numbers::pi / 4 < 0.45 * area;
   (is_dilute ? place_at_random : place_on_lattice)(hard, n, area, random);
 }
@@ -77,7 +77,7 @@ inline void place(HardScene& hard, std::size_t n, double area, std::mt19937_64& 
 /// monolayer that slides and rolls (μ = 0.5, g = 10).
 inline ContactScene grain_gas(std::size_t n, double area_fraction, bool on_plane) {
   ContactScene scene;
-  HardScene& hard = scene.hard;
+  Scene& hard = scene.hard;
   hard.bodies.assign(n, Sphere{0.5, 1, 0.4});
   hard.material.assign(n, 0);
   hard.substrate.resize(1);

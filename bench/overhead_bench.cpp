@@ -18,8 +18,8 @@ constexpr double kStep = 1.0 / 240;
 constexpr std::size_t kSteps = 200;
 
 /// Steel balls that roll one after the other, so that all contacts last.
-HardScene rolling(std::size_t balls) {
-  HardScene scene = test::steel_scene(balls);
+Scene rolling(std::size_t balls) {
+  Scene scene = test::steel_scene(balls);
   for (std::size_t i = 0; i < balls; ++i)
     scene.initial[i] = test::rolling_at(0.01 * static_cast<double>(i), 0, 0.3, 0);
   return scene;
@@ -28,8 +28,7 @@ HardScene rolling(std::size_t balls) {
 /// The same world as a user of Bullet writes it: its own settings, and coefficients in its fields.
 class BareWorld {
  public:
-  explicit BareWorld(const HardScene& scene)
-      : world_(&dispatcher_, &broadphase_, &solver_, &config_) {
+  explicit BareWorld(const Scene& scene) : world_(&dispatcher_, &broadphase_, &solver_, &config_) {
     bullet::combine_as_shipped();  // global in Bullet
     world_.setGravity(btVector3(0, 0, btScalar(-scene.gravity)));
     add(0, &plane_shape_, btVector3(0, 0, 0));
@@ -95,7 +94,7 @@ double seconds(const Steps& steps) {
 /// least of many runs of both, in turn, with nothing left out. "overhead" is its share of the bare
 /// step.
 void BM_OverheadOfTheHarness(benchmark::State& state) {
-  const HardScene scene = rolling(static_cast<std::size_t>(state.range(0)));
+  const Scene scene = rolling(static_cast<std::size_t>(state.range(0)));
   const std::unique_ptr<Engine> engine = bullet::make_bullet_engine();
   engine->configure(scene, {{"leaves_out", false}}, kStep);
   double bare = std::numeric_limits<double>::infinity(), ours = bare;

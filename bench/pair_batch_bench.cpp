@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "physics/elastic_pair.h"
-#include "physics/linear_contact.h"
-#include "reference/pair_batch.h"
+#include "physics/contact/elastic_pair.h"
+#include "physics/contact/linear_contact.h"
+#include "reference/pair/pair_batch.h"
 
 namespace slipcheck {
 namespace {

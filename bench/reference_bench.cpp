@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
-#include "harness/observer.h"
-#include "harness/reference_run.h"
+#include "harness/observe/observer.h"
+#include "harness/run/reference_run.h"
 #include "physics/polynomial_roots.h"
 #include "scenes.h"
 
@@ -12,7 +12,7 @@ const RunEnd kRolling{Run::Until::rolling, 0, 10};
 
 /// From two rolling balls to what is observed of them: one run of the solver.
 void BM_TwoBodyRun(benchmark::State& state) {
-  const HardScene scene = test::head_on(0.15, -0.15, 0.9);
+  const Scene scene = test::head_on(0.15, -0.15, 0.9);
   for (auto _ : state) {
     EventSolver solver(scene, scene.initial);
     Observer observer(scene, 0, 0.15);
@@ -24,7 +24,7 @@ BENCHMARK(BM_TwoBodyRun);
 
 /// The whole answer: values by name with their uncertainties (three runs) and closed forms.
 void BM_TwoBodyAnswer(benchmark::State& state) {
-  const HardScene scene = test::head_on(0.15, -0.15, 0.9);
+  const Scene scene = test::head_on(0.15, -0.15, 0.9);
   const std::vector<std::string> names = {"i", "j"};
   const ContactScene contacts = with_hard_contacts(scene);
   for (auto _ : state)

@@ -57,7 +57,7 @@ ByIndex find_objects(const btDiscreteDynamicsWorld& world) {
   return objects;
 }
 
-void gather_substrate(Gathered& out, const ByIndex& objects, const HardScene& scene,
+void gather_substrate(Gathered& out, const ByIndex& objects, const Scene& scene,
                       const BulletSettings& settings) {
   const btCollisionObject* plane = objects.at(kFloor);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -85,7 +85,7 @@ void gather_substrate(Gathered& out, const ByIndex& objects, const HardScene& sc
 }
 
 /// One body for each material.
-void gather_box(Gathered& out, const ByIndex& objects, const HardScene& scene,
+void gather_box(Gathered& out, const ByIndex& objects, const Scene& scene,
                 const BulletSettings& settings) {
   const Box& box = *scene.box;
   std::set<std::size_t> seen;  // materials
@@ -110,7 +110,7 @@ void gather_box(Gathered& out, const ByIndex& objects, const HardScene& scene,
   }
 }
 
-void gather_pairs(Gathered& out, const ByIndex& objects, const HardScene& scene,
+void gather_pairs(Gathered& out, const ByIndex& objects, const Scene& scene,
                   const BulletSettings& settings) {
   for (const auto& [i, j] : material_pairs(scene)) {
     const btCollisionObject* first = objects.at(static_cast<int>(i));
@@ -126,7 +126,7 @@ void gather_pairs(Gathered& out, const ByIndex& objects, const HardScene& scene,
 }
 
 /// Relative to the size of the smaller shape unless the dispatcher is told otherwise.
-void gather_thresholds(Gathered& out, const ByIndex& objects, const HardScene& scene) {
+void gather_thresholds(Gathered& out, const ByIndex& objects, const Scene& scene) {
   const auto threshold = [&](std::size_t body) {
     return number(objects.at(static_cast<int>(body))
                       ->getCollisionShape()
@@ -171,7 +171,7 @@ void read_back(Settings& out, btDiscreteDynamicsWorld& world, const btCollisionO
 
 }  // namespace
 
-Settings applied_settings(btDiscreteDynamicsWorld& world, const HardScene& scene,
+Settings applied_settings(btDiscreteDynamicsWorld& world, const Scene& scene,
                           const BulletSettings& settings, const WorldUnits& units,
                           double time_step) {
   const ByIndex objects = find_objects(world);

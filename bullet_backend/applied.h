@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bullet_backend/settings.h"
+#include "bullet_backend/bullet_settings.h"
 #include "bullet_backend/world_units.h"
 #include "engine/engine.h"
 
@@ -16,7 +16,7 @@ namespace slipcheck::bullet {
 /// material, "floor_friction[0]". One that follows a law is the text "by speed",
 /// one that depends on whether the contact slips "by slip".
 /// `scene` and `time_step` are in the world's units.
-Settings applied_settings(btDiscreteDynamicsWorld& world, const HardScene& scene,
+Settings applied_settings(btDiscreteDynamicsWorld& world, const Scene& scene,
                           const BulletSettings& settings, const WorldUnits& units,
                           double time_step);
 

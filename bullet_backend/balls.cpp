@@ -30,8 +30,8 @@ void set_up(btCollisionObject& object, int index, const BulletSettings& settings
 
 class RigidBalls final : public Balls {
  public:
-  RigidBalls(btDiscreteDynamicsWorld& world, const HardScene& scene,
-             std::span<const BodyState> states, const BulletSettings& settings)
+  RigidBalls(btDiscreteDynamicsWorld& world, const Scene& scene, std::span<const BodyState> states,
+             const BulletSettings& settings)
       : world_(world) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       const Sphere& sphere = scene.bodies[i];
@@ -77,7 +77,7 @@ class RigidBalls final : public Balls {
 
 class MultibodyBalls final : public Balls {
  public:
-  MultibodyBalls(btMultiBodyDynamicsWorld& world, const HardScene& scene,
+  MultibodyBalls(btMultiBodyDynamicsWorld& world, const Scene& scene,
                  std::span<const BodyState> states, const BulletSettings& settings)
       : world_(world) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -132,7 +132,7 @@ class MultibodyBalls final : public Balls {
 
 }  // namespace
 
-std::unique_ptr<Balls> make_balls(btDiscreteDynamicsWorld& world, const HardScene& scene,
+std::unique_ptr<Balls> make_balls(btDiscreteDynamicsWorld& world, const Scene& scene,
                                   std::span<const BodyState> states,
                                   const BulletSettings& settings) {
   if (settings.body == BodyKind::rigid)

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "bullet_backend/settings.h"
-#include "scenario/hard_scene.h"
+#include "bullet_backend/bullet_settings.h"
+#include "scene/scene.h"
 
 class btCollisionObject;
 class btDiscreteDynamicsWorld;
@@ -31,7 +31,7 @@ class Balls {
 
 /// Adds the scene's balls in these states to `world`, of the kind that the settings ask for, which
 /// must outlive them.
-std::unique_ptr<Balls> make_balls(btDiscreteDynamicsWorld& world, const HardScene& scene,
+std::unique_ptr<Balls> make_balls(btDiscreteDynamicsWorld& world, const Scene& scene,
                                   std::span<const BodyState> states,
                                   const BulletSettings& settings);
 

@@ -4,15 +4,15 @@
 
 #include <optional>
 
+#include "bullet_backend/bullet_settings.h"
 #include "bullet_backend/bullet_world.h"
 #include "bullet_backend/not_represented.h"
-#include "bullet_backend/settings.h"
 #include "bullet_backend/world_units.h"
 
 namespace slipcheck::bullet {
 namespace {
 
-void refuse_beyond_reach(const HardScene& scene, const BulletSettings& settings, double time_step) {
+void refuse_beyond_reach(const Scene& scene, const BulletSettings& settings, double time_step) {
   if (settings.beyond_reach != BeyondReach::refuse || settings.reach == 0) return;
   const double approach = approach_in_a_step(scene, time_step);
   if (approach > settings.reach)
@@ -28,7 +28,7 @@ class BulletEngine final : public Engine {
     return {"bullet", bullet_version(), bullet_precision(), setting_table()};
   }
 
-  Applied configure(const HardScene& scene, const Settings& chosen, double time_step) override {
+  Applied configure(const Scene& scene, const Settings& chosen, double time_step) override {
     const BulletSettings settings = read_settings(chosen);
     if (scene.periodic != Vector2::Zero()) {
       throw Refused(
@@ -58,7 +58,7 @@ class BulletEngine final : public Engine {
 
  private:
   struct Setup {
-    HardScene scene;
+    Scene scene;
     BulletSettings settings;
     double time_step;  // [s]
   };

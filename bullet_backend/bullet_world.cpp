@@ -45,7 +45,7 @@ WorldUnits turned(WorldUnits units, const LeaveOuts& leaves) {
 
 /// Gap that counts as touching where steps end at contacts: what Bullet would process, but neither
 /// below rounding nor more than a thousandth of a radius.
-double touching_gap(const HardScene& scene, const BulletSettings& settings) {
+double touching_gap(const Scene& scene, const BulletSettings& settings) {
   const double radius = std::ranges::min_element(scene.bodies, {}, &Sphere::radius)->radius;
   return std::clamp(settings.contact_processing_threshold, 1e-9 * radius, 1e-3 * radius);
 }
@@ -58,7 +58,7 @@ constexpr double kImpactStep = 1e-6;
 
 /// In the order in which they need each other; balls and surfaces leave before the world goes.
 struct BulletWorld::Parts {
-  Parts(const HardScene& scene_in_si, const BulletSettings& chosen, double step,
+  Parts(const Scene& scene_in_si, const BulletSettings& chosen, double step,
         std::span<const BodyState> states, double time)
       : leaves(find_leave_outs(scene_in_si, states, chosen)),
         settings(in_force(chosen, leaves)),
@@ -123,7 +123,7 @@ struct BulletWorld::Parts {
   BulletSettings settings;
   FlushDenormals flush_denormals;  // once for all: for each step it would cost a hundredth
   WorldUnits units;
-  HardScene scene;
+  Scene scene;
   double time_step, start_time;
   std::size_t steps = 0;
   PairCoefficients coefficients;
@@ -134,7 +134,7 @@ struct BulletWorld::Parts {
   std::vector<Frame> frames;  // of the last step, where it has several parts
 };
 
-BulletWorld::BulletWorld(const HardScene& scene, const BulletSettings& settings, double time_step,
+BulletWorld::BulletWorld(const Scene& scene, const BulletSettings& settings, double time_step,
                          std::span<const BodyState> states, double time)
     : parts_(std::make_unique<Parts>(scene, settings, time_step, states, time)) {
   const auto set_fields = [](btCollisionObject& object, const BodyFields& fields) {

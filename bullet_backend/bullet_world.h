@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bullet_backend/settings.h"
+#include "bullet_backend/bullet_settings.h"
 #include "engine/engine.h"
 
 namespace slipcheck::bullet {
@@ -17,7 +17,7 @@ class BulletWorld {
  public:
   /// `scene` and the states are SI; the states are those at `time` [s], by which surfaces move;
   /// steps are of exactly `time_step` [s]. Sets Bullet's combine callbacks. Throws Refused.
-  BulletWorld(const HardScene& scene, const BulletSettings& settings, double time_step,
+  BulletWorld(const Scene& scene, const BulletSettings& settings, double time_step,
               std::span<const BodyState> states, double time);
   ~BulletWorld();
 

@@ -7,7 +7,7 @@
 namespace slipcheck::bullet {
 namespace {
 
-const PairContact& box_contact(const HardScene& scene, std::size_t body, int surface) {
+const PairContact& box_contact(const Scene& scene, std::size_t body, int surface) {
   const Box& box = *scene.box;
   const auto& contacts =
       surface == kFloor ? box.on_floor : (surface == kWall ? box.on_wall : box.on_lid);
@@ -16,7 +16,7 @@ const PairContact& box_contact(const HardScene& scene, std::size_t body, int sur
 
 }  // namespace
 
-PairCoefficients::PairCoefficients(const HardScene& scene, const BulletSettings& settings,
+PairCoefficients::PairCoefficients(const Scene& scene, const BulletSettings& settings,
                                    double time_step)
     : scene_(scene), settings_(settings) {
   set_time_step(time_step);
@@ -126,7 +126,7 @@ BodyFields pair_fields(const PairContact& contact, const Vector3& start) {
 
 }  // namespace
 
-BodyFields naive_ball(const HardScene& scene, std::size_t body) {
+BodyFields naive_ball(const Scene& scene, std::size_t body) {
   if (scene.box && scene.bodies.size() == 1) return naive_surface(scene, kFloor);
   const SubstrateContact& ground = scene.on_substrate(body);
   BodyFields fields;
@@ -144,7 +144,7 @@ BodyFields naive_ball(const HardScene& scene, std::size_t body) {
   return fields;
 }
 
-BodyFields naive_surface(const HardScene& scene, int surface) {
+BodyFields naive_surface(const Scene& scene, int surface) {
   if (!scene.box) {
     const SubstrateContact& ground = scene.on_substrate(0);
     return {ground.kinetic_friction, ground.restitution, 0, 0};
@@ -154,7 +154,7 @@ BodyFields naive_surface(const HardScene& scene, int surface) {
   return pair_fields(box_contact(scene, 0, surface), scene.initial[0].velocity - velocity);
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> material_pairs(const HardScene& scene) {
+std::vector<std::pair<std::size_t, std::size_t>> material_pairs(const Scene& scene) {
   std::vector<std::vector<std::size_t>> first_two(scene.substrate.size());
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     std::vector<std::size_t>& bodies = first_two[scene.material[i]];

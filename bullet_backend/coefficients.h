@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "bullet_backend/settings.h"
+#include "bullet_backend/bullet_settings.h"
 #include "physics/frame.h"
-#include "scenario/hard_scene.h"
+#include "scene/scene.h"
 
 /// A scene's coefficients in Bullet's terms. Bullet's solver knows four numbers of a contact:
 ///   friction           μ, |tangential impulse| <= μ λ_n
@@ -36,7 +36,7 @@ struct BodyFields {
 class PairCoefficients {
  public:
   /// Steps of `time_step`, > 0, in which the substrate gives a resting body λ_n = m g dt.
-  PairCoefficients(const HardScene& scene, const BulletSettings& settings, double time_step);
+  PairCoefficients(const Scene& scene, const BulletSettings& settings, double time_step);
 
   /// Further steps are of another length, > 0.
   void set_time_step(double time_step);
@@ -85,7 +85,7 @@ class PairCoefficients {
   double gravity_onto(int other) const;
   static std::size_t index(int body) { return static_cast<std::size_t>(body); }
 
-  HardScene scene_;
+  Scene scene_;
   BulletSettings settings_;
   double time_step_ = 0;
   Vector3 ground_velocity_ = Vector3::Zero();
@@ -98,14 +98,14 @@ class PairCoefficients {
 /// In a box it gets μ and restitution of its contact with the first other body (with the floor when
 /// alone). A power law gives its value at its reference speed, a table of restitutions that at the
 /// speed at which the two start relative to each other, a table of μ_r its first entry.
-BodyFields naive_ball(const HardScene& scene, std::size_t body);
+BodyFields naive_ball(const Scene& scene, std::size_t body);
 
 /// μ_k and restitution of the first body's contact with the substrate, or μ and restitution of its
 /// contact with the box at kFloor, kWall or kLid.
-BodyFields naive_surface(const HardScene& scene, int surface);
+BodyFields naive_surface(const Scene& scene, int surface);
 
 /// The first two bodies for each two materials, or one material, of which there are two: they stand
 /// for all contacts between balls.
-std::vector<std::pair<std::size_t, std::size_t>> material_pairs(const HardScene& scene);
+std::vector<std::pair<std::size_t, std::size_t>> material_pairs(const Scene& scene);
 
 }  // namespace slipcheck::bullet

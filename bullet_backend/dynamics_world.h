@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "bullet_backend/bullet_settings.h"
 #include "bullet_backend/leave_outs.h"
-#include "bullet_backend/settings.h"
 
 class btDiscreteDynamicsWorld;
 class btCollisionDispatcher;

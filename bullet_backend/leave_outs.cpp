@@ -14,19 +14,19 @@ bool is_solved_by_mlcp(const BulletSettings& settings) {
   return settings.solver != SolverKind::sequential_impulse && settings.solver != SolverKind::nncg;
 }
 
-bool has_rolling_friction(const HardScene& scene) {
+bool has_rolling_friction(const Scene& scene) {
   return !scene.box && std::ranges::any_of(scene.substrate, [](const SubstrateContact& ground) {
     return !ground.rolling.is_zero();
   });
 }
 
-bool has_drilling_friction(const HardScene& scene) {
+bool has_drilling_friction(const Scene& scene) {
   return !scene.box && std::ranges::any_of(scene.substrate, [](const SubstrateContact& ground) {
     return ground.drilling_length > 0;
   });
 }
 
-bool has_pair_friction(const HardScene& scene) {
+bool has_pair_friction(const Scene& scene) {
   return scene.bodies.size() > 1 && std::ranges::any_of(scene.pairs, [](const PairContact& pair) {
            return pair.friction > 0 && pair.tangential_restitution != -1;
          });
@@ -35,14 +35,14 @@ bool has_pair_friction(const HardScene& scene) {
 /// Whether one row of friction can do what the cone does. Bullet lays it along -y on a level plane
 /// and across the motion between two balls (btPlaneSpace1 in convertMultiBodyContact), and without
 /// the cone it solves no rows of rolling friction.
-bool may_lose_a_friction_direction(const HardScene& scene, const BulletSettings& settings) {
+bool may_lose_a_friction_direction(const Scene& scene, const BulletSettings& settings) {
   const bool cone = settings.body == BodyKind::multibody && settings.two_friction_directions &&
                     settings.friction_cone && settings.solver == SolverKind::sequential_impulse;
   const bool turned = settings.tilt == Tilt::plane && scene.downhill != Vector2::Zero();
   return cone && !turned && !scene.box && !has_rolling_friction(scene) && !has_pair_friction(scene);
 }
 
-int most_pairs(const HardScene& scene) {
+int most_pairs(const Scene& scene) {
   constexpr double kShipped = 4096;  // of btDefaultCollisionConstructionInfo
   const auto bodies = static_cast<double>(scene.bodies.size());
   const double surfaces = !scene.box ? 1 : (scene.box->lid ? 4 : 3);
@@ -51,7 +51,7 @@ int most_pairs(const HardScene& scene) {
 
 }  // namespace
 
-LeaveOuts find_leave_outs(const HardScene& scene, std::span<const BodyState> states,
+LeaveOuts find_leave_outs(const Scene& scene, std::span<const BodyState> states,
                           const BulletSettings& settings) {
   LeaveOuts leaves;
   if (!settings.leaves_out) return leaves;
@@ -64,7 +64,7 @@ LeaveOuts find_leave_outs(const HardScene& scene, std::span<const BodyState> sta
   return leaves;
 }
 
-std::vector<std::string> left_out(const LeaveOuts& leaves, const HardScene& scene,
+std::vector<std::string> left_out(const LeaveOuts& leaves, const Scene& scene,
                                   const BulletSettings& settings) {
   std::vector<std::string> texts;
   const auto note = [&](bool condition, std::string what) {

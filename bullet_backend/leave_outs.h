@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bullet_backend/settings.h"
-#include "scenario/hard_scene.h"
+#include "bullet_backend/bullet_settings.h"
+#include "scene/scene.h"
 
 namespace slipcheck::bullet {
 
@@ -32,11 +32,11 @@ struct LeaveOuts {
 };
 
 /// For bodies in these states. SI.
-LeaveOuts find_leave_outs(const HardScene& scene, std::span<const BodyState> states,
+LeaveOuts find_leave_outs(const Scene& scene, std::span<const BodyState> states,
                           const BulletSettings& settings);
 
 /// What Bullet leaves out in this scene, by itself or by `leaves`, each with the reason.
-std::vector<std::string> left_out(const LeaveOuts& leaves, const HardScene& scene,
+std::vector<std::string> left_out(const LeaveOuts& leaves, const Scene& scene,
                                   const BulletSettings& settings);
 
 }  // namespace slipcheck::bullet

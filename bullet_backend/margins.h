@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenario/hard_scene.h"
+#include "scene/scene.h"
 
 namespace slipcheck::bullet {
 
@@ -12,7 +12,7 @@ namespace slipcheck::bullet {
 /// In a box both are therefore taken in units of the largest radius, which is this factor [-], at
 /// most 1. What comes into contact stays the same: two spheres do once they overlap, and the box of
 /// a plane has no end.
-inline double margin_scale(const HardScene& scene) {
+inline double margin_scale(const Scene& scene) {
   if (!scene.box) return 1;
   const double largest = std::ranges::max_element(scene.bodies, {}, &Sphere::radius)->radius;
   return std::min(1.0, largest);

@@ -9,7 +9,7 @@
 
 namespace slipcheck::bullet {
 
-NextContact::NextContact(const Balls& balls, const Surfaces& surfaces, const HardScene& scene,
+NextContact::NextContact(const Balls& balls, const Surfaces& surfaces, const Scene& scene,
                          const WorldUnits& units, double tolerance)
     : balls_(balls),
       surfaces_(surfaces),

@@ -11,7 +11,7 @@ namespace slipcheck::bullet {
 class NextContact {
  public:
   /// To within `tolerance` of length, > 0. `balls` and `surfaces` must outlive this.
-  NextContact(const Balls& balls, const Surfaces& surfaces, const HardScene& scene,
+  NextContact(const Balls& balls, const Surfaces& surfaces, const Scene& scene,
               const WorldUnits& units, double tolerance);
 
   /// Time after `now` until the first contact that is not there yet, at most `within`, > 0, or
@@ -28,7 +28,7 @@ class NextContact {
 
   const Balls& balls_;
   const Surfaces& surfaces_;
-  const HardScene& scene_;
+  const Scene& scene_;
   Vector3 gravity_;
   double tolerance_;
   std::vector<BodyState> states_;

@@ -44,7 +44,7 @@ struct Needs {
 /// Whether a body may go further than its radius in a step, so that it can be on the far side of
 /// another before Bullet looks again: by its speed at the start, after a fall to the floor, or on
 /// being hit by the floor.
-bool can_pass_in_a_step(const HardScene& scene, double time_step) {
+bool can_pass_in_a_step(const Scene& scene, double time_step) {
   const double floor_speed = scene.box->floor.largest_speed();
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const BodyState& start = scene.initial[i];
@@ -55,7 +55,7 @@ bool can_pass_in_a_step(const HardScene& scene, double time_step) {
   return false;
 }
 
-void add_box(Needs& needs, const HardScene& scene, double time_step) {
+void add_box(Needs& needs, const Scene& scene, double time_step) {
   const Box& box = *scene.box;
   for (const std::size_t material : scene.material) {
     needs.add(box.on_floor[material]);
@@ -66,7 +66,7 @@ void add_box(Needs& needs, const HardScene& scene, double time_step) {
   needs.far_in_a_step = can_pass_in_a_step(scene, time_step);
 }
 
-void add_substrate(Needs& needs, const HardScene& scene, const BulletSettings& settings,
+void add_substrate(Needs& needs, const Scene& scene, const BulletSettings& settings,
                    double time_step) {
   const WorldUnits units = world_units(scene, settings);
   const PairCoefficients coefficients(in_world_units(scene, units), settings,
@@ -86,7 +86,7 @@ void add_substrate(Needs& needs, const HardScene& scene, const BulletSettings& s
   }
 }
 
-Needs needs_of(const HardScene& scene, const BulletSettings& settings, double time_step) {
+Needs needs_of(const Scene& scene, const BulletSettings& settings, double time_step) {
   Needs needs;
   if (scene.box) {
     add_box(needs, scene, time_step);
@@ -99,7 +99,7 @@ Needs needs_of(const HardScene& scene, const BulletSettings& settings, double ti
 
 }  // namespace
 
-std::vector<std::string> not_represented(const HardScene& scene, const BulletSettings& settings,
+std::vector<std::string> not_represented(const Scene& scene, const BulletSettings& settings,
                                          double time_step) {
   const Needs needs = needs_of(scene, settings, time_step);
   const bool fields = settings.coefficients == CoefficientMap::fields;
@@ -149,7 +149,7 @@ std::vector<std::string> not_represented(const HardScene& scene, const BulletSet
   return missing;
 }
 
-double approach_in_a_step(const HardScene& scene, double time_step) {
+double approach_in_a_step(const Scene& scene, double time_step) {
   double fastest = 0;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {

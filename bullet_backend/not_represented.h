@@ -3,18 +3,18 @@
 #include <string>
 #include <vector>
 
-#include "bullet_backend/settings.h"
-#include "scenario/hard_scene.h"
+#include "bullet_backend/bullet_settings.h"
+#include "scene/scene.h"
 
 namespace slipcheck::bullet {
 
 /// What of the scene (SI) Bullet does not do with these settings and steps of `time_step` [s], in
 /// words for the report.
-std::vector<std::string> not_represented(const HardScene& scene, const BulletSettings& settings,
+std::vector<std::string> not_represented(const Scene& scene, const BulletSettings& settings,
                                          double time_step);
 
 /// The fastest approach of two bodies in a step, over the smaller one's radius [-], by the
 /// velocities at the start; 0 for a single body.
-double approach_in_a_step(const HardScene& scene, double time_step);
+double approach_in_a_step(const Scene& scene, double time_step);
 
 }  // namespace slipcheck::bullet

@@ -41,7 +41,7 @@ struct Surfaces::Parts {
   }
 };
 
-Surfaces::Surfaces(btDiscreteDynamicsWorld& world, const HardScene& scene, const WorldUnits& units,
+Surfaces::Surfaces(btDiscreteDynamicsWorld& world, const Scene& scene, const WorldUnits& units,
                    const BulletSettings& settings)
     : world_(world), parts_(std::make_unique<Parts>()) {
   parts_->motion = scene.motion;

@@ -23,7 +23,7 @@ namespace slipcheck::bullet {
 class Surfaces {
  public:
   /// Adds the scene's surfaces to `world`, which must outlive them; all in the world's units.
-  Surfaces(btDiscreteDynamicsWorld& world, const HardScene& scene, const WorldUnits& units,
+  Surfaces(btDiscreteDynamicsWorld& world, const Scene& scene, const WorldUnits& units,
            const BulletSettings& settings);
   ~Surfaces();
   Surfaces(const Surfaces&) = delete;

@@ -32,7 +32,7 @@ Vectors of_substrate(const SubstrateMotion& motion) {
 
 }  // namespace
 
-std::optional<Vector2> line_of_motion(const HardScene& scene, std::span<const BodyState> states) {
+std::optional<Vector2> line_of_motion(const Scene& scene, std::span<const BodyState> states) {
   Vectors ways, velocities, spins;
   double upright = 0, spin = 0;
   for (const BodyState& state : states) {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "scenario/hard_scene.h"
+#include "scene/scene.h"
 
 namespace slipcheck::bullet {
 
@@ -11,6 +11,6 @@ namespace slipcheck::bullet {
 /// bodies in these states, their velocities, the tilt and the substrate's motion, with all spins
 /// normal to it: by symmetry nothing leaves it. Nothing where there is no such plane, to within
 /// rounding. Along y where several do.
-std::optional<Vector2> line_of_motion(const HardScene& scene, std::span<const BodyState> states);
+std::optional<Vector2> line_of_motion(const Scene& scene, std::span<const BodyState> states);
 
 }  // namespace slipcheck::bullet

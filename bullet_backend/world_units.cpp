@@ -48,7 +48,7 @@ SubstrateMotion scaled(const SubstrateMotion& motion, const WorldUnits& units) {
 
 }  // namespace
 
-WorldUnits world_units(const HardScene& scene, const BulletSettings& settings) {
+WorldUnits world_units(const Scene& scene, const BulletSettings& settings) {
   WorldUnits units;
   const auto& bodies = scene.bodies;
   if (settings.scale_radius_to > 0)
@@ -64,8 +64,8 @@ WorldUnits world_units(const HardScene& scene, const BulletSettings& settings) {
   return units;
 }
 
-HardScene in_world_units(const HardScene& scene, const WorldUnits& units) {
-  HardScene scaled_scene = scene;
+Scene in_world_units(const Scene& scene, const WorldUnits& units) {
+  Scene scaled_scene = scene;
   const double speed = units.speed();
   for (Sphere& body : scaled_scene.bodies) {
     body.radius *= units.length;

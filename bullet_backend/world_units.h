@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include "bullet_backend/settings.h"
-#include "scenario/hard_scene.h"
+#include "bullet_backend/bullet_settings.h"
+#include "scene/scene.h"
 
 namespace slipcheck::bullet {
 
@@ -29,9 +29,9 @@ struct WorldUnits {
 };
 
 /// What the settings ask for: the smallest radius, the largest mass, gravity.
-WorldUnits world_units(const HardScene& scene, const BulletSettings& settings);
+WorldUnits world_units(const Scene& scene, const BulletSettings& settings);
 
 /// The scene counted in the world's units, still in its own axes.
-HardScene in_world_units(const HardScene& scene, const WorldUnits& units);
+Scene in_world_units(const Scene& scene, const WorldUnits& units);
 
 }  // namespace slipcheck::bullet

@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include "scenario/hard_scene.h"
+#include "scene/scene.h"
 
 namespace slipcheck::test {
 
 /// Steel balls of one kind on a level substrate, K's numbers: R = 2 mm, μ_k = 0.1, g = 9.81 m/s².
-inline HardScene steel_scene(std::size_t count = 0) {
-  HardScene scene;
+inline Scene steel_scene(std::size_t count = 0) {
+  Scene scene;
   scene.gravity = 9.81;
   SubstrateContact substrate;
   substrate.static_friction = 0.5;
@@ -33,8 +33,8 @@ inline BodyState rolling_at(double x, double y, double vx, double vy, double rad
 }
 
 /// Two rolling balls on the x axis, centres at ∓`half_distance`.
-inline HardScene head_on(double v_i, double v_j, double restitution, double half_distance = 0.005) {
-  HardScene scene = steel_scene(2);
+inline Scene head_on(double v_i, double v_j, double restitution, double half_distance = 0.005) {
+  Scene scene = steel_scene(2);
   scene.pairs[0].restitution = restitution;
   scene.initial = {rolling_at(-half_distance, 0, v_i, 0), rolling_at(half_distance, 0, v_j, 0)};
   return scene;

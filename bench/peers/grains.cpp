@@ -10,13 +10,13 @@
 #include <string>
 
 #include "bench/grain_gas.h"
-#include "reference/grain_solver.h"
+#include "reference/steps/grain_solver.h"
 
 namespace slipcheck::bench {
 namespace {
 
 void write_data(const ContactScene& scene, bool on_plane, const std::string& path) {
-  const HardScene& hard = scene.hard;
+  const Scene& hard = scene.hard;
   std::ofstream file(path);
   file.precision(17);
   // A grain rests on the peer's soft wall at z = R − m g/k.

@@ -17,12 +17,12 @@
 #include "app/progress_bar.h"
 #include "app/set_option.h"
 #include "app/update_baselines.h"
-#include "baseline/baseline_json.h"
-#include "harness/scene_run.h"
-#include "report/check_files.h"
-#include "report/check_table.h"
-#include "report/context.h"
-#include "report/files.h"
+#include "harness/run/scene_run.h"
+#include "report/files/check_files.h"
+#include "report/files/files.h"
+#include "report/rows/context.h"
+#include "report/terminal/check_table.h"
+#include "studies/baseline/baseline_json.h"
 
 namespace slipcheck {
 namespace {

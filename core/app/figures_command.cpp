@@ -12,10 +12,10 @@
 #include "app/progress_bar.h"
 #include "base/stop_scope.h"
 #include "figures/paper_figures.h"
-#include "report/csv.h"
-#include "report/figure.h"
-#include "report/figure_page.h"
-#include "report/files.h"
+#include "report/charts/figure.h"
+#include "report/files/csv.h"
+#include "report/files/files.h"
+#include "report/html/figure_page.h"
 
 namespace slipcheck {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/engine_grid.h"
-#include "harness/scene_run.h"
+#include "harness/run/engine_grid.h"
+#include "harness/run/scene_run.h"
 
 namespace slipcheck {
 

@@ -7,9 +7,9 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "base/stop_scope.h"
-#include "report/context.h"
+#include "report/rows/context.h"
 #include "scenario/fault.h"
-#include "scenario/hard_scene.h"
+#include "scene/scene.h"
 
 int main(int argc, char** argv) {
   using namespace slipcheck;

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "report/columns.h"
+#include "report/rows/table_style.h"
 
 namespace slipcheck {
 

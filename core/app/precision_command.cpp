@@ -13,14 +13,14 @@
 #include "app/load_files.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
-#include "precision/precision.h"
-#include "report/context.h"
-#include "report/files.h"
-#include "report/precision_charts.h"
-#include "report/precision_csv.h"
-#include "report/precision_json.h"
-#include "report/precision_table.h"
-#include "report/report_page.h"
+#include "report/charts/precision_charts.h"
+#include "report/files/files.h"
+#include "report/files/precision_csv.h"
+#include "report/html/report_page.h"
+#include "report/json/precision_json.h"
+#include "report/rows/context.h"
+#include "report/terminal/precision_table.h"
+#include "studies/precision/precision.h"
 
 namespace slipcheck {
 namespace {

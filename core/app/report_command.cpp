@@ -9,7 +9,7 @@
 
 #include "app/commands.h"
 #include "app/result_outputs.h"
-#include "report/read_folders.h"
+#include "report/json/read_folders.h"
 
 namespace slipcheck {
 namespace {

@@ -7,15 +7,15 @@
 #include <string_view>
 
 #include "app/output.h"
-#include "report/extended_xyz.h"
-#include "report/file_stem.h"
-#include "report/files.h"
-#include "report/gnuplot_charts.h"
-#include "report/junit.h"
-#include "report/markdown.h"
-#include "report/report_page.h"
-#include "report/result_csv.h"
-#include "report/vtk_files.h"
+#include "report/charts/gnuplot_charts.h"
+#include "report/files/extended_xyz.h"
+#include "report/files/file_stem.h"
+#include "report/files/files.h"
+#include "report/files/junit.h"
+#include "report/files/markdown.h"
+#include "report/files/result_csv.h"
+#include "report/files/vtk_files.h"
+#include "report/html/report_page.h"
 
 namespace slipcheck {
 namespace {

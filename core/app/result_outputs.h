@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report/report_content.h"
+#include "report/rows/report_content.h"
 
 namespace slipcheck {
 

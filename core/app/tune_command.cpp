@@ -11,11 +11,11 @@
 #include "app/output.h"
 #include "app/progress_bar.h"
 #include "app/tune_setup.h"
-#include "report/context.h"
-#include "report/files.h"
-#include "report/tuning_json.h"
-#include "report/tuning_profile.h"
-#include "report/tuning_table.h"
+#include "report/files/files.h"
+#include "report/files/tuning_profile.h"
+#include "report/json/tuning_json.h"
+#include "report/rows/context.h"
+#include "report/terminal/tuning_table.h"
 
 namespace slipcheck {
 namespace {

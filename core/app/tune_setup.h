@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "report/tuning_record.h"
-#include "tuning/tuning_runs.h"
+#include "report/json/tuning_record.h"
+#include "studies/tuning/tuning_runs.h"
 
 namespace slipcheck {
 

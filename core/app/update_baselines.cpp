@@ -7,9 +7,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "report/context.h"
-#include "report/files.h"
-#include "report/text.h"
+#include "report/files/files.h"
+#include "report/rows/context.h"
+#include "report/terminal/text.h"
 
 namespace slipcheck {
 namespace {

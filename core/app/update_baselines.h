@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "baseline/update.h"
-#include "report/check_rows.h"
+#include "report/rows/check_rows.h"
+#include "studies/baseline/update.h"
 
 namespace slipcheck {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/fields.h"
-#include "physics/hard_contact.h"
+#include "physics/contact/hard_contact.h"
 
 /// The contacts of a scene as docs/engine-protocol.md words them. What reads throws Rubbish.
 namespace slipcheck::protocol {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "physics/frame.h"
-#include "scenario/hard_scene.h"
+#include "scene/scene.h"
 
 namespace slipcheck {
 
@@ -74,7 +74,7 @@ class Engine {
   /// Prepares for a scene with steps of `time_step` [s], > 0. Settings that are not named have the
   /// engine's own values; those that are have been checked against info(). May be called again for
   /// another scene. Throws Refused.
-  virtual Applied configure(const HardScene& scene, const Settings& settings, double time_step) = 0;
+  virtual Applied configure(const Scene& scene, const Settings& settings, double time_step) = 0;
 
   /// A fresh world, nothing left of an earlier one, with the bodies in these states at `time` [s],
   /// >= 0, of the scene's clock, by which the substrate or the box moves.

@@ -10,8 +10,8 @@
 #include "engine/settings.h"
 #include "scenario/file_text.h"
 #include "scenario/reading.h"
-#include "scenario/record.h"
-#include "scenario/rules.h"
+#include "scenario/record_keys.h"
+#include "scenario/rules/rules.h"
 #include "scenario/yaml_tree.h"
 
 namespace slipcheck {

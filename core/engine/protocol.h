@@ -24,7 +24,7 @@ struct Hello {
   std::size_t version = kVersion;
 };
 struct Configure {
-  HardScene scene;
+  Scene scene;
   Settings settings;     ///< those that are chosen
   double time_step = 0;  ///< [s], > 0
 };

@@ -163,7 +163,7 @@ std::vector<BodyState> unpack_states(const Bytes& bytes, const std::string& plac
   return states;
 }
 
-json scene_to_json(const HardScene& scene) {
+json scene_to_json(const Scene& scene) {
   json bodies = json::array();
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Sphere& body = scene.bodies[i];
@@ -186,9 +186,9 @@ json scene_to_json(const HardScene& scene) {
   return out;
 }
 
-HardScene scene_from_json(const json& object) {
+Scene scene_from_json(const json& object) {
   const Fields fields(object, "scene");
-  HardScene scene;
+  Scene scene;
   for (const json& each : fields.list("substrate")) {
     const Fields contact(each, fmt::format("scene.substrate[{}]", scene.substrate.size()));
     scene.substrate.push_back(substrate_contact_from_json(contact));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/fields.h"
-#include "scenario/hard_scene.h"
+#include "scene/scene.h"
 
 namespace slipcheck::protocol {
 
@@ -26,9 +26,9 @@ Bytes pack_states(std::span<const BodyState> states);
 std::vector<BodyState> unpack_states(const Bytes& bytes, const std::string& place);
 
 /// The scene as docs/engine-protocol.md words it.
-nlohmann::json scene_to_json(const HardScene& scene);
+nlohmann::json scene_to_json(const Scene& scene);
 
-/// The inverse; every index and range that HardScene promises is checked. Throws Rubbish.
-HardScene scene_from_json(const nlohmann::json& json);
+/// The inverse; every index and range that Scene promises is checked. Throws Rubbish.
+Scene scene_from_json(const nlohmann::json& json);
 
 }  // namespace slipcheck::protocol

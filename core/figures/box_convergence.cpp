@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "physics/linear_contact.h"
-#include "reference/planar_solver.h"
-#include "reference/soft_box_solver.h"
+#include "physics/contact/linear_contact.h"
+#include "reference/events/planar_solver.h"
+#include "reference/forces/soft_box_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -34,7 +34,7 @@ Result reached(const Result& run) {
 
 /// The same box with contacts that last and tend to its hard ones: where Coulomb's cap is not
 /// reached the viscous force leaves exp(−slowing) of the slip, so that β0 = 0.
-ContactScene softened(const HardScene& hard, double collision_time, double slowing) {
+ContactScene softened(const Scene& hard, double collision_time, double slowing) {
   const Sphere& sphere = hard.bodies.front();
   const auto contact = [&](double reduced_mass) {
     const auto law = LinearContact::with_collision_time(reduced_mass, kConvergenceRestitution,
@@ -54,13 +54,13 @@ ContactScene softened(const HardScene& hard, double collision_time, double slowi
   return scene;
 }
 
-HardScene few_spheres(double friction) {
+Scene few_spheres(double friction) {
   VibratedBox box;
   box.count = 6;
   box.width = 8;
   box.speed = 0.3;
   box.set_contacts(kConvergenceRestitution, friction, 0);
-  HardScene scene = box.scene();
+  Scene scene = box.scene();
   for (std::size_t i = 0; i < box.count; ++i) {
     const double k = static_cast<double>(i);
     BodyState& state = scene.initial[i];
@@ -76,7 +76,7 @@ HardScene few_spheres(double friction) {
 
 TrajectoriesApart trajectories_apart(double friction, const std::vector<double>& collision_times) {
   constexpr double kSlowing = 100, kSteps = 100;
-  const HardScene hard = few_spheres(friction);
+  const Scene hard = few_spheres(friction);
   const RunEnd end = until_time(kTrajectoryTime);
   PlanarSolver event(hard, hard.initial);
   reached(event.run(end, nullptr, kTrajectoryTime));
@@ -109,7 +109,7 @@ VibratedBox dilute_box() {
 
 EventMeans dilute_box_by_events() {
   const VibratedBox box = dilute_box();
-  const HardScene scene = box.scene();
+  const Scene scene = box.scene();
   PlanarSolver solver(scene, scene.initial);
   BoxObserver observer(scene, after_discard(), [&] { return solver.world().collisions(); });
   const PlanarRun run =

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "figures/box_runs.h"
-#include "harness/box_observer.h"
+#include "harness/observe/box_observer.h"
 
 namespace slipcheck {
 

@@ -8,7 +8,7 @@
 #include "figures/box_runs.h"
 #include "figures/columns.h"
 #include "figures/paper_figure.h"
-#include "harness/power_law.h"
+#include "harness/compare/power_law.h"
 
 namespace slipcheck {
 namespace {

@@ -8,18 +8,18 @@
 #include "figures/box_runs.h"
 #include "figures/columns.h"
 #include "figures/paper_figure.h"
-#include "reference/planar_solver.h"
+#include "reference/events/planar_solver.h"
 
 namespace slipcheck {
 namespace {
 
 /// Two spheres in L's box, without gravity and far from the walls.
-HardScene scene_of(const PairContact& contact) {
+Scene scene_of(const PairContact& contact) {
   VibratedBox box;
   box.count = 2;
   box.width = 100;
   box.pair = contact;
-  HardScene scene = box.scene();
+  Scene scene = box.scene();
   scene.gravity = 0;
   scene.box->floor.amplitude = 0;
   return scene;
@@ -27,7 +27,7 @@ HardScene scene_of(const PairContact& contact) {
 
 /// Ψ2 = −u_t'/u_n of one collision with Ψ1 = −u_t/u_n as the event-driven solver performs it; the
 /// direction of the contact, and how much of u_t comes from the spins, are `random`.
-double psi_2(HardScene& scene, double psi_1, std::mt19937_64& random) {
+double psi_2(Scene& scene, double psi_1, std::mt19937_64& random) {
   constexpr double kApproach = 1;   // −u_n [m/s]
   constexpr double kBefore = 1e-3;  // [s]
   const auto share = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
@@ -83,7 +83,7 @@ PaperFigure figure_l2() {
   std::mt19937_64 random(1995);
   for (const Shown& shown : all) {
     const PairContact& contact = shown.contact;
-    HardScene scene = scene_of(contact);
+    Scene scene = scene_of(contact);
     const double q = scene.bodies[0].shape_factor;
     const double lost =
         (1 + 1 / q) * (1 + std::get<double>(contact.restitution)) * contact.friction;

@@ -6,9 +6,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "harness/box_observer.h"
-#include "harness/in_parallel.h"
-#include "reference/planar_solver.h"
+#include "harness/observe/box_observer.h"
+#include "harness/run/in_parallel.h"
+#include "reference/events/planar_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -26,7 +26,7 @@ double relative_ratio_error(const std::vector<double>& a, double mean_a,
 }
 
 BoxMeans run_box(const VibratedBox& box, double longer) {
-  const HardScene scene = box.scene();
+  const Scene scene = box.scene();
   const double flight = 2 * box.speed / kGravity * box.frequency;  // in periods
   const double discard = std::ceil(std::max(250.0, 10 * flight));
   const double periods = discard + std::ceil(longer * std::max(1500.0, 60 * flight));
@@ -60,9 +60,9 @@ void VibratedBox::set_contacts(double e, double friction, double tangential_rest
   pair = floor = wall = PairContact{e, friction, tangential_restitution};
 }
 
-HardScene VibratedBox::scene() const {
+Scene VibratedBox::scene() const {
   const double radius = diameter / 2;
-  HardScene scene;
+  Scene scene;
   scene.gravity = kGravity;
   scene.bodies.assign(
       count,

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "harness/blocking.h"
-#include "report/line_chart.h"
-#include "scenario/hard_scene.h"
+#include "harness/observe/blocking.h"
+#include "report/charts/line_chart.h"
+#include "scene/scene.h"
 
 namespace slipcheck {
 
@@ -29,7 +29,7 @@ struct VibratedBox {
 
   /// Steel spheres, at the start in rows over the floor, with velocities of one size in directions
   /// that do not depend on the machine.
-  HardScene scene() const;
+  Scene scene() const;
 };
 
 /// What one run shows, at phase zero of the floor. Errors are standard errors of the mean.

@@ -6,9 +6,9 @@
 #include <random>
 
 #include "figures/paper_figure.h"
-#include "harness/gas_restitution.h"
+#include "harness/observe/gas_restitution.h"
 #include "physics/closed_forms.h"
-#include "reference/event_solver.h"
+#include "reference/events/event_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -34,9 +34,9 @@ constexpr std::array<Density, 4> kDensities = {{
 }};
 
 /// Spheres that roll in random directions, on a square lattice at first.
-HardScene rolling_gas(double area_fraction) {
+Scene rolling_gas(double area_fraction) {
   constexpr std::size_t count = kSide * kSide;
-  HardScene scene;
+  Scene scene;
   scene.gravity = 9.81;
   scene.confined = true;
   scene.substrate.resize(1);
@@ -82,7 +82,7 @@ PaperFigure figure_k12() {
               {}};
   std::vector<double> fraction, ratio, effective, error, isolated, after, path, way, share;
   for (const Density& density : kDensities) {
-    const HardScene scene = rolling_gas(density.area_fraction);
+    const Scene scene = rolling_gas(density.area_fraction);
     GasRestitution seen(scene, kCollisions, 1e-9 * kSpeed);
     EventSolver(scene, scene.initial).run({Run::Until::time, density.time, density.time}, &seen);
     Curve gas{fmt::format("area fraction {:g}", density.area_fraction), density.look, {}, {}};

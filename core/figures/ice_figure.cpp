@@ -5,9 +5,9 @@
 
 #include "figures/columns.h"
 #include "figures/paper_figure.h"
-#include "physics/elastic_pair.h"
-#include "physics/hard_contact.h"
-#include "reference/impact.h"
+#include "physics/contact/elastic_pair.h"
+#include "physics/contact/hard_contact.h"
+#include "scene/impact.h"
 
 namespace slipcheck {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "report/csv.h"
-#include "report/figure.h"
+#include "report/charts/figure.h"
+#include "report/files/csv.h"
 
 namespace slipcheck {
 

@@ -6,8 +6,8 @@
 
 #include "figures/columns.h"
 #include "figures/paper_figure.h"
-#include "physics/elastic_pair.h"
-#include "reference/pair_batch.h"
+#include "physics/contact/elastic_pair.h"
+#include "reference/pair/pair_batch.h"
 
 namespace slipcheck {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "reference/contact_solver.h"
+#include "reference/forces/contact_solver.h"
 
 namespace slipcheck {
 
@@ -41,7 +41,7 @@ RollingPair SteelPair::rolling() const {
 }
 
 ContactScene SteelPair::scene(double lead) const {
-  HardScene hard;
+  Scene hard;
   hard.gravity = kSteel.gravity;
   SubstrateContact substrate;
   substrate.static_friction = kSteel.static_friction;

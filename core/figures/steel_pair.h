@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "harness/observables.h"
-#include "harness/reference_run.h"
-#include "physics/linear_contact.h"
-#include "physics/pair_insight.h"
-#include "reference/contact_scene.h"
+#include "harness/observe/observables.h"
+#include "harness/run/reference_run.h"
+#include "physics/contact/linear_contact.h"
+#include "physics/contact/pair_insight.h"
+#include "scene/contact_scene.h"
 
 namespace slipcheck {
 

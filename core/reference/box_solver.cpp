@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "reference/soft_box_solver.h"
+#include "reference/forces/soft_box_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -64,7 +64,7 @@ PlanarSolver BoxSolver::planar_solver() const {
 
 BoxRun BoxSolver::run(const RunEnd& end, double sample_interval, FrameSink* sink,
                       std::uint64_t* collisions) const {
-  const HardScene& hard = scene_->hard;
+  const Scene& hard = scene_->hard;
   if (resolved_) {
     SoftBoxSolver solver(*scene_, hard.initial);
     const SoftBoxRun run = run_counting(solver, end, sample_interval, sink, collisions);

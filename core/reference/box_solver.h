@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "physics/frame.h"
-#include "reference/contact_scene.h"
-#include "reference/event_solver.h"
-#include "reference/planar_solver.h"
+#include "reference/events/planar_solver.h"
 #include "reference/reference_settings.h"
+#include "reference/run_end.h"
+#include "scene/contact_scene.h"
 
 namespace slipcheck {
 

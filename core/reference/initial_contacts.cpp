@@ -5,13 +5,13 @@
 #include <numeric>
 #include <utility>
 
-#include "physics/elastic_pair.h"
-#include "reference/event_solver.h"
-#include "scenario/overlap.h"
+#include "physics/contact/elastic_pair.h"
+#include "reference/events/event_solver.h"
+#include "scenario/rules/overlap.h"
 
 namespace slipcheck {
 
-std::vector<InitialContact> overlapping_pairs(const HardScene& scene,
+std::vector<InitialContact> overlapping_pairs(const Scene& scene,
                                               std::span<const BodyState> states) {
   std::vector<InitialContact> found;
   if (scene.box || !scene.periodic.isZero(0)) return found;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "reference/contact_scene.h"
+#include "scene/contact_scene.h"
 
 namespace slipcheck {
 
@@ -16,7 +16,7 @@ struct InitialContact {
 
 /// All of them, in order; touching within round-off is no overlap. None in a box or on a periodic
 /// plane, where nothing overlaps at the start.
-std::vector<InitialContact> overlapping_pairs(const HardScene& scene,
+std::vector<InitialContact> overlapping_pairs(const Scene& scene,
                                               std::span<const BodyState> states);
 
 /// Those whose contact is soft.

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "physics/elastic_pair.h"
-#include "physics/linear_contact.h"
+#include "physics/contact/elastic_pair.h"
+#include "physics/contact/linear_contact.h"
 #include "physics/numbers.h"
-#include "reference/event_solver.h"
+#include "reference/events/event_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -18,11 +18,11 @@ constexpr double kTouching = 1e-5;
 /// e_n of critical damping where a contact ends with its force, e^−2.
 const double kCritical = std::exp(-2.0);
 
-bool is_integrable(const HardScene& scene) {
+bool is_integrable(const Scene& scene) {
   return !scene.box && scene.periodic.isZero(0) && scene.bodies.size() <= kMostIntegrated;
 }
 
-bool rests_on(const HardScene& scene, std::size_t i, std::size_t j) {
+bool rests_on(const Scene& scene, std::size_t i, std::size_t j) {
   const BodyState &upper = scene.initial[i], &lower = scene.initial[j];
   const double radius = scene.bodies[i].radius;
   if (upper.position.z() <= radius * (1 + kTouching)) return false;  // the substrate carries it
@@ -31,7 +31,7 @@ bool rests_on(const HardScene& scene, std::size_t i, std::size_t j) {
   return way.norm() <= (1 + kTouching) * contact && way.z() >= 1e-3 * contact;
 }
 
-bool rests_on_bodies(const HardScene& scene) {
+bool rests_on_bodies(const Scene& scene) {
   const auto is_still = [](const BodyState& state) {
     return state.velocity.isZero(0) && state.angular_velocity.isZero(0);
   };
@@ -50,15 +50,15 @@ bool never_rebounds(const PairContact& pair) {
 }
 
 /// Two that nothing presses together meet once; what a third drives into them meets without end.
-bool sticks(const HardScene& scene) {
+bool sticks(const Scene& scene) {
   const std::size_t few = is_rubbed(scene) ? 1 : 2;
   return scene.bodies.size() > few && std::ranges::any_of(scene.pairs, never_rebounds);
 }
 
 /// Each body a class of its own: the law of a pair depends on its masses.
-HardScene one_class_each(HardScene scene) {
+Scene one_class_each(Scene scene) {
   const std::size_t count = scene.bodies.size();
-  HardScene each = scene;
+  Scene each = scene;
   each.substrate.clear();
   each.pairs.clear();
   for (std::size_t i = 0; i < count; ++i) {
@@ -94,17 +94,17 @@ std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, con
 
 }  // namespace
 
-bool is_rubbed(const HardScene& scene) {
+bool is_rubbed(const Scene& scene) {
   return scene.gravity != 0 && std::ranges::any_of(scene.substrate, [](const auto& contact) {
            return contact.kinetic_friction > 0;
          });
 }
 
-bool has_lasting_contacts(const HardScene& scene) {
+bool has_lasting_contacts(const Scene& scene) {
   return is_integrable(scene) && (rests_on_bodies(scene) || sticks(scene));
 }
 
-bool has_come_apart(const HardScene& scene, std::span<const BodyState> states) {
+bool has_come_apart(const Scene& scene, std::span<const BodyState> states) {
   if (!rests_on_bodies(scene)) return false;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const double way = (states[i].position - scene.initial[i].position).norm();
@@ -113,7 +113,7 @@ bool has_come_apart(const HardScene& scene, std::span<const BodyState> states) {
   return false;
 }
 
-double short_collision_time(const HardScene& scene) {
+double short_collision_time(const Scene& scene) {
   const double part = rests_on_bodies(scene) ? 1e-3 : 1e-4;
   double radius = kNever;
   for (const Sphere& sphere : scene.bodies) radius = std::min(radius, sphere.radius);
@@ -121,7 +121,7 @@ double short_collision_time(const HardScene& scene) {
   return part * radius / std::max(fall, speed_scale(scene, scene.initial));
 }
 
-std::optional<ContactScene> with_lasting_contacts(const HardScene& scene, double collision_time) {
+std::optional<ContactScene> with_lasting_contacts(const Scene& scene, double collision_time) {
   if (!is_integrable(scene)) return std::nullopt;
   ContactScene made;
   made.hard = one_class_each(scene);
@@ -140,7 +140,7 @@ std::optional<ContactScene> with_lasting_contacts(const HardScene& scene, double
   return made;
 }
 
-std::optional<ContactScene> with_lasting_contacts(const HardScene& scene) {
+std::optional<ContactScene> with_lasting_contacts(const Scene& scene) {
   return with_lasting_contacts(scene, short_collision_time(scene));
 }
 

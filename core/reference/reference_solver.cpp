@@ -10,9 +10,9 @@
 #include "reference/initial_contacts.h"
 #include "reference/lasting_contacts.h"
 #include "reference/run_variation.h"
-#include "reference/step_length.h"
-#include "reference/step_solver.h"
-#include "reference/steps_as_events.h"
+#include "reference/steps/step_length.h"
+#include "reference/steps/step_solver.h"
+#include "reference/steps/steps_as_events.h"
 
 namespace slipcheck {
 namespace {
@@ -34,11 +34,11 @@ SolvedRun checked(SolvedRun solved, const std::vector<BodyState>& states) {
 
 }  // namespace
 
-bool has_exact_phases(const HardScene& scene) {
+bool has_exact_phases(const Scene& scene) {
   return EventSolver::can_solve(scene) && EventSolver::is_exact(scene);
 }
 
-bool runs_in_phases(const HardScene& scene) {
+bool runs_in_phases(const Scene& scene) {
   const bool is_large =
       scene.bodies.size() > EventSettings{}.most_without_cells || scene.periodic != Vector2::Zero();
   return EventSolver::can_solve(scene) && (EventSolver::is_exact(scene) || is_large);
@@ -115,7 +115,7 @@ SolvedRun ReferenceSolver::run_steps(const RunEnd& end, FrameSink* sink, double 
 SolvedRun ReferenceSolver::run_varied(const RunEnd& end, FrameSink* sink,
                                       SolverAccuracy accuracy) const {
   ContactScene varied = scene();
-  HardScene& hard = varied.hard;
+  Scene& hard = varied.hard;
   std::optional<ReverseSink> reversing;
   if (accuracy.reversed) {
     reverse_bodies(hard);
@@ -177,7 +177,7 @@ double ReferenceSolver::first_contact(double limit, double tolerance) const {
 }
 
 std::vector<BodyState> ReferenceSolver::states_at(double time) const {
-  const HardScene& hard = scene().hard;
+  const Scene& hard = scene().hard;
   if (time == 0) return hard.initial;
   const RunEnd end{Run::Until::time, time, time};
   if (runs_in_phases(hard) && initial_contacts(scene(), hard.initial).empty()) {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "reference/contact_solver.h"
-#include "reference/event_solver.h"
+#include "reference/events/event_solver.h"
+#include "reference/forces/contact_solver.h"
 #include "reference/reference_settings.h"
 
 namespace slipcheck {
@@ -95,8 +95,8 @@ class ReferenceSolver {
 };
 
 /// Whether EventSolver has an exact solution for what bodies do between collisions.
-bool has_exact_phases(const HardScene& scene);
+bool has_exact_phases(const Scene& scene);
 /// Whether the scene is run from phase to phase: they are exact, or there are many bodies.
-bool runs_in_phases(const HardScene& scene);
+bool runs_in_phases(const Scene& scene);
 
 }  // namespace slipcheck

@@ -5,7 +5,7 @@
 
 namespace slipcheck {
 
-void reverse_bodies(HardScene& scene) {
+void reverse_bodies(Scene& scene) {
   std::ranges::reverse(scene.bodies);
   std::ranges::reverse(scene.initial);
   std::ranges::reverse(scene.material);

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "physics/frame.h"
-#include "scenario/hard_scene.h"
+#include "scene/scene.h"
 
 namespace slipcheck {
 
 // The same scene in ways that change nothing but what rules decide.
 
 /// The bodies the other way round: so come the collisions of one instant.
-void reverse_bodies(HardScene& scene);
+void reverse_bodies(Scene& scene);
 
 /// Shows `sink`, which must outlive this, the frames of a scene with reversed bodies as those of
 /// the scene itself.

@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "scenario/check.h"
-#include "scenario/fill.h"
-#include "scenario/overlap.h"
-#include "scenario/scene_outline.h"
+#include "scenario/contact_models.h"
+#include "scenario/fill/fill.h"
+#include "scenario/rules/overlap.h"
+#include "scenario/rules/spanning_rules.h"
 
 namespace slipcheck {
 namespace {

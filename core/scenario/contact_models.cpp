@@ -1,5 +1,6 @@
 #include "scenario/contact_models.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace slipcheck {
@@ -31,6 +32,20 @@ AsperityForce asperity_force(const AsperityTangential& model, double effective_r
   force.form = model.form == AsperityTangential::Form::printed ? AsperityForce::Form::printed
                                                                : AsperityForce::Form::passive;
   return force;
+}
+
+bool depends_on_bodies(const BodyContact& contact) {
+  const auto* hard = std::get_if<HardNormal>(&contact.normal);
+  return !hard || std::holds_alternative<ViscoelasticRestitution>(hard->restitution);
+}
+
+const BodyContact* find_contact(const Scenario& scenario, const std::string& first,
+                                const std::string& second) {
+  const auto found = std::ranges::find_if(scenario.contacts, [&](const BodyContact& contact) {
+    return (contact.first == first && contact.second == second) ||
+           (contact.first == second && contact.second == first);
+  });
+  return found == scenario.contacts.end() ? nullptr : &*found;
 }
 
 }  // namespace slipcheck

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "physics/elastic_pair.h"
-#include "physics/linear_contact.h"
-#include "physics/normal_force.h"
-#include "physics/tangential_force.h"
+#include "physics/contact/elastic_pair.h"
+#include "physics/contact/linear_contact.h"
+#include "physics/contact/normal_force.h"
+#include "physics/contact/tangential_force.h"
 #include "scenario/scenario.h"
 
 namespace slipcheck {
@@ -23,5 +23,12 @@ ElasticMaterial elastic_material(const Material& material);
 
 /// The asperities of B (35), (37) between spheres of that effective radius [m].
 AsperityForce asperity_force(const AsperityTangential& model, double effective_radius);
+
+/// The contact between two materials, in whichever order the file names them, or null.
+const BodyContact* find_contact(const Scenario& scenario, const std::string& first,
+                                const std::string& second);
+
+/// Whether the contact's forces or restitution depend on the bodies' radius, mass or shape.
+bool depends_on_bodies(const BodyContact& contact);
 
 }  // namespace slipcheck

@@ -5,7 +5,7 @@
 #include "scenario/assemble.h"
 #include "scenario/file_text.h"
 #include "scenario/reading.h"
-#include "scenario/scene_rules.h"
+#include "scenario/rules/scene_rules.h"
 #include "scenario/yaml_tree.h"
 
 namespace slipcheck {

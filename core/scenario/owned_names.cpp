@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenario/rules.h"
+#include "scenario/rules/rules.h"
 
 namespace slipcheck {
 namespace {

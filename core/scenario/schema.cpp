@@ -1,6 +1,6 @@
 #include "scenario/schema.h"
 
-#include "scenario/scene_rules.h"
+#include "scenario/rules/scene_rules.h"
 
 namespace slipcheck {
 

@@ -1,4 +1,4 @@
-#include "baseline/baseline_json.h"
+#include "studies/baseline/baseline_json.h"
 
 #include <gtest/gtest.h>
 

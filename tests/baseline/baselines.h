@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "baseline/baseline.h"
+#include "studies/baseline/baseline.h"
 
 namespace slipcheck::testing {
 

@@ -1,4 +1,4 @@
-#include "baseline/check.h"
+#include "studies/baseline/check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "baseline/update.h"
+#include "studies/baseline/update.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <fstream>
 
-#include "baseline/baseline_json.h"
 #include "baselines.h"
+#include "studies/baseline/baseline_json.h"
 
 namespace slipcheck {
 namespace {

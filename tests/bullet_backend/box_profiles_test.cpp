@@ -15,9 +15,9 @@ namespace slipcheck {
 namespace {
 
 /// Three balls of two materials in a shaken box with a lid, each contact different.
-HardScene everything() {
-  HardScene scene = box_of(steel_ball(0.01), {in_plane(0.05, 0.1, 0, 0), in_plane(0.1, 0.1, 0, 0),
-                                              in_plane(0.15, 0.1, 0, 0)});
+Scene everything() {
+  Scene scene = box_of(steel_ball(0.01), {in_plane(0.05, 0.1, 0, 0), in_plane(0.1, 0.1, 0, 0),
+                                          in_plane(0.15, 0.1, 0, 0)});
   scene.bodies[2].radius = 0.005;
   scene.material = {0, 0, 1};
   scene.substrate.resize(2);
@@ -80,7 +80,7 @@ TEST(BulletBoxProfiles, NaiveGetsBulletsProducts) {
 
 TEST(BulletBoxProfiles, WhatIsNotRepresentedIsSaid) {
   RemoteEngine engine(bullet_executable("double"));
-  HardScene scene = everything();
+  Scene scene = everything();
   // From 0.1 m balls come down with 1.4 m/s, 1.4 mm in a step of 1 ms, 6 mm in one at 240 Hz.
   Applied applied = engine.configure(scene, kDefault, 1e-3);
   EXPECT_EQ(applied.not_represented,
@@ -105,7 +105,7 @@ TEST(BulletBoxProfiles, WhatIsNotRepresentedIsSaid) {
 
 TEST(BulletBoxProfiles, ARepeatedPlaneIsRefused) {
   RemoteEngine engine(bullet_executable("double"));
-  HardScene scene = scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 1)}, {});
+  Scene scene = scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 1)}, {});
   scene.periodic = {0.5, 0};
   try {
     engine.configure(scene, kDefault, 1e-3);
@@ -120,7 +120,7 @@ TEST(BulletBoxProfiles, ARepeatedPlaneIsRefused) {
 
 TEST(BulletBoxProfiles, ASubstrateAfterABoxHasBulletsOwnMargins) {
   // The tree's margin is global in Bullet. Two runs of one scene, before a box and after it.
-  const HardScene scene =
+  const Scene scene =
       scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 0.3), rolling_along_x(0.01, 0.03, 0)},
                ground_with_friction(0.1));
   RemoteEngine engine(bullet_executable("double"));
@@ -132,7 +132,7 @@ TEST(BulletBoxProfiles, ASubstrateAfterABoxHasBulletsOwnMargins) {
 }
 
 TEST(BulletMaterialPairs, StandForAllThatMeet) {
-  HardScene scene = everything();
+  Scene scene = everything();
   using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
   EXPECT_EQ(bullet::material_pairs(scene), (Pairs{{0, 1}, {0, 2}}));
   scene.material = {1, 0, 1};

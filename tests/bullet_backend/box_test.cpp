@@ -52,8 +52,8 @@ BodyState towards(const Target& target, double phase) {
   return state;
 }
 
-HardScene scene_towards(const Target& target, const BodyState& state, const PairContact& contact) {
-  HardScene scene = box_of(steel_ball(kBoxRadius), {state});
+Scene scene_towards(const Target& target, const BodyState& state, const PairContact& contact) {
+  Scene scene = box_of(steel_ball(kBoxRadius), {state});
   scene.box->lid = 0.3;
   (scene.box.value().*target.contacts)[0] = contact;
   return scene;
@@ -62,7 +62,7 @@ HardScene scene_towards(const Target& target, const BodyState& state, const Pair
 class BulletBox : public ::testing::TestWithParam<const char*> {
  protected:
   RemoteEngine engine_{bullet_executable("double")};
-  BodyState after(const HardScene& scene, double rate = kRate, std::size_t steps = 8) {
+  BodyState after(const Scene& scene, double rate = kRate, std::size_t steps = 8) {
     return run(engine_, scene, shipped(GetParam()), rate, steps).back().bodies[0];
   }
   bool is_default() const { return GetParam() == std::string("default"); }
@@ -75,7 +75,7 @@ TEST_P(BulletBox, EverySurfaceHasItsRestitution) {
   for (const Target& target : kTargets) {
     for (const double e : {1.0, 0.8, 0.6}) {
       for (const double phase : {0.01, 0.3, 0.4, 0.99}) {
-        HardScene scene = scene_towards(target, towards(target, phase), {e, 0, -1});
+        Scene scene = scene_towards(target, towards(target, phase), {e, 0, -1});
         // Alone in a box the naive ball has the coefficients of its contact with the floor.
         if (!is_default()) scene.box->on_floor[0].restitution = e;
         const BodyState out = after(scene);
@@ -93,7 +93,7 @@ TEST_P(BulletBox, EverySurfaceHasItsFriction) {
     BodyState in = towards(target, phase);
     const Vector3 t = tangent(target.normal);
     in.velocity += 4 * t;  // slides to the end: (7/2) μ (1 + e_n) v < 4 m/s
-    HardScene scene = scene_towards(target, in, {e, mu, 0});
+    Scene scene = scene_towards(target, in, {e, mu, 0});
     if (!is_default()) scene.box->on_floor[0] = {e, mu, 0};
     const double normal = applied(e) + lottery(phase);
     const double change = -applied(mu) * (1 + normal);  // of v_t [m/s]
@@ -112,7 +112,7 @@ TEST_P(BulletBox, StickingStopsTheSlipWhateverTheShape) {
     const Target& floor = kTargets[0];
     BodyState in = towards(floor, 0.4);
     in.velocity.x() = 0.5;
-    HardScene scene = scene_towards(floor, in, {0.8, 2.0, 0});
+    Scene scene = scene_towards(floor, in, {0.8, 2.0, 0});
     scene.bodies[0].shape_factor = q;
     const BodyState out = after(scene);
     // u_t' = 0, m dv = P and q m R dw = -P give v_t' = v_t/(1 + q).
@@ -129,7 +129,7 @@ double floor_velocity(const ShakenFloor& floor, double t, double rate) {
 TEST_P(BulletBox, AMovingFloorPassesItsVelocityOn) {
   const double e = 0.9, start = 0.037;
   for (const double height : {0.011, 0.0125, 0.014, 0.0155}) {
-    HardScene scene = box_of(steel_ball(kBoxRadius), {in_plane(0.1, height, 0, -0.5)});
+    Scene scene = box_of(steel_ball(kBoxRadius), {in_plane(0.1, height, 0, -0.5)});
     scene.box->floor = {0.002, 25};  // V = 0.31 m/s
     scene.box->on_floor[0].restitution = e;
     engine_.configure(scene, shipped(GetParam()), 1 / kRate);
@@ -166,7 +166,7 @@ TEST_P(BulletBox, AMovingFloorPassesItsVelocityOn) {
 TEST_P(BulletBox, WallsRubUpAndDownOnlyWhereTheyMove) {
   const Target& wall = kTargets[1];
   for (const bool moving : {false, true}) {
-    HardScene scene = scene_towards(wall, towards(wall, 0.4), {0.8, 2.0, 0});
+    Scene scene = scene_towards(wall, towards(wall, 0.4), {0.8, 2.0, 0});
     if (!is_default()) scene.box->on_floor[0] = {0.8, 2.0, 0};
     scene.box->floor = {0.002, 25};
     scene.box->moving_walls = moving;
@@ -179,7 +179,7 @@ TEST_P(BulletBox, WallsRubUpAndDownOnlyWhereTheyMove) {
 }
 
 TEST_P(BulletBox, AMovingLidStrikesDown) {
-  HardScene scene = box_of(steel_ball(kBoxRadius), {in_plane(0.1, 0.28, 0, 0)});
+  Scene scene = box_of(steel_ball(kBoxRadius), {in_plane(0.1, 0.28, 0, 0)});
   scene.box->lid = 0.295;
   scene.box->floor = {0.01, 5};  // V = 0.31 m/s; the lid comes down to 0.285
   scene.box->moving_walls = true;
@@ -196,8 +196,8 @@ TEST_P(BulletBox, BallsMeetAsTheyDoOnASubstrate) {
   for (const double rate : {1000.0, 10000.0}) {
     for (const double phase : {0.01, 0.17, 0.5, 0.99}) {
       const double x = radius + (3 + phase) / rate / 2;
-      HardScene scene = box_of(steel_ball(radius),
-                               {in_plane(0.1 - x, 0.1, 0.5, 0), in_plane(0.1 + x, 0.1, -0.5, 0)});
+      Scene scene = box_of(steel_ball(radius),
+                           {in_plane(0.1 - x, 0.1, 0.5, 0), in_plane(0.1 + x, 0.1, -0.5, 0)});
       scene.pairs[0].restitution = e;
       const Frame last = run(engine_, scene, shipped(GetParam()), rate, 8).back();
       const double out = last.bodies[1].velocity.x() - last.bodies[0].velocity.x();
@@ -213,7 +213,7 @@ TEST_P(BulletBox, ABallBouncesUnderGravity) {
   for (const double e : {1.0, 0.8}) {
     for (int k = 0; k < 8; ++k) {
       const double height = 0.1 + 0.0007 * k, rate = 240;
-      HardScene scene = box_of(steel_ball(kBoxRadius), {in_plane(0.1, kBoxRadius + height, 0, 0)});
+      Scene scene = box_of(steel_ball(kBoxRadius), {in_plane(0.1, kBoxRadius + height, 0, 0)});
       scene.gravity = kGravity;
       scene.box->on_floor[0].restitution = e;
       const auto frames = run(engine_, scene, shipped(GetParam()), rate, 60);

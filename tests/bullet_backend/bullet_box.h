@@ -7,8 +7,8 @@
 namespace slipcheck {
 
 /// Equal balls of one material in a box 0.2 m wide, without gravity and contacts that rub.
-inline HardScene box_of(const Sphere& ball, const std::vector<BodyState>& states) {
-  HardScene scene = scene_of(ball, states, {});
+inline Scene box_of(const Sphere& ball, const std::vector<BodyState>& states) {
+  Scene scene = scene_of(ball, states, {});
   scene.gravity = 0;
   Box box;
   box.width = 0.2;

@@ -8,7 +8,7 @@
 
 #include "engine/profile.h"
 #include "engine/remote_engine.h"
-#include "scenario/hard_scene.h"
+#include "scene/scene.h"
 
 namespace slipcheck {
 
@@ -66,9 +66,9 @@ inline BodyState rolling_towards(double radius, double v, double degrees, double
 }
 
 /// Equal balls of one material.
-inline HardScene scene_of(const Sphere& ball, const std::vector<BodyState>& states,
-                          const SubstrateContact& ground, const PairContact& pair = {}) {
-  HardScene scene;
+inline Scene scene_of(const Sphere& ball, const std::vector<BodyState>& states,
+                      const SubstrateContact& ground, const PairContact& pair = {}) {
+  Scene scene;
   scene.bodies.assign(states.size(), ball);
   scene.initial = states;
   scene.material.assign(states.size(), 0);
@@ -86,8 +86,8 @@ inline SubstrateContact ground_with_friction(double mu) {
 }
 
 /// The frames of a run from the scene's initial states, with those inside steps.
-inline std::vector<Frame> run(RemoteEngine& engine, const HardScene& scene,
-                              const Settings& settings, double rate, std::size_t steps) {
+inline std::vector<Frame> run(RemoteEngine& engine, const Scene& scene, const Settings& settings,
+                              double rate, std::size_t steps) {
   engine.configure(scene, settings, 1 / rate);
   engine.start(scene.initial);
   std::vector<Frame> frames;

@@ -9,7 +9,7 @@
 namespace slipcheck::bullet {
 namespace {
 
-HardScene two_balls(const Sphere& ball, const SubstrateContact& ground, const PairContact& pair) {
+Scene two_balls(const Sphere& ball, const SubstrateContact& ground, const PairContact& pair) {
   return scene_of(ball, {rolling_along_x(ball.radius, 0, 1), rolling_along_x(ball.radius, 1, 0)},
                   ground, pair);
 }
@@ -64,7 +64,7 @@ TEST(BulletCoefficients, ATableOfRestitutionsIsFollowed) {
   const TabulatedRestitution table{0, 1, {2, 1.8}, {-0.2, -0.2}};
   PairContact pair;
   pair.restitution = table;
-  const HardScene scene = two_balls(steel_ball(0.01), {}, pair);
+  const Scene scene = two_balls(steel_ball(0.01), {}, pair);
   const PairCoefficients map(scene, {}, 1e-3);
   for (const double g : {1.0, 2.0, std::exp(1.0)}) {
     EXPECT_NEAR(map.restitution(0, 1, g), 1 / (1 + std::exp(-2 + 0.2 * std::log(g))), 1e-15);
@@ -81,7 +81,7 @@ TEST(BulletCoefficients, WhetherAContactSlipsDecidesWhereAsked) {
   ground.static_friction = 0.5;
   ground.kinetic_friction = 0.2;
   ground.rolling = RollingFriction(0.01);
-  const HardScene scene = two_balls(steel_ball(0.05), ground, {1.0, 0.3, 0});
+  const Scene scene = two_balls(steel_ball(0.05), ground, {1.0, 0.3, 0});
   BulletSettings settings;
   const PairCoefficients one(scene, settings, 1e-3);
   settings.coefficients = CoefficientMap::pair_and_slip;
@@ -105,7 +105,7 @@ TEST(BulletCoefficients, WhetherAContactSlipsDecidesWhereAsked) {
 TEST(BulletCoefficients, AMultibodysRestitutionMakesUpForTheStepsGravity) {
   SubstrateContact ground;
   ground.restitution = 0.8;
-  const HardScene scene = two_balls(steel_ball(0.05), ground, {0.9, 0, 0});
+  const Scene scene = two_balls(steel_ball(0.05), ground, {0.9, 0, 0});
   BulletSettings settings;
   settings.body = BodyKind::multibody;
   PairCoefficients map(scene, settings, 1e-2);
@@ -124,7 +124,7 @@ TEST(BulletCoefficients, FactorsMultiplyWhatTheMapsGive) {
   ground.rolling = RollingFriction(0.01);
   ground.drilling_length = 1e-3;
   ground.restitution = 0.5;
-  const HardScene scene = two_balls(steel_ball(0.05), ground, {0.6, 0.3, 0});
+  const Scene scene = two_balls(steel_ball(0.05), ground, {0.6, 0.3, 0});
   BulletSettings settings;
   settings.friction_factor = 2;
   settings.restitution_factor = 0.5;
@@ -148,7 +148,7 @@ TEST(BulletCoefficients, NaiveTakesTheNumbersStraight) {
   ground.restitution = 0.4;
   PairContact pair;
   pair.restitution = 0.9;
-  const HardScene pair_scene = two_balls(steel_ball(0.01), ground, pair);
+  const Scene pair_scene = two_balls(steel_ball(0.01), ground, pair);
   const BodyFields ball = naive_ball(pair_scene, 0);
   EXPECT_EQ(ball.friction, 0.1);
   EXPECT_EQ(ball.restitution, 0.9);
@@ -157,7 +157,7 @@ TEST(BulletCoefficients, NaiveTakesTheNumbersStraight) {
   EXPECT_EQ(naive_surface(pair_scene, kFloor).friction, 0.1);
   EXPECT_EQ(naive_surface(pair_scene, kFloor).restitution, 0.4);
 
-  const HardScene alone = scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 1)}, ground);
+  const Scene alone = scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 1)}, ground);
   EXPECT_EQ(naive_ball(alone, 0).restitution, 0.4);
 }
 

@@ -54,7 +54,7 @@ Restitution meet(double speed, double rate) {
   for (int k = 0; k < kPhases; ++k) {
     const double phase = (k + 0.5) / kPhases;
     const double x = kRadius + (3 + phase) * speed / rate / 2;
-    const HardScene scene =
+    const Scene scene =
         scene_of(steel_ball(kRadius),
                  {rolling_along_x(kRadius, -x, speed / 2), rolling_along_x(kRadius, x, -speed / 2)},
                  ground_with_friction(0.1), pair);
@@ -113,7 +113,7 @@ TEST(BulletCollision, ARestitutionLawIsTakenAtTheApproachSpeed) {
     right.position = Vector3(x, 0, 1);
     left.velocity = Vector3(speed / 2, 0, 0);
     right.velocity = -left.velocity;
-    HardScene scene = scene_of(steel_ball(0.01), {left, right}, {}, pair);
+    Scene scene = scene_of(steel_ball(0.01), {left, right}, {}, pair);
     scene.gravity = 0;
     const auto frames = run(engine, scene, kDefault, rate, 10);
     const double e = 0.32 * std::pow(speed / 0.01, -0.234);

@@ -31,7 +31,7 @@ TEST(BulletDenormals, AreFlushedUnlessToldOtherwiseAndNothingElseChanges) {
   constexpr double radius = 0.1, rate = 240;  // [m], [Hz]
   SubstrateContact ground = ground_with_friction(0.1);
   ground.rolling = RollingFriction(0.02);
-  const HardScene scene = scene_of(steel_ball(radius), {rolling_along_x(radius, 0, 0.1)}, ground);
+  const Scene scene = scene_of(steel_ball(radius), {rolling_along_x(radius, 0, 0.1)}, ground);
   RemoteEngine engine(bullet_executable("double"));
   const auto flushed = run(engine, scene, shipped("physical"), rate, 2400);
   const auto kept =

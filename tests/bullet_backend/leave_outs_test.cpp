@@ -33,12 +33,12 @@ PairContact pair_of(double restitution, double friction = 0) {
 }
 
 /// Rolls to rest and falls asleep.
-HardScene one_ball() {
+Scene one_ball() {
   return scene_of(steel_ball(kGrainRadius), {rolling_towards(kGrainRadius, 0.2, 22.5)},
                   rough_ground());
 }
 
-HardScene bouncing() {
+Scene bouncing() {
   SubstrateContact ground = ground_with_friction(0.3);
   ground.restitution = 0.8;
   BodyState state = rolling_along_x(kGrainRadius, 0, 0.1);
@@ -48,7 +48,7 @@ HardScene bouncing() {
 }
 
 /// Rolling, oblique to each other.
-HardScene two_balls() {
+Scene two_balls() {
   return scene_of(
       steel_ball(kGrainRadius),
       {rolling_towards(kGrainRadius, 0.3, 10), rolling_along_x(kGrainRadius, 0.03, -0.1)},
@@ -56,14 +56,14 @@ HardScene two_balls() {
 }
 
 /// On a substrate that swings.
-HardScene shaken() {
-  HardScene scene = two_balls();
+Scene shaken() {
+  Scene scene = two_balls();
   scene.motion = SubstrateMotion::oscillation(Vector2(0.01, 0.002), 5, 0.3);
   return scene;
 }
 
-HardScene crowd() {
-  HardScene scene = two_balls();
+Scene crowd() {
+  Scene scene = two_balls();
   for (int k = 0; k < 4; ++k) {
     scene.bodies.push_back(steel_ball(k % 2 == 0 ? kGrainRadius : 0.8 * kGrainRadius));
     scene.material.push_back(0);
@@ -80,7 +80,7 @@ struct Kind {
 
 class BulletLeaveOuts : public ::testing::TestWithParam<const char*> {
  protected:
-  void expect_nothing_changes(const HardScene& scene, const Settings& settings, double rate) {
+  void expect_nothing_changes(const Scene& scene, const Settings& settings, double rate) {
     const auto steps = static_cast<std::size_t>(std::min(2000.0, 3 * rate));
     const auto short_of = run(engine_, scene, settings, rate, steps);
     expect_same_bits(short_of, run(engine_, scene, with(settings, kGeneral), rate, steps));
@@ -100,7 +100,7 @@ TEST_P(BulletLeaveOuts, NoBitChanges) {
       {"awake boxes only", {{"update_all_aabbs", false}}},
       {"two directions", {{"two_friction_directions", true}}},
   };
-  for (const HardScene& scene : {one_ball(), bouncing(), two_balls(), shaken(), crowd()})
+  for (const Scene& scene : {one_ball(), bouncing(), two_balls(), shaken(), crowd()})
     for (const Kind& kind : kinds)
       for (const double rate : {60.0, 240.0, 4000.0}) {
         SCOPED_TRACE(std::string(kind.name) + ", " + std::to_string(scene.bodies.size()) +
@@ -111,7 +111,7 @@ TEST_P(BulletLeaveOuts, NoBitChanges) {
 
 TEST_P(BulletLeaveOuts, NoBitChangesFarAway) {
   // Beyond 1e12 Bullet takes a bounding box for an error and halts the ball.
-  HardScene scene = one_ball();
+  Scene scene = one_ball();
   for (const double speed : {1e5, 1e9, 1e300}) {
     scene.initial[0].velocity.x() = speed;
     expect_nothing_changes(scene, kDefault, 240);
@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Precisions, BulletLeaveOuts, ::testing::Values("double"
 // --- one direction of friction -------------------------------------------------------------------
 
 /// Two that roll towards each other, `degrees` from x.
-HardScene on_a_line(double degrees) {
+Scene on_a_line(double degrees) {
   return scene_of(steel_ball(kGrainRadius),
                   {rolling_towards(kGrainRadius, 0.3, degrees),
                    rolling_towards(kGrainRadius, -0.1, degrees, 0.02171234)},
@@ -139,12 +139,12 @@ std::vector<Frame> ends_of_steps(std::vector<Frame> frames) {
 
 class BulletLine : public ::testing::Test {
  protected:
-  bool leaves_out(const HardScene& scene, const char* what, const Settings& settings) {
+  bool leaves_out(const Scene& scene, const char* what, const Settings& settings) {
     const auto left_out = engine_.configure(scene, settings, 1e-3).left_out;
     return std::ranges::any_of(left_out,
                                [&](const std::string& text) { return text.starts_with(what); });
   }
-  bool has_one_direction(const HardScene& scene) {
+  bool has_one_direction(const Scene& scene) {
     return leaves_out(scene, "second friction direction", physical_);
   }
   const Settings physical_ = shipped("physical");
@@ -155,7 +155,7 @@ TEST_F(BulletLine, OneDirectionDoesForTwoToRounding) {
   for (const double degrees : {0.0, 90.0, 22.5, 200.0})
     for (const char* profile : {"physical", "tuned"})
       for (const double rate : {60.0, 240.0, 4000.0}) {
-        HardScene scene = on_a_line(degrees);
+        Scene scene = on_a_line(degrees);
         scene.downhill = 0.3 * direction(degrees).head<2>();
         scene.motion = SubstrateMotion::oscillation(0.01 * direction(degrees).head<2>(), 3, 1);
         ASSERT_TRUE(has_one_direction(scene)) << degrees;
@@ -181,29 +181,29 @@ TEST_F(BulletLine, OnlyWhereNothingLeavesThePlane) {
   EXPECT_TRUE(has_one_direction(on_a_line(0)));
   EXPECT_TRUE(has_one_direction(on_a_line(33)));
   const auto changed = [this](auto change) {
-    HardScene scene = on_a_line(33);
+    Scene scene = on_a_line(33);
     change(scene);
     return has_one_direction(scene);
   };
-  EXPECT_FALSE(changed([](HardScene& s) { s.initial[0].velocity += 1e-9 * direction(123); }));
-  EXPECT_FALSE(changed([](HardScene& s) { s.initial[1].position += 1e-9 * direction(123); }));
-  EXPECT_FALSE(changed([](HardScene& s) { s.initial[1].angular_velocity += direction(33); }));
-  EXPECT_FALSE(changed([](HardScene& s) { s.initial[1].angular_velocity.z() = 1; }));
-  EXPECT_FALSE(changed([](HardScene& s) { s.downhill = {0.1, 0}; }));
-  EXPECT_FALSE(changed([](HardScene& s) { s.motion = SubstrateMotion::constant({0, 0.1}); }));
-  EXPECT_FALSE(changed([](HardScene& s) {
+  EXPECT_FALSE(changed([](Scene& s) { s.initial[0].velocity += 1e-9 * direction(123); }));
+  EXPECT_FALSE(changed([](Scene& s) { s.initial[1].position += 1e-9 * direction(123); }));
+  EXPECT_FALSE(changed([](Scene& s) { s.initial[1].angular_velocity += direction(33); }));
+  EXPECT_FALSE(changed([](Scene& s) { s.initial[1].angular_velocity.z() = 1; }));
+  EXPECT_FALSE(changed([](Scene& s) { s.downhill = {0.1, 0}; }));
+  EXPECT_FALSE(changed([](Scene& s) { s.motion = SubstrateMotion::constant({0, 0.1}); }));
+  EXPECT_FALSE(changed([](Scene& s) {
     s.motion = SubstrateMotion::table({{0, {0, 0}}, {1, {0.1, 0.1}}});
   }));
   // Bullet's one row lies across between two balls, and without the cone nothing rolls to rest.
-  EXPECT_FALSE(changed([](HardScene& s) { s.pairs = {pair_of(0.8, 0.1)}; }));
-  EXPECT_FALSE(changed([](HardScene& s) { s.substrate = {rough_ground()}; }));
-  EXPECT_TRUE(changed([](HardScene& s) { s.initial[0].velocity.z() = 1; }));
+  EXPECT_FALSE(changed([](Scene& s) { s.pairs = {pair_of(0.8, 0.1)}; }));
+  EXPECT_FALSE(changed([](Scene& s) { s.substrate = {rough_ground()}; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.initial[0].velocity.z() = 1; }));
   EXPECT_FALSE(leaves_out(on_a_line(33), "second", kDefault));
   EXPECT_FALSE(leaves_out(on_a_line(33), "second", with(physical_, {{"friction_cone", false}})));
 }
 
 TEST_F(BulletLine, AStartOffTheLineHasBothDirections) {
-  const HardScene scene = on_a_line(0);
+  const Scene scene = on_a_line(0);
   std::vector<BodyState> off = scene.initial;
   off[0].velocity.y() = 0.1;
   const auto frames = [&](const Settings& settings) {
@@ -219,8 +219,8 @@ TEST_F(BulletLine, AStartOffTheLineHasBothDirections) {
 // --- what is told --------------------------------------------------------------------------------
 
 TEST_F(BulletLine, EachIsToldWithItsReason) {
-  const HardScene bare = on_a_line(0);
-  HardScene rolling = bare, drilling = bare;
+  const Scene bare = on_a_line(0);
+  Scene rolling = bare, drilling = bare;
   rolling.substrate[0].rolling = RollingFriction(0.001);
   drilling.substrate[0].drilling_length = 1e-4;
   const Settings multibody = {{"body", "multibody"}};

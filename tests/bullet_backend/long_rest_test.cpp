@@ -18,7 +18,7 @@ class BulletLongRest : public ::testing::TestWithParam<std::tuple<const char*, d
 TEST_P(BulletLongRest, BallsStayOnThePlaneAndKeepTheirSpeed) {
   const auto& [profile, rate] = GetParam();
   // Ways of their own: at rest, and out from a circle, so that they never meet.
-  HardScene scene =
+  Scene scene =
       scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, -0.5, 0)}, ground_with_friction(0.1));
   const double speeds[] = {0.001, 0.01, 0.02, 0.05, 0.1, 0.3};  // [m/s]
   double heading = 0;

@@ -48,7 +48,7 @@ Sphere ball_with(double shape_factor) {
 
 class BulletMaps : public ::testing::TestWithParam<Case> {
  protected:
-  BodyState after(const HardScene& scene, double rate, double time = kTime) {
+  BodyState after(const Scene& scene, double rate, double time = kTime) {
     const auto steps = static_cast<std::size_t>(std::lround(time * rate));
     return run(engine_, scene, settings_of(GetParam()), rate, steps).back().bodies[0];
   }
@@ -67,7 +67,7 @@ TEST_P(BulletMaps, SlidingFrictionBrakesWithMuG) {
     for (const double heading : kHeadings) {
       BodyState start = rolling_towards(kRadius, 1, heading);
       start.angular_velocity.setZero();
-      const HardScene scene = scene_of(ball_with(q), {start}, ground_with_friction(mu));
+      const Scene scene = scene_of(ball_with(q), {start}, ground_with_friction(mu));
       for (const double rate : kRates) {
         const BodyState end = after(scene, rate);
         const Vector3 t = direction(heading);
@@ -87,8 +87,7 @@ TEST_P(BulletMaps, RollingFrictionBrakesWithMuRG) {
   ground.rolling = RollingFriction(mu_r);
   for (const double q : {2.0 / 5, 2.0 / 3}) {
     for (const double heading : kHeadings) {
-      const HardScene scene =
-          scene_of(ball_with(q), {rolling_towards(kRadius, 0.3, heading)}, ground);
+      const Scene scene = scene_of(ball_with(q), {rolling_towards(kRadius, 0.3, heading)}, ground);
       for (const double rate : kRates) {
         const BodyState end = after(scene, rate);
         const Vector3 exact = (0.3 - lost) * direction(heading);
@@ -111,7 +110,7 @@ TEST_P(BulletMaps, SpinningFrictionBrakesTheSpinAlone) {
       for (const double speed : {0.0, 0.3}) {
         BodyState start = rolling_towards(kRadius, speed, heading);
         start.angular_velocity.z() = 100;
-        const HardScene scene = scene_of(ball_with(q), {start}, ground);
+        const Scene scene = scene_of(ball_with(q), {start}, ground);
         for (const double rate : kRates) {
           const BodyState end = after(scene, rate);
           EXPECT_NEAR(end.angular_velocity.z(), 100 - lost, tolerance() * lost)
@@ -140,7 +139,7 @@ TEST_P(BulletMaps, TwoBallsPartWithTheirRestitution) {
           left.velocity = 0.5 * speed * n;
           right.velocity = -left.velocity;
           left.position.z() = right.position.z() = 1;
-          const HardScene scene = scene_of(ball_with(0.4), {left, right}, {}, pair);
+          const Scene scene = scene_of(ball_with(0.4), {left, right}, {}, pair);
           const auto frames = run(engine_, scene, settings_of(GetParam()), rate, 8);
           const auto& end = frames.back().bodies;
           const Vector3 parting = end[1].velocity - end[0].velocity;
@@ -163,7 +162,7 @@ TEST_P(BulletMaps, ABallComesBackFromTheGroundWithItsRestitution) {
         BodyState start;
         start.position.z() = kRadius * 1.3;
         start.velocity.z() = -0.1 * kRadius * rate;
-        const HardScene scene = scene_of(ball_with(0.4), {start}, ground);
+        const Scene scene = scene_of(ball_with(0.4), {start}, ground);
         const auto frames = run(engine_, scene, settings, rate, 8);
         const auto hit =
             std::ranges::find_if(frames, [](const Frame& frame) { return !frame.touches.empty(); });

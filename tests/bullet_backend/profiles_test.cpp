@@ -8,7 +8,7 @@
 namespace slipcheck {
 namespace {
 
-HardScene everything() {
+Scene everything() {
   SubstrateContact ground;
   ground.static_friction = 0.5;
   ground.kinetic_friction = 0.1;
@@ -19,8 +19,8 @@ HardScene everything() {
   pair.restitution = 0.9;
   pair.friction = 0.3;
   pair.tangential_restitution = 0.5;
-  HardScene scene = scene_of(
-      steel_ball(0.01), {rolling_along_x(0.01, 0, 0), rolling_along_x(0.01, 1, 0)}, ground, pair);
+  Scene scene = scene_of(steel_ball(0.01),
+                         {rolling_along_x(0.01, 0, 0), rolling_along_x(0.01, 1, 0)}, ground, pair);
   scene.confined = true;
   return scene;
 }
@@ -96,7 +96,7 @@ TEST(BulletProfiles, NaiveSlidesWithTheSquareOfTheFriction) {
   BodyState state;
   state.position = Vector3(0, 0, 0.01);
   state.velocity = Vector3(2, 0, 0);
-  const HardScene scene = scene_of(steel_ball(0.01), {state}, ground_with_friction(0.4));
+  const Scene scene = scene_of(steel_ball(0.01), {state}, ground_with_friction(0.4));
   RemoteEngine engine(bullet_executable("double"));
   const auto frames = run(engine, scene, kNaive, 1000, 20);
   // As in BulletSliding.ItIsBrakedByTheFrictionOfTheScene, with μ².
@@ -113,7 +113,7 @@ TEST(BulletProfiles, ChangingTheProfileLeavesNothingBehind) {
 }
 
 TEST(BulletProfiles, WhatDiffersIsNamedByBodyAndPair) {
-  HardScene scene = everything();
+  Scene scene = everything();
   scene.bodies[1].radius = 0.02;
   scene.bodies.push_back(scene.bodies[0]);
   scene.initial.push_back(rolling_along_x(0.01, 2, 0));
@@ -145,7 +145,7 @@ TEST(BulletProfiles, WhatIsNotRepresentedIsSaid) {
   }
   EXPECT_FALSE(lists(rich, "rolling friction that depends on the speed"));
   EXPECT_FALSE(lists(rich, "coupled drilling"));
-  HardScene scene = everything();
+  Scene scene = everything();
   scene.substrate[0].coupled_radius = 1e-3;
   scene.substrate[0].rolling_while_sliding = true;
   const Applied coupled = engine.configure(scene, kDefault, 1e-3);
@@ -159,12 +159,12 @@ TEST(BulletProfiles, WhatIsNotRepresentedIsSaid) {
 
   PairContact dead;
   dead.restitution = 0.0;
-  const HardScene plain =
+  const Scene plain =
       scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 0), rolling_along_x(0.01, 1, 0)},
                ground_with_friction(0.1), dead);
   EXPECT_TRUE(engine.configure(plain, kDefault, 1e-3).not_represented.empty());
 
-  HardScene heavy = everything();
+  Scene heavy = everything();
   heavy.bodies[0].mass = 1000;
   EXPECT_TRUE(lists(engine.configure(heavy, kDefault, 1e-2), "rolling and drilling torque"));
   EXPECT_FALSE(lists(engine.configure(everything(), kDefault, 1e-2), "rolling and drilling"));

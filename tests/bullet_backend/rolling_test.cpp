@@ -13,7 +13,7 @@ namespace slipcheck {
 namespace {
 
 /// Deceleration over a second, in μ_r g.
-double deceleration_ratio(RemoteEngine& engine, const HardScene& scene, double mu_r, double rate) {
+double deceleration_ratio(RemoteEngine& engine, const Scene& scene, double mu_r, double rate) {
   const auto frames = run(engine, scene, kDefault, rate, static_cast<std::size_t>(rate));
   const double before = scene.initial[0].velocity.norm();
   const double after = frames.back().bodies[0].velocity.norm();
@@ -35,7 +35,7 @@ TEST_P(BulletRolling, DeceleratesWithMuRG) {
   ground.rolling = RollingFriction(0.01);
   for (const double radius : {0.002, 0.05}) {
     for (const double rate : {240.0, 1000.0}) {
-      const HardScene scene = scene_of(steel_ball(radius), {rolling_towards(radius, 1, 0)}, ground);
+      const Scene scene = scene_of(steel_ball(radius), {rolling_towards(radius, 1, 0)}, ground);
       EXPECT_NEAR(deceleration_ratio(engine_, scene, 0.01, rate), 1, GetParam().tolerance)
           << radius << " m, " << rate << " Hz";
     }
@@ -47,7 +47,7 @@ TEST_P(BulletRolling, DeceleratesWithMuRGThoughTheImpulseIsCut) {
   SubstrateContact ground = ground_with_friction(0.1);
   ground.rolling = RollingFriction(0.01);
   const Sphere ball = {0.5, 7.85 * 4 / 3 * std::numbers::pi * 0.125, 0.4};
-  HardScene scene = scene_of(ball, {rolling_towards(0.5, 30, 0)}, ground);
+  Scene scene = scene_of(ball, {rolling_towards(0.5, 30, 0)}, ground);
   scene.gravity = 981;
   for (const double rate : {60.0, 240.0, 1000.0, 10000.0}) {
     EXPECT_NEAR(deceleration_ratio(engine_, scene, 0.01, rate), 1, GetParam().tolerance) << rate;
@@ -78,7 +78,7 @@ TEST(BulletRollingFacts, ATableOverTheSpeedIsFollowed) {
   SubstrateContact ground = ground_with_friction(0.1);
   ground.rolling = RollingFriction({{0, 0.01}, {1, 0.02}});
   RemoteEngine engine(bullet_executable("double"));
-  const HardScene scene = scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 0.8)}, ground);
+  const Scene scene = scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 0.8)}, ground);
   const auto frames = run(engine, scene, kDefault, 1000, 2000);
   // dv/dt = −g (a + b v) with a = 0.01, b = 0.01 s/m: v + a/b decays with b g.
   const double exact = (0.8 + 1) * std::exp(-0.01 * kGravity * 2.0) - 1;
@@ -100,7 +100,7 @@ TEST(BulletRollingFacts, BetweenTwoSpeedsRollingIsUnsteady) {
     const double low = std::sqrt(3) * 0.02 * radius * rate;
     const double high = std::sqrt(2.0 / 3 * kGravity * radius);
     const auto largest_slip = [&](double v) {
-      const HardScene scene =
+      const Scene scene =
           scene_of(steel_ball(radius), {rolling_along_x(radius, 0, v)}, ground_with_friction(0.1));
       double largest = 0;
       for (const Frame& frame : run(engine, scene, kDefault, rate, 240)) {
@@ -121,7 +121,7 @@ TEST(BulletRollingFacts, DiagonalHeadingsAreBrakedTooMuch) {
   SubstrateContact ground = ground_with_friction(0.1);
   ground.rolling = RollingFriction(0.01);
   RemoteEngine engine(bullet_executable("double"));
-  const HardScene scene = scene_of(steel_ball(0.05), {rolling_towards(0.05, 1, 45)}, ground);
+  const Scene scene = scene_of(steel_ball(0.05), {rolling_towards(0.05, 1, 45)}, ground);
   // The last of the 1000 steps may be one in which an axis lags by its own limit.
   EXPECT_NEAR(deceleration_ratio(engine, scene, 0.01, 1000), std::numbers::sqrt2, 2e-3);
 }

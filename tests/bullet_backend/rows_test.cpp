@@ -39,7 +39,7 @@ struct MultibodyLists : btMultiBodyConstraintSolver {
 };
 
 Rows rows_of(BodyKind body, double mu_r, double drilling_length) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.initial[0] = test::rolling_at(0, 0, 0.1, 0.05);
   scene.substrate[0].rolling = RollingFriction(mu_r);
   scene.substrate[0].drilling_length = drilling_length;

@@ -57,7 +57,7 @@ Setting another(const SettingInfo& info) {
 }
 
 TEST_F(BulletSettingsTable, EachSettingArrivesAndLeavesTheOthersAlone) {
-  const HardScene scene =
+  const Scene scene =
       scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 0), rolling_along_x(0.01, 1, 0)},
                ground_with_friction(0.1));
   const auto value_of = [](const Applied& applied, const SettingInfo& info) -> Setting {
@@ -105,7 +105,7 @@ TEST_F(BulletSettingsTable, DefaultAndNaiveAreWhatTheirNamesSay) {
 TEST_F(BulletSettingsTable, TheSameBitsWhereTheShippedValuesAreSpelledOut) {
   PairContact pair;
   pair.restitution = 0.9;
-  const HardScene scene =
+  const Scene scene =
       scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 0.3), rolling_along_x(0.01, 0.03, 0)},
                ground_with_friction(0.1), pair);
   Settings spelled_out;
@@ -121,9 +121,9 @@ TEST(BulletReach, ScenesBeyondItAreRefusedOrTold) {
   const double radius = 0.002, rate = 240;
   const auto approach = [&](double radii) {  // in a step
     const double speed = radii * radius * rate;
-    HardScene scene = scene_of(steel_ball(radius),
-                               {rolling_along_x(radius, 0, speed), rolling_along_x(radius, 1, 0)},
-                               ground_with_friction(0.1), PairContact{0.0, 0, -1});
+    Scene scene = scene_of(steel_ball(radius),
+                           {rolling_along_x(radius, 0, speed), rolling_along_x(radius, 1, 0)},
+                           ground_with_friction(0.1), PairContact{0.0, 0, -1});
     scene.bodies[0].radius *= 2;  // the smaller one's counts
     return scene;
   };

@@ -14,8 +14,8 @@ constexpr double kRate = 1000;  // [Hz]
 
 /// `count` rough balls of 10 mm and some of 8 mm in rows between the walls, over a floor that moves
 /// with up to 1 m/s.
-HardScene shaken(std::size_t count) {
-  HardScene scene = box_of(steel_ball(0.01), {});
+Scene shaken(std::size_t count) {
+  Scene scene = box_of(steel_ball(0.01), {});
   for (std::size_t i = 0; i < count; ++i) {
     const auto column = static_cast<double>(i % 8), row = static_cast<double>(i / 8);
     scene.bodies.push_back(steel_ball(i % 3 == 0 ? 0.008 : 0.01));
@@ -36,7 +36,7 @@ class BulletShakenBox : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(BulletShakenBox, NobodyLeavesItOrThePlane) {
   for (const char* profile : {"default", "naive", "physical", "tuned", "fast"}) {
-    HardScene scene = shaken(50);
+    Scene scene = shaken(50);
     scene.box->lid = 0.5;
     RemoteEngine engine(bullet_executable(GetParam()));
     // Each step of `tuned` is up to nine.
@@ -69,7 +69,7 @@ TEST_P(BulletShakenBox, NobodyLeavesItOrThePlane) {
 }
 
 TEST_P(BulletShakenBox, AFreshStartIsTheSameBitForBit) {
-  const HardScene scene = shaken(50);
+  const Scene scene = shaken(50);
   RemoteEngine engine(bullet_executable(GetParam()));
   engine.configure(scene, kDefault, 1 / kRate);
   const auto frames_from = [&](double time) {
@@ -86,7 +86,7 @@ TEST_P(BulletShakenBox, AFreshStartIsTheSameBitForBit) {
 }
 
 TEST_P(BulletShakenBox, HundredsStayAwakeAndInIt) {
-  const HardScene scene = shaken(400);
+  const Scene scene = shaken(400);
   RemoteEngine engine(bullet_executable(GetParam()));
   const auto frames = run(engine, scene, kDefault, 240, 240);
   const double t = 1;
@@ -102,7 +102,7 @@ TEST_P(BulletShakenBox, HundredsStayAwakeAndInIt) {
 
 TEST_P(BulletShakenBox, WhatLiesOnAShakenFloorNeverSleeps) {
   // A ω² = 0.4 m/s² < g: it stays on the floor, slower than Bullet's 0.8 m/s and 1 rad/s.
-  HardScene scene = box_of(steel_ball(0.01), {in_plane(0.1, 0.01, 0, 0)});
+  Scene scene = box_of(steel_ball(0.01), {in_plane(0.1, 0.01, 0, 0)});
   scene.gravity = kGravity;
   scene.box->floor = {0.01, 1};
   RemoteEngine engine(bullet_executable(GetParam()));

@@ -17,7 +17,7 @@ TEST(BulletSliding, TheTimeIsTheExactOneRoundedUpToAStep) {
   BodyState state;
   state.position = Vector3(0, 0, kRadius);
   state.velocity = Vector3(1, 0, 0);
-  const HardScene scene = scene_of(steel_ball(kRadius), {state}, ground_with_friction(kMu));
+  const Scene scene = scene_of(steel_ball(kRadius), {state}, ground_with_friction(kMu));
   for (const char* precision : {"double", "single"}) {
     RemoteEngine engine(bullet_executable(precision));
     for (const double rate : {60.0, 240.0, 1000.0}) {
@@ -38,7 +38,7 @@ TEST(BulletSliding, ItIsBrakedByTheFrictionOfTheScene) {
   BodyState state;
   state.position = Vector3(0, 0, 0.01);
   state.velocity = Vector3(2, 0, 0);
-  const HardScene scene = scene_of(steel_ball(0.01), {state}, ground_with_friction(0.3));
+  const Scene scene = scene_of(steel_ball(0.01), {state}, ground_with_friction(0.3));
   RemoteEngine engine(bullet_executable("double"));
   const auto frames = run(engine, scene, kDefault, 1000, 20);
   // dv/dt = −μ g; the plane carries the sphere within a few parts in 1e4 of its weight at first.
@@ -56,7 +56,7 @@ TEST_P(BulletSlipTold, OnASlopeStaticFrictionHoldsWhatRollsAndKineticBrakesWhatS
   const double theta = 0.5, time = 0.1, rate = 240;
   SubstrateContact ground = ground_with_friction(0.1);
   ground.static_friction = 0.3;
-  HardScene scene = scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0)}, ground);
+  Scene scene = scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0)}, ground);
   scene.gravity = kGravity * std::cos(theta);
   scene.downhill = {kGravity * std::sin(theta), 0};
   const auto end = [&] {
@@ -78,7 +78,7 @@ TEST_P(BulletSlipTold, RollingFrictionBeginsWhereSlidingEndsUnlessTheSceneSaysOt
   start.angular_velocity.setZero();
   for (const bool while_sliding : {false, true}) {
     ground.rolling_while_sliding = while_sliding;
-    const HardScene scene = scene_of(steel_ball(kRadius), {start}, ground);
+    const Scene scene = scene_of(steel_ball(kRadius), {start}, ground);
     const BodyState end =
         run(engine_, scene, settings(), rate, static_cast<std::size_t>(time * rate))
             .back()

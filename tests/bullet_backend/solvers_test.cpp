@@ -30,7 +30,7 @@ TEST_P(BulletSolvers, RestRollSlideAndCollide) {
   pair.restitution = e;
   BodyState sliding = rolling_along_x(kRadius, 0.2, 0.5);
   sliding.angular_velocity.setZero();
-  HardScene scene =
+  Scene scene =
       scene_of(steel_ball(kRadius),
                {rolling_along_x(kRadius, 0, 0), rolling_along_x(kRadius, 0.1, speed), sliding,
                 rolling_along_x(kRadius, -0.11, speed), rolling_along_x(kRadius, -0.1, 0)},
@@ -60,7 +60,7 @@ TEST_P(BulletSolvers, RollingAndSpinningFrictionAreForIterationsOnly) {
   ground.drilling_length = 0.01 * kRadius;
   BodyState spinning = rolling_along_x(kRadius, 1, 0);
   spinning.angular_velocity.z() = 100;
-  const HardScene scene =
+  const Scene scene =
       scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0.3), spinning}, ground);
   const auto frames = run(engine_, scene, settings(), rate, 24);
   const auto& end = frames.back().bodies;
@@ -96,7 +96,7 @@ TEST_P(BulletBodies, LemkeTakesTheFrictionForAnImpulse) {
   const double mu = 0.1, mass = 1000, rate = 240;
   BodyState state = rolling_along_x(0.3, 0, 1);
   state.angular_velocity.setZero();
-  const HardScene scene = scene_of({0.3, mass, 0.4}, {state}, ground_with_friction(mu));
+  const Scene scene = scene_of({0.3, mass, 0.4}, {state}, ground_with_friction(mu));
   const Settings settings = with(
       shipped("physical"), {{"body", GetParam()}, {"solver", "lemke"}, {"scale_radius_to", 0.0}});
   const auto frames = run(engine_, scene, settings, rate, 24);
@@ -110,7 +110,7 @@ TEST_P(BulletBodies, LemkeTakesTheFrictionForAnImpulse) {
 
 TEST(BulletSolversRefused, NncgHasNoMultibodies) {
   RemoteEngine engine(bullet_executable("double"));
-  const HardScene scene = scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0)}, {});
+  const Scene scene = scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0)}, {});
   try {
     engine.configure(scene, {{"body", "multibody"}, {"solver", "nncg"}}, 1e-3);
     ADD_FAILURE() << "accepted";
@@ -158,7 +158,7 @@ TEST_P(BulletBodies, ContactSpringsAreImplicitEulerAndLoseByIt) {
       left.position.x() = -right.position.x();
       left.velocity.x() = 0.5 * speed;
       right.velocity.x() = -0.5 * speed;
-      HardScene scene = scene_of(ball, {left, right}, {}, dead);
+      Scene scene = scene_of(ball, {left, right}, {}, dead);
       scene.gravity = 0;
       const auto frames = run(engine_, scene,
                               {{"body", GetParam()},
@@ -179,7 +179,7 @@ TEST_P(BulletBodies, ContactSpringsAreImplicitEulerAndLoseByIt) {
 
 TEST_P(BulletBodies, ASlowBallGoesOnWhereSleepingIsOff) {
   const double speed = 0.004;
-  const HardScene scene =
+  const Scene scene =
       scene_of(steel_ball(0.005), {rolling_along_x(0.005, 0, speed)}, ground_with_friction(0.1));
   const auto after_3_s = [&](bool sleeping) {
     const Settings settings = {{"body", GetParam()},

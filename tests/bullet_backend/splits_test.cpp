@@ -16,7 +16,7 @@ constexpr double kMu = 0.1;
 
 /// Two steel balls that roll at each other along a heading with `speed` together, `steps` from
 /// touching.
-HardScene head_on(double speed, double heading, double steps, double rate, double e) {
+Scene head_on(double speed, double heading, double steps, double rate, double e) {
   PairContact pair;
   pair.restitution = e;
   const double place = kRadius + 0.5 * steps * speed / rate;
@@ -39,7 +39,7 @@ TEST_P(BulletSplits, BallsPartWithTheirRestitutionInEveryPhase) {
   for (const double rate : {60.0, 240.0, 16000.0}) {
     for (int k = 0; k < 16; ++k) {
       const double steps = 2 + (k + 0.5) / 16;
-      const HardScene scene = head_on(speed, 22.5, steps, rate, e);
+      const Scene scene = head_on(speed, 22.5, steps, rate, e);
       const auto frames = run(engine_, scene, splitting(), rate, 5);
       const auto hit = std::ranges::find_if(frames, touch_each_other);
       ASSERT_NE(hit, frames.end());
@@ -66,7 +66,7 @@ TEST_P(BulletSplits, SinglePrecisionIsAsGoodAsItsRounding) {
   RemoteEngine single(bullet_executable("single"));
   for (const double rate : {60.0, 240.0, 4000.0}) {
     for (int k = 0; k < 16; ++k) {
-      const HardScene scene = head_on(speed, 22.5, 2 + (k + 0.5) / 16, rate, e);
+      const Scene scene = head_on(speed, 22.5, 2 + (k + 0.5) / 16, rate, e);
       const auto frames = run(single, scene, splitting(), rate, 5);
       const auto hit = std::ranges::find_if(frames, touch_each_other);
       ASSERT_NE(hit, frames.end());
@@ -80,7 +80,7 @@ TEST_P(BulletSplits, SinglePrecisionIsAsGoodAsItsRounding) {
 TEST_P(BulletSplits, UnequalBallsPartByTheMomentumLaw) {
   const double e = 0.7, rate = 240;
   for (const double phase : {0.05, 0.5, 0.95}) {
-    HardScene scene = head_on(0.3, 0, 2 + phase, rate, e);
+    Scene scene = head_on(0.3, 0, 2 + phase, rate, e);
     scene.bodies[1].mass *= 3;
     const double m0 = scene.bodies[0].mass, m1 = scene.bodies[1].mass;
     const auto frames = run(engine_, scene, splitting(), rate, 5);
@@ -111,7 +111,7 @@ TEST_P(BulletSplits, AnObliqueHitGoesAlongTheLineOfCentresAtTheTouch) {
       right.position = left.position + 2 * kRadius * n;
       left.position.x() -= (2 + (k + 0.5) / 16) * speed / rate;
       left.velocity = Vector3(speed, 0, 0);
-      const HardScene scene = scene_of(steel_ball(kRadius), {left, right}, {}, pair);
+      const Scene scene = scene_of(steel_ball(kRadius), {left, right}, {}, pair);
       const auto frames = run(engine_, scene, splitting(), rate, 5);
       const auto hit = std::ranges::find_if(frames, touch_each_other);
       ASSERT_NE(hit, frames.end());
@@ -130,7 +130,7 @@ TEST_P(BulletSplits, AnObliqueHitGoesAlongTheLineOfCentresAtTheTouch) {
 TEST_P(BulletSplits, FramesInsideAStepAreInOrderAndEachGoesOnFromTheLast) {
   const double rate = 240;
   const std::size_t steps = 40;
-  const HardScene scene = head_on(0.3, 45, 2.3, rate, 0.9);
+  const Scene scene = head_on(0.3, 45, 2.3, rate, 0.9);
   const auto frames = run(engine_, scene, splitting(), rate, steps);
   std::size_t whole = 0;
   double before = 0;  // part of the step that has passed
@@ -156,7 +156,7 @@ TEST_P(BulletSplits, FramesInsideAStepAreInOrderAndEachGoesOnFromTheLast) {
 TEST_P(BulletSplits, ALateClockDoesNotSwallowTheImpact) {
   // A millionth of a step at 16 kHz is below the rounding of a clock that stands at 1e6 s.
   const double rate = 16000, e = 0.9, speed = 0.3;
-  const HardScene scene = head_on(speed, 0, 2.5, rate, e);
+  const Scene scene = head_on(speed, 0, 2.5, rate, e);
   engine_.configure(scene, splitting(), 1 / rate);
   engine_.start(scene.initial, 1e6);
   std::vector<Frame> frames;
@@ -175,7 +175,7 @@ TEST_P(BulletSplits, ADroppedBallComesBackWithItsRestitution) {
       BodyState start;
       const double height = 0.1 + 0.0013 * k;
       start.position = Vector3(0, 0, kRadius + height);
-      const HardScene scene = scene_of(steel_ball(kRadius), {start}, ground);
+      const Scene scene = scene_of(steel_ball(kRadius), {start}, ground);
       const auto frames =
           run(engine_, scene, splitting(), rate, static_cast<std::size_t>(0.2 * rate));
       const auto hit =
@@ -200,7 +200,7 @@ TEST_P(BulletSplits, ASmallTargetIsHitHoweverFarABallGoesInAStep) {
   int missed_without = 0;
   for (int k = 0; k < 16; ++k) {
     const double place = 2 * kRadius + (2 + (k + 0.5) / 16) * speed / rate;
-    const HardScene scene =
+    const Scene scene =
         scene_of(steel_ball(kRadius),
                  {rolling_along_x(kRadius, -place, speed), rolling_along_x(kRadius, 0, 0)},
                  ground_with_friction(kMu), pair);
@@ -221,7 +221,7 @@ TEST_P(BulletSplits, AShakenFloorIsMetWhereAndWhenItIs) {
   // z0 − 0.5 t − R = z_f(t), and v' = V + e (V + 0.5) there.
   const double e = 0.9, rate = 1000, down = 0.5;
   for (int k = 0; k < 16; ++k) {
-    HardScene scene = box_of(steel_ball(kRadius), {in_plane(0.1, 0.006 + 0.0004 * k, 0, -down)});
+    Scene scene = box_of(steel_ball(kRadius), {in_plane(0.1, 0.006 + 0.0004 * k, 0, -down)});
     scene.box->floor = {0.002, 25};  // V = 0.31 m/s, A ω² = 49 m/s²
     scene.box->on_floor[0].restitution = e;
     const ShakenFloor& floor = scene.box->floor;

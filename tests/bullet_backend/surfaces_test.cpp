@@ -24,7 +24,7 @@ class BulletSurfaces : public ::testing::TestWithParam<const char*> {
 
 TEST_P(BulletSurfaces, K24ABallAtRestOnABeltSlidesAndThenRollsWithTwoSeventhsOfIt) {
   const double mu = 0.2;
-  HardScene scene =
+  Scene scene =
       scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0)}, ground_with_friction(mu));
   for (const double heading : {0.0, 22.5, 90.0}) {
     const Vector3 belt = 0.5 * direction(heading);
@@ -50,7 +50,7 @@ TEST_P(BulletSurfaces, K24ARollingBallFollowsAShakerWithTwoSeventhsOfWhatBulletI
   // v = (2/7) V by the angular momentum about the contact.
   const double rate = 240, frequency = 3;
   const Vector2 amplitude(0.003, 0.001);
-  HardScene scene =
+  Scene scene =
       scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0)}, ground_with_friction(2));
   const SubstrateMotion shaker =
       SubstrateMotion::oscillation(amplitude, frequency, std::numbers::pi / 2);  // V(0) = 0
@@ -78,7 +78,7 @@ TEST_P(BulletSurfaces, K24ARollingBallFollowsAShakerWithTwoSeventhsOfWhatBulletI
 }
 
 TEST_P(BulletSurfaces, AStartInTheMiddleOfAMotionIsByItsClock) {
-  HardScene scene =
+  Scene scene =
       scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0)}, ground_with_friction(2));
   scene.motion = SubstrateMotion::oscillation({0.003, 0}, 3, 0);
   const double start = 0.25 / 3, rate = 1000;  // V(start) = 0
@@ -99,7 +99,7 @@ TEST_P(BulletSurfaces, StaticFrictionHoldsABallOnAShakerThatKineticFrictionWould
   BodyState start = rolling_along_x(kRadius, 0, 0);
   const auto after_a_period = [&](double static_friction) {
     ground.static_friction = static_friction;
-    HardScene scene = scene_of(steel_ball(kRadius), {start}, ground);
+    Scene scene = scene_of(steel_ball(kRadius), {start}, ground);
     scene.motion = SubstrateMotion::oscillation({amplitude, 0}, frequency, std::numbers::pi / 2);
     double off = 0;  // from rolling [m/s]
     std::size_t n = 0;
@@ -122,7 +122,7 @@ TEST_P(BulletSurfaces, ATiltedPlaneIsTheSameAsATiltedGravity) {
   const double exact =
       (5.0 / 7 * std::sin(theta) - mu_r * std::cos(theta)) * kGravity * time;  // [m/s]
   for (const double heading : {0.0, 22.5, 90.0}) {
-    HardScene scene = scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0)}, ground);
+    Scene scene = scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0)}, ground);
     scene.gravity = kGravity * std::cos(theta);
     scene.downhill = kGravity * std::sin(theta) * direction(heading).head<2>();
     std::vector<BodyState> ends;
@@ -146,7 +146,7 @@ TEST_P(BulletSurfaces, ABallBouncesDownATiltedPlaneAsUnderATiltedGravity) {
   ground.restitution = 0.7;
   BodyState start;
   start.position.z() = kRadius + 0.03;
-  HardScene scene = scene_of(steel_ball(kRadius), {start}, ground);
+  Scene scene = scene_of(steel_ball(kRadius), {start}, ground);
   scene.gravity = kGravity * std::cos(theta);
   scene.downhill = {0, kGravity * std::sin(theta)};
   const auto frames_with = [&](const char* tilt) {
@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, BulletSurfaces, ::testing::Values("rigid", "mul
 
 TEST(BulletSurfacesSaid, OnlyTheVelocityOfTheStepBeforeIsAmongWhatIsMissing) {
   RemoteEngine engine(bullet_executable("double"));
-  HardScene scene =
+  Scene scene =
       scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0)}, ground_with_friction(0.2));
   scene.motion = SubstrateMotion::constant({0.1, 0});
   const auto missing = [&](const char* told) {

@@ -13,11 +13,11 @@ namespace {
 constexpr double kTiltRadius = 0.05;
 
 /// One ball at rest on a plane tilted by θ [degrees], downhill along −y.
-HardScene tilted(double degrees, double mu, double mu_r) {
+Scene tilted(double degrees, double mu, double mu_r) {
   const double theta = degrees * std::numbers::pi / 180;
   SubstrateContact ground = ground_with_friction(mu);
   ground.rolling = RollingFriction(mu_r);
-  HardScene scene = scene_of(steel_ball(kTiltRadius), {rolling_along_x(kTiltRadius, 0, 0)}, ground);
+  Scene scene = scene_of(steel_ball(kTiltRadius), {rolling_along_x(kTiltRadius, 0, 0)}, ground);
   scene.gravity = kGravity * std::cos(theta);
   scene.downhill = {0, -kGravity * std::sin(theta)};
   return scene;
@@ -31,7 +31,7 @@ struct Case {
 class BulletTilt : public ::testing::TestWithParam<Case> {
  protected:
   /// Downhill velocity after 0.3 s at 1 kHz.
-  double speed(const HardScene& scene) {
+  double speed(const Scene& scene) {
     const auto frames = run(engine_, scene, kDefault, 1000, 300);
     EXPECT_NEAR(frames.back().bodies[0].velocity.x(), 0, 1e-6);
     EXPECT_NEAR(frames.back().bodies[0].position.z(), kTiltRadius, 1e-3 * kTiltRadius);
@@ -42,7 +42,7 @@ class BulletTilt : public ::testing::TestWithParam<Case> {
 
 TEST_P(BulletTilt, K24ASolidSphereRollsDownWithFiveSeventhsOfGSinTheta) {
   for (const double degrees : {1.0, 5.0, 15.0}) {
-    const HardScene scene = tilted(degrees, 0.5, 0);
+    const Scene scene = tilted(degrees, 0.5, 0);
     const double exact = 5.0 / 7 * -scene.downhill.y() * 0.3;
     EXPECT_NEAR(speed(scene) / exact, 1, GetParam().tolerance) << degrees;
     const auto frames = run(engine_, scene, kDefault, 1000, 300);
@@ -53,13 +53,13 @@ TEST_P(BulletTilt, K24ASolidSphereRollsDownWithFiveSeventhsOfGSinTheta) {
 
 TEST_P(BulletTilt, K18ASteepSlopeMakesItSlide) {
   // μ < (2/7) tan θ: v̇ = g (sin θ − μ cos θ).
-  const HardScene scene = tilted(30, 0.1, 0);
+  const Scene scene = tilted(30, 0.1, 0);
   const double exact = (-scene.downhill.y() - 0.1 * scene.gravity) * 0.3;
   EXPECT_NEAR(speed(scene) / exact, 1, GetParam().tolerance);
 }
 
 TEST_P(BulletTilt, K16RollingFrictionBrakesAndHoldsIt) {
-  const HardScene scene = tilted(5, 0.5, 0.02);
+  const Scene scene = tilted(5, 0.5, 0.02);
   const double exact = (5.0 / 7 * -scene.downhill.y() - 0.02 * scene.gravity) * 0.3;
   EXPECT_NEAR(speed(scene) / exact, 1, GetParam().tolerance);
   // (5/7) sin θ < μ_r cos θ.
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(Precisions, BulletTilt,
 
 TEST(BulletTiltSettings, GravityIsReadBack) {
   RemoteEngine engine(bullet_executable("double"));
-  const HardScene scene = tilted(5, 0.5, 0);
+  const Scene scene = tilted(5, 0.5, 0);
   const Applied applied = engine.configure(scene, kDefault, 1e-3);
   EXPECT_EQ(std::get<double>(applied.settings.at("gravity")), scene.gravity);
   EXPECT_EQ(std::get<double>(applied.settings.at("downhill_x")), 0);

@@ -11,13 +11,13 @@
 namespace slipcheck::bullet {
 namespace {
 
-HardScene two_sizes() {
+Scene two_sizes() {
   SubstrateContact ground = ground_with_friction(0.2);
   ground.rolling = RollingFriction({{0, 0.01}, {0.5, 0.03}});
   ground.drilling_length = 1e-4;
   ground.coupled_radius = 2e-4;
-  HardScene scene = scene_of(
-      steel_ball(0.004), {rolling_along_x(0.004, 0, 0.3), rolling_along_x(0.002, 0.1, 0)}, ground);
+  Scene scene = scene_of(steel_ball(0.004),
+                         {rolling_along_x(0.004, 0, 0.3), rolling_along_x(0.002, 0.1, 0)}, ground);
   scene.bodies[1] = steel_ball(0.002);
   return scene;
 }
@@ -39,9 +39,9 @@ TEST(BulletUnits, AreSiUnlessAskedOtherwise) {
 }
 
 TEST(BulletUnits, TheSmallestRadiusTheLargestMassAndGravityBecomeWhatIsAskedFor) {
-  const HardScene scene = two_sizes();
+  const Scene scene = two_sizes();
   const WorldUnits units = world_units(scene, settings_with(1, 2, 10));
-  const HardScene scaled = in_world_units(scene, units);
+  const Scene scaled = in_world_units(scene, units);
   EXPECT_DOUBLE_EQ(scaled.bodies[1].radius, 1);
   EXPECT_DOUBLE_EQ(scaled.bodies[0].radius, 2);
   EXPECT_DOUBLE_EQ(scaled.bodies[0].mass, 2);
@@ -55,22 +55,22 @@ TEST(BulletUnits, GravityAloneIsScaledByTheTime) {
   const WorldUnits units = world_units(two_sizes(), settings_with(0, 0, 1));
   EXPECT_EQ(units.length, 1);
   EXPECT_DOUBLE_EQ(units.time, std::sqrt(9.81));
-  HardScene weightless = two_sizes();
+  Scene weightless = two_sizes();
   weightless.gravity = 0;
   EXPECT_EQ(world_units(weightless, settings_with(0, 0, 1)).time, 1);
 }
 
 TEST(BulletUnits, ATiltedPlanesWholeGravityIsScaled) {
-  HardScene scene = two_sizes();
+  Scene scene = two_sizes();
   scene.gravity = 4;
   scene.downhill = {3, 0};
-  const HardScene scaled = in_world_units(scene, world_units(scene, settings_with(0, 0, 10)));
+  const Scene scaled = in_world_units(scene, world_units(scene, settings_with(0, 0, 10)));
   EXPECT_DOUBLE_EQ(scaled.gravity, 8);
   EXPECT_DOUBLE_EQ(scaled.downhill.x(), 6);
 }
 
 TEST(BulletUnits, AStateComesBack) {
-  HardScene scene = two_sizes();
+  Scene scene = two_sizes();
   scene.downhill = {1, -2};
   BulletSettings settings = settings_with(0.7, 3, 5);
   settings.tilt = Tilt::plane;
@@ -84,13 +84,13 @@ TEST(BulletUnits, AStateComesBack) {
 
 TEST(BulletUnits, RollingStaysRollingAndNumbersWithoutUnitsStay) {
   // R ω/v, v²/(g R) and v T/R are the same in all units.
-  const HardScene scene = two_sizes();
+  const Scene scene = two_sizes();
   const WorldUnits units = world_units(scene, settings_with(3, 5, 7));
-  const HardScene scaled = in_world_units(scene, units);
+  const Scene scaled = in_world_units(scene, units);
   const BodyState& state = scaled.initial[0];
   const double radius = scaled.bodies[0].radius;
   EXPECT_NEAR(slip_velocity(state, radius).norm(), 0, 1e-14 * state.velocity.norm());
-  const auto froude = [](const HardScene& of) {
+  const auto froude = [](const Scene& of) {
     return of.initial[0].velocity.squaredNorm() / (of.gravity * of.bodies[0].radius);
   };
   EXPECT_NEAR(froude(scaled) / froude(scene), 1, 1e-14);
@@ -101,8 +101,8 @@ TEST(BulletUnits, RollingStaysRollingAndNumbersWithoutUnitsStay) {
 }
 
 TEST(BulletUnits, LengthsOfContactsAreLengths) {
-  const HardScene scene = two_sizes();
-  const HardScene scaled = in_world_units(scene, world_units(scene, settings_with(1, 0, 0)));
+  const Scene scene = two_sizes();
+  const Scene scaled = in_world_units(scene, world_units(scene, settings_with(1, 0, 0)));
   EXPECT_DOUBLE_EQ(scaled.substrate[0].drilling_length, 0.05);  // 1e-4 m in units of 2 mm
   EXPECT_DOUBLE_EQ(scaled.substrate[0].coupled_radius, 0.1);
   EXPECT_EQ(in_world_units(scene, world_units(scene, settings_with(0, 8, 0)))
@@ -112,26 +112,26 @@ TEST(BulletUnits, LengthsOfContactsAreLengths) {
 }
 
 TEST(BulletUnits, LawsOverTheSpeedGiveTheSameAtTheSameSpeed) {
-  HardScene scene = two_sizes();
+  Scene scene = two_sizes();
   const RestitutionLaw power = PowerLawRestitution{0.32, 0.234, 0.01};
   const RestitutionLaw table = TabulatedRestitution{0, 1, {2, 1.8}, {-0.2, -0.2}};
   const WorldUnits units = world_units(scene, settings_with(1, 2, 10));
   for (const RestitutionLaw& law : {power, table}) {
     scene.pairs[0].restitution = law;
-    const HardScene scaled = in_world_units(scene, units);
+    const Scene scaled = in_world_units(scene, units);
     for (const double speed : {1e-3, 0.02, 1.5, 30.0})
       EXPECT_NEAR(restitution_at(scaled.pairs[0].restitution, speed * units.speed()),
                   restitution_at(law, speed), 1e-13)
           << speed;
   }
-  const HardScene scaled = in_world_units(scene, units);
+  const Scene scaled = in_world_units(scene, units);
   for (const double speed : {0.0, 0.1, 0.5, 2.0})
     EXPECT_NEAR(scaled.substrate[0].rolling(speed * units.speed()),
                 scene.substrate[0].rolling(speed), 1e-15);
 }
 
 TEST(BulletUnits, WhatMovesMovesOnTheSamePath) {
-  HardScene scene = two_sizes();
+  Scene scene = two_sizes();
   const WorldUnits units = world_units(scene, settings_with(1, 2, 10));
   for (const SubstrateMotion& motion :
        {SubstrateMotion::constant({0.1, -0.2}),
@@ -150,7 +150,7 @@ TEST(BulletUnits, WhatMovesMovesOnTheSamePath) {
 }
 
 TEST(BulletUnits, ABoxAndItsFloorAreScaled) {
-  HardScene scene = two_sizes();
+  Scene scene = two_sizes();
   Box box;
   box.width = 0.2;
   box.floor = {0.002, 25};
@@ -159,7 +159,7 @@ TEST(BulletUnits, ABoxAndItsFloorAreScaled) {
   box.on_wall = box.on_lid = box.on_floor;
   scene.box = box;
   const WorldUnits units = world_units(scene, settings_with(1, 0, 10));
-  const HardScene made = in_world_units(scene, units);
+  const Scene made = in_world_units(scene, units);
   const Box& scaled = *made.box;
   EXPECT_DOUBLE_EQ(scaled.width, 100);  // of 2 mm
   EXPECT_DOUBLE_EQ(*scaled.lid, 150);
@@ -174,7 +174,7 @@ TEST(BulletUnits, ABoxAndItsFloorAreScaled) {
 }
 
 TEST(BulletUnits, ATiltedPlaneTurnsSoThatGravityIsVertical) {
-  HardScene scene = two_sizes();
+  Scene scene = two_sizes();
   const double theta = 0.3;
   scene.gravity = kGravity * std::cos(theta);
   scene.downhill = {0, -kGravity * std::sin(theta)};

@@ -11,12 +11,12 @@ namespace slipcheck {
 namespace {
 
 /// Five rolling balls of two sizes that meet one another.
-HardScene crowd() {
+Scene crowd() {
   SubstrateContact ground = ground_with_friction(0.1);
   ground.rolling = RollingFriction(0.001);
   PairContact pair;
   pair.restitution = 0.8;
-  HardScene scene = scene_of(steel_ball(0.005), {}, ground, pair);
+  Scene scene = scene_of(steel_ball(0.005), {}, ground, pair);
   for (int i = 0; i < 5; ++i) {
     const double radius = i % 2 == 0 ? 0.005 : 0.004;
     scene.bodies.push_back(steel_ball(radius));
@@ -29,7 +29,7 @@ HardScene crowd() {
 class BulletWorldTest : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(BulletWorldTest, AFreshStartIsTheSameBitForBit) {
-  const HardScene scene = crowd();
+  const Scene scene = crowd();
   RemoteEngine engine(bullet_executable(GetParam()));
   const auto first = run(engine, scene, kDefault, 500, 300);
 
@@ -46,8 +46,7 @@ TEST_P(BulletWorldTest, AFreshStartIsTheSameBitForBit) {
 
 TEST_P(BulletWorldTest, APlaneCarriesARollingBallsWeightHoweverManyPointsItHas) {
   const Sphere ball = steel_ball(0.002);
-  const HardScene scene =
-      scene_of(ball, {rolling_along_x(0.002, 0, 0.3)}, ground_with_friction(0.1));
+  const Scene scene = scene_of(ball, {rolling_along_x(0.002, 0, 0.3)}, ground_with_friction(0.1));
   RemoteEngine engine(bullet_executable(GetParam()));
   const auto frames = run(engine, scene, kDefault, 1000, 500);
   double sum = 0;
@@ -66,7 +65,7 @@ TEST_P(BulletWorldTest, ACollisionsImpulseIsTheChangeOfMomentum) {
   PairContact pair;
   pair.restitution = 0.9;
   const Sphere ball = steel_ball(0.002);
-  const HardScene scene =
+  const Scene scene =
       scene_of(ball, {rolling_along_x(0.002, 0, 0.3), rolling_along_x(0.002, 0.005, 0)}, {}, pair);
   RemoteEngine engine(bullet_executable(GetParam()));
   double impulse = 0;
@@ -88,7 +87,7 @@ TEST_P(BulletWorldTest, ACollisionsImpulseIsTheChangeOfMomentum) {
 TEST_P(BulletWorldTest, ASlowBallFallsAsleepAndTouchesNothingThen) {
   // Without rolling friction it rolls for ever; Bullet freezes what is slower than 0.8 m/s and
   // 1 rad/s for 2 s.
-  const HardScene scene =
+  const Scene scene =
       scene_of(steel_ball(0.005), {rolling_along_x(0.005, 0, 0.004)}, ground_with_friction(0.1));
   RemoteEngine engine(bullet_executable(GetParam()));
   const auto frames = run(engine, scene, kDefault, 240, 600);
@@ -103,7 +102,7 @@ TEST_P(BulletWorldTest, ASlowBallFallsAsleepAndTouchesNothingThen) {
 TEST_P(BulletWorldTest, ABallInTheAirTouchesNothing) {
   BodyState state;
   state.position = Vector3(0, 0, 1);
-  const HardScene scene = scene_of(steel_ball(0.01), {state}, ground_with_friction(0.1));
+  const Scene scene = scene_of(steel_ball(0.01), {state}, ground_with_friction(0.1));
   RemoteEngine engine(bullet_executable(GetParam()));
   for (const Frame& frame : run(engine, scene, kDefault, 240, 60)) {
     EXPECT_TRUE(frame.touches.empty());

@@ -99,7 +99,7 @@ class FaultyEngine final : public Engine {
     return {"faulty", "1.0", "double", {fault, pause}};
   }
 
-  Applied configure(const HardScene&, const Settings& settings, double time_step) override {
+  Applied configure(const Scene&, const Settings& settings, double time_step) override {
     fault_ = settings.contains("fault") ? std::get<std::string>(settings.at("fault")) : "ok";
     if (fault_ == "refuse") throw Refused("does not like the scene");
     pause_ = settings.contains("pause") ? std::get<double>(settings.at("pause")) : 30;

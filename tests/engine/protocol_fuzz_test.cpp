@@ -28,10 +28,10 @@ std::vector<Bytes> good_messages() {
   for (int n = 0; n < 3; ++n) {
     frames.frames.push_back({some_scene(3).initial, {{0, kSubstrate, 1}, {0, 2, 0.5}}});
   }
-  HardScene on_table = some_scene(1), on_belt = some_scene(1);
+  Scene on_table = some_scene(1), on_belt = some_scene(1);
   on_table.motion = SubstrateMotion::table({{0, {0, 1}}, {1, {0.1, 1}}});
   on_belt.motion = SubstrateMotion::constant({0.1, 0});
-  HardScene open_box = some_box(1), periodic = some_scene(1);
+  Scene open_box = some_box(1), periodic = some_scene(1);
   open_box.box->lid.reset();
   periodic.periodic = {0.1, 0};
   std::vector<Bytes> messages = {

@@ -17,11 +17,11 @@ Request decode(const Request& request) {
   return decode_request(std::span<const std::uint8_t>(encode(request)).subspan(kPrefix));
 }
 
-HardScene through(const HardScene& scene) {
+Scene through(const Scene& scene) {
   return std::get<Configure>(decode(Configure{scene, {{"erp", 0.2}}, 1e-3})).scene;
 }
 
-void expect_rubbish(const HardScene& scene, const std::function<void(json&)>& spoil,
+void expect_rubbish(const Scene& scene, const std::function<void(json&)>& spoil,
                     const char* reason) {
   json object = scene_to_json(scene);
   spoil(object);
@@ -34,7 +34,7 @@ void expect_rubbish(const HardScene& scene, const std::function<void(json&)>& sp
 }
 
 TEST(SceneJson, TheSceneComesThroughWhole) {
-  const HardScene scene = some_scene(3);
+  const Scene scene = some_scene(3);
   const auto request = std::get<Configure>(decode(Configure{scene, {{"erp", 0.2}}, 1e-3}));
   EXPECT_EQ(request.settings, (Settings{{"erp", 0.2}}));
   EXPECT_EQ(request.time_step, 1e-3);
@@ -59,7 +59,7 @@ TEST(SceneJson, EveryKindOfMotionComesThroughBitForBit) {
       SubstrateMotion::oscillation({0.1, 0.02}, 1.0 / 7, 0.3),
       SubstrateMotion::table({{0, {0, 1}}, {1, {0.1, 1}}, {3, {0.2, -1}}})};
   for (const SubstrateMotion& motion : motions) {
-    HardScene scene = some_scene();
+    Scene scene = some_scene();
     scene.motion = motion;
     const auto received = through(scene);
     EXPECT_EQ(received.motion.kind(), motion.kind());
@@ -72,7 +72,7 @@ TEST(SceneJson, EveryKindOfMotionComesThroughBitForBit) {
 }
 
 TEST(SceneJson, ABoxComesThroughWhole) {
-  const HardScene scene = some_box(3);
+  const Scene scene = some_box(3);
   const auto received = through(scene);
   ASSERT_TRUE(received.box);
   const Box& box = *received.box;
@@ -89,7 +89,7 @@ TEST(SceneJson, ABoxComesThroughWhole) {
             restitution_at(scene.box->on_wall[1].restitution, 0.2));
   EXPECT_EQ(std::get<double>(box.on_lid[1].restitution), 0.6);
 
-  HardScene open = some_box();
+  Scene open = some_box();
   open.box->lid.reset();
   open.box->moving_walls = false;
   const auto received_open = through(open);
@@ -100,7 +100,7 @@ TEST(SceneJson, ABoxComesThroughWhole) {
 }
 
 TEST(SceneJson, APeriodicPlaneComesThroughAndTheReferencesRuleDoesNot) {
-  HardScene scene = some_scene();
+  Scene scene = some_scene();
   scene.periodic = {0.1, 1.0 / 3};
   scene.collapse = {CollapseRule::Model::contact_time, 1e-5};
   const auto received = through(scene);

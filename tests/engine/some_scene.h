@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "engine/engine.h"
-#include "scenario/hard_scene.h"
+#include "scene/scene.h"
 
 namespace slipcheck {
 
 /// `count` steel spheres in a row that fly along x at 1 m/s, two materials, one law of each kind.
-inline HardScene some_scene(std::size_t count = 2) {
-  HardScene scene;
+inline Scene some_scene(std::size_t count = 2) {
+  Scene scene;
   for (std::size_t i = 0; i < count; ++i) {
     scene.bodies.push_back({0.002, 2.6e-4, 0.4});
     BodyState state;
@@ -43,8 +43,8 @@ inline HardScene some_scene(std::size_t count = 2) {
 }
 
 /// The same spheres in a shaken box with a lid, each contact different.
-inline HardScene some_box(std::size_t count = 2) {
-  HardScene scene = some_scene(count);
+inline Scene some_box(std::size_t count = 2) {
+  Scene scene = some_scene(count);
   scene.downhill = Vector2::Zero();
   scene.motion = {};
   Box box;

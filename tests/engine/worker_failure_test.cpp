@@ -31,7 +31,7 @@ bool has_children() { return waitpid(-1, nullptr, WNOHANG) != -1; }
 
 /// 20 steps with a fault of the faulty engine.
 void run(RemoteEngine& engine, const std::string& fault) {
-  const HardScene scene = some_scene();
+  const Scene scene = some_scene();
   engine.configure(scene, {{"fault", fault}}, 1e-3);
   engine.start(scene.initial);
   engine.advance(20, [](const Frame&) {});
@@ -191,7 +191,7 @@ TEST_F(WorkerFailureTest, AnEngineThatWorksIsUnhurtByItsPrinting) {
 
 TEST_F(WorkerFailureTest, FramesComeInOrderOverManyRequests) {
   RemoteEngine engine(faulty_engine());
-  const HardScene scene = some_scene();
+  const Scene scene = some_scene();
   engine.configure(scene, {{"fault", "ok"}}, 1e-3);
   engine.start(scene.initial);
   double x = 0;
@@ -209,7 +209,7 @@ TEST_F(WorkerFailureTest, FramesComeInOrderOverManyRequests) {
 
 TEST_F(WorkerFailureTest, EachTimedRunBeginsAFreshWorld) {
   RemoteEngine engine(faulty_engine());
-  const HardScene scene = some_scene();
+  const Scene scene = some_scene();
   engine.configure(scene, {{"fault", "kill-at-step-10"}}, 1e-3);
   const std::vector<double> times = engine.time_steps(scene.initial, 0, 9, 5);
   EXPECT_EQ(times.size(), 5u);
@@ -219,7 +219,7 @@ TEST_F(WorkerFailureTest, EachTimedRunBeginsAFreshWorld) {
 
 TEST_F(WorkerFailureTest, ATimedRunIsNotGoneOnWith) {
   RemoteEngine engine(faulty_engine());
-  const HardScene scene = some_scene();
+  const Scene scene = some_scene();
   engine.configure(scene, {}, 1e-3);
   engine.time_steps(scene.initial, 0, 3, 1);
   EXPECT_THROW(engine.advance(1, [](const Frame&) {}), WorkerFailure);
@@ -227,7 +227,7 @@ TEST_F(WorkerFailureTest, ATimedRunIsNotGoneOnWith) {
 
 TEST_F(WorkerFailureTest, NanStatesAreDataNotRubbish) {
   RemoteEngine engine(faulty_engine());
-  const HardScene scene = some_scene();
+  const Scene scene = some_scene();
   engine.configure(scene, {{"fault", "nan"}}, 1e-3);
   engine.start(scene.initial);
   int nans = 0;
@@ -294,7 +294,7 @@ TEST_F(WorkerFailureTest, ADeadIdleWorkerIsNoticed) {
 TEST_F(WorkerFailureTest, ALargeSceneGoesBothWays) {
   // 1 MB each way: more than any pipe holds, so that one side has to read while it writes.
   RemoteEngine engine(faulty_engine());
-  const HardScene scene = some_scene(10'000);
+  const Scene scene = some_scene(10'000);
   engine.configure(scene, {{"fault", "ok"}}, 1e-3);
   engine.start(scene.initial);
   std::size_t bodies = 0;

@@ -26,7 +26,7 @@ EngineJob job(const std::string& fault, std::size_t steps = 20,
               const std::scoped_lock lock(mutex);
               served_by->insert(engine.pid());
             }
-            const HardScene scene = some_scene();
+            const Scene scene = some_scene();
             engine.configure(scene, {{"fault", fault}}, 1e-3);
             engine.start(scene.initial);
             engine.advance(steps, [](const Frame&) {});
@@ -73,7 +73,7 @@ TEST(WorkerPool, AWorkerKilledFromOutsideTakesOnlyItsOwnJob) {
   for (int k = 0; k < 6; ++k) {
     jobs.push_back({faulty_engine(), [&, k](RemoteEngine& engine) {
                       if (k == 0) victim = engine.pid();
-                      const HardScene scene = some_scene();
+                      const Scene scene = some_scene();
                       engine.configure(scene, {{"fault", k == 0 ? "hang" : "slow"}}, 1e-3);
                       engine.start(scene.initial);
                       engine.advance(15, [](const Frame&) {});

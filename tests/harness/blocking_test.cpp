@@ -1,4 +1,4 @@
-#include "harness/blocking.h"
+#include "harness/observe/blocking.h"
 
 #include <gtest/gtest.h>
 

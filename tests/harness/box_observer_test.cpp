@@ -1,4 +1,4 @@
-#include "harness/box_observer.h"
+#include "harness/observe/box_observer.h"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ constexpr double kGravity = 9.81;
 constexpr double kDiameter = 1e-3;
 
 /// Spheres of 1 mm and 1 mg in a box; a floor of 100 Hz.
-HardScene box_scene(std::size_t count, double width, double frequency = 100) {
-  HardScene scene;
+Scene box_scene(std::size_t count, double width, double frequency = 100) {
+  Scene scene;
   scene.gravity = kGravity;
   scene.bodies.assign(count, Sphere{kDiameter / 2, 1e-6, 0.4});
   scene.initial.assign(count, BodyState{});
@@ -77,7 +77,7 @@ TEST(RestingHeight, OfANarrowColumn) {
 }
 
 TEST(BoxObserver, SeesHeightAndEnergiesAsLudingDefinesThem) {
-  HardScene scene = box_scene(2, 10 * kDiameter);
+  Scene scene = box_scene(2, 10 * kDiameter);
   scene.bodies[1].mass = 3e-6;
   BoxObserver observer(scene, {});
   Frame frame;
@@ -96,7 +96,7 @@ TEST(BoxObserver, SeesHeightAndEnergiesAsLudingDefinesThem) {
 }
 
 TEST(BoxObserver, SamplesEachPeriodOnceAfterTheDiscardedOnes) {
-  const HardScene scene = box_scene(1, 10 * kDiameter);
+  const Scene scene = box_scene(1, 10 * kDiameter);
   BoxObserver observer(scene, {.discard = 20});
   // Steps of a third of a period, whose sums are rounded; some instants come twice.
   for (int n = 0; n <= 300; ++n) {
@@ -117,7 +117,7 @@ TEST(BoxObserver, SamplesEachPeriodOnceAfterTheDiscardedOnes) {
 
 TEST(BoxObserver, FallsBetweenFramesWithAnErrorOfSecondOrder) {
   // A throw up from the floor with 1 m/s, seen at phase zeros that lie between frames.
-  const HardScene scene = box_scene(1, 10 * kDiameter);
+  const Scene scene = box_scene(1, 10 * kDiameter);
   for (double step : {1.0 / 240, 1.0 / 777, 1.0 / 6147.3}) {
     BoxObserver observer(scene, {});
     for (int n = 0; n * step < 0.2; ++n) {
@@ -143,7 +143,7 @@ TEST(BoxObserver, FallsBetweenFramesWithAnErrorOfSecondOrder) {
 }
 
 TEST(BoxObserver, ANewTouchOfTwoBodiesIsACollision) {
-  const HardScene scene = box_scene(3, 10 * kDiameter);
+  const Scene scene = box_scene(3, 10 * kDiameter);
   BoxObserver observer(scene, {.discard = 1});
   observer.take(0, touching({}));
   observer.take(0.005, touching({{0, 1, 1}}));  // before the samples begin
@@ -159,7 +159,7 @@ TEST(BoxObserver, ANewTouchOfTwoBodiesIsACollision) {
 }
 
 TEST(BoxObserver, ASolverThatCountsIsAsked) {
-  const HardScene scene = box_scene(1, 10 * kDiameter);
+  const Scene scene = box_scene(1, 10 * kDiameter);
   std::uint64_t count = 1000;
   BoxObserver observer(scene, {}, [&] { return count; });
   for (int n = 0; n <= 64; ++n) {
@@ -175,7 +175,7 @@ TEST(BoxObserver, ASolverThatCountsIsAsked) {
 }
 
 TEST(BoxObserver, ALateStartBeginsWithTheNextPhaseZero) {
-  const HardScene scene = box_scene(1, 10 * kDiameter);
+  const Scene scene = box_scene(1, 10 * kDiameter);
   BoxObserver observer(scene, {.discard = 1});
   for (double t : {0.025, 0.035, 0.045}) observer.take(t, frame_of(t));
   ASSERT_EQ(observer.series().time.size(), 1u);
@@ -184,7 +184,7 @@ TEST(BoxObserver, ALateStartBeginsWithTheNextPhaseZero) {
 }
 
 TEST(BoxObserver, DropsWhatIsNotSteadyWhereAsked) {
-  const HardScene scene = box_scene(1, 10 * kDiameter);
+  const Scene scene = box_scene(1, 10 * kDiameter);
   // H relaxes by 20 mm within 30 periods onto noise of 1 mm; so do the energies.
   const auto noise = test::correlated(2000, 0.5, 1);
   BoxObserver all(scene, {.discard = 10});
@@ -211,7 +211,7 @@ TEST(BoxObserver, DropsWhatIsNotSteadyWhereAsked) {
 }
 
 TEST(BoxObserver, AStillFloorNeedsAnInterval) {
-  const HardScene scene = box_scene(1, 10 * kDiameter, 0);
+  const Scene scene = box_scene(1, 10 * kDiameter, 0);
   BoxObserver observer(scene, {.interval = 0.5});
   for (int n = 0; n <= 10; ++n) observer.take(0.25 * n, frame_of(1e-3));
   EXPECT_EQ(observer.series().time, (std::vector<double>{0.5, 1, 1.5, 2, 2.5}));
@@ -225,7 +225,7 @@ TEST(BoxObserver, AStillFloorNeedsAnInterval) {
 }
 
 TEST(BoxObserver, NothingSeenIsNotObserved) {
-  const HardScene scene = box_scene(1, 10 * kDiameter);
+  const Scene scene = box_scene(1, 10 * kDiameter);
   const BoxObservables seen = BoxObserver(scene, {.discard = 5, .until_steady = true}).finish();
   EXPECT_EQ(seen.samples, 0u);
   EXPECT_EQ(seen.discarded, 5u);

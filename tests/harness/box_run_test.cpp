@@ -1,4 +1,4 @@
-#include "harness/box_run.h"
+#include "harness/run/box_run.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "engine/engine_registry.h"
 #include "engine/remote_engine.h"
-#include "harness/scene_run.h"
+#include "harness/run/scene_run.h"
 #include "scenario/load.h"
 
 namespace slipcheck {
@@ -98,7 +98,7 @@ TEST(BoxRun, OneElasticBallKeepsItsEnergy) {
 /// H, K and R of frames, summed up here as L defines them.
 class Sums final : public FrameSink {
  public:
-  Sums(const HardScene& scene, double from) : scene_(scene), from_(from) {}
+  Sums(const Scene& scene, double from) : scene_(scene), from_(from) {}
 
   void take(double time, const Frame& frame) override {
     // The end of the run is shown once more where it is a phase zero.
@@ -122,7 +122,7 @@ class Sums final : public FrameSink {
   double looks = 0, H = 0, K = 0, R = 0;
 
  private:
-  const HardScene& scene_;
+  const Scene& scene_;
   double from_, last_ = 0;
 };
 

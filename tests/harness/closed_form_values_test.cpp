@@ -1,4 +1,4 @@
-#include "harness/closed_form_values.h"
+#include "harness/compare/closed_form_values.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ const std::vector<std::string> kNames = {"i", "j"};
 
 /// Closed forms and the solver come to the same by different ways: within 1e-12 of the value, some
 /// thousand roundings, and never further than ten times the solver's own uncertainty says.
-void expect_agreement(const HardScene& scene, std::size_t least) {
+void expect_agreement(const Scene& scene, std::size_t least) {
   const RunEnd end{Run::Until::rolling, 0, 100};
   const ReferenceResult result = test::run_hard(scene, end, kNames);
   ASSERT_TRUE(result.run.reached) << result.run.reason;
@@ -27,26 +27,26 @@ TEST(ClosedFormValues, AgreeWithTheSolverOnEveryKindOfPair) {
     expect_agreement(test::head_on(0.15, -0.15, e), 20);  // symmetric
     expect_agreement(test::head_on(0.2, -0.1, e), 20);    // asymmetric
     expect_agreement(test::head_on(0.3, 0, e), 20);       // target at rest
-    HardScene oblique = test::head_on(0.3, 0, e, 0.01);
+    Scene oblique = test::head_on(0.3, 0, e, 0.01);
     oblique.initial[0].position.y() = 0.002;
     expect_agreement(oblique, 20);
-    HardScene unlike = test::head_on(0.3, -0.05, e);
+    Scene unlike = test::head_on(0.3, -0.05, e);
     unlike.bodies[1].mass *= 3;
     unlike.bodies[1].shape_factor = 2.0 / 3;
     expect_agreement(unlike, 20);
   }
-  HardScene power = test::head_on(0.15, -0.15, 1);
+  Scene power = test::head_on(0.15, -0.15, 1);
   power.pairs[0].restitution = PowerLawRestitution{0.9, 0.05, 0.1};
   expect_agreement(power, 20);
 }
 
 TEST(ClosedFormValues, AgreeOnOneBody) {
-  HardScene slide = test::steel_scene(1);
+  Scene slide = test::steel_scene(1);
   slide.initial[0].velocity = {0.5, 0.1, 0};
   slide.initial[0].angular_velocity = {10, -20, 0};
   expect_agreement(slide, 4);
 
-  HardScene roll = test::steel_scene(1);
+  Scene roll = test::steel_scene(1);
   roll.substrate[0].rolling = RollingFriction(0.02);
   roll.substrate[0].drilling_length = 1e-5;
   roll.initial[0] = test::rolling_at(0, 0, 0.3, 0.4);
@@ -58,19 +58,19 @@ TEST(ClosedFormValues, AgreeOnOneBody) {
 }
 
 TEST(ClosedFormValues, StayAwayFromWhatTheyDoNotCover) {
-  HardScene rubbing = test::head_on(0.3, 0, 0.9);
+  Scene rubbing = test::head_on(0.3, 0, 0.9);
   rubbing.pairs[0].friction = 0.1;
   EXPECT_TRUE(closed_form_values(rubbing, kNames).empty());
-  HardScene parting = test::head_on(-0.1, 0.1, 0.9);
+  Scene parting = test::head_on(-0.1, 0.1, 0.9);
   EXPECT_TRUE(closed_form_values(parting, kNames).empty());
-  HardScene sliding = test::head_on(0.1, -0.1, 0.9);
+  Scene sliding = test::head_on(0.1, -0.1, 0.9);
   sliding.initial[0].angular_velocity.setZero();
   EXPECT_TRUE(closed_form_values(sliding, kNames).empty());
   EXPECT_TRUE(closed_form_values(test::steel_scene(3), {"a", "b", "c"}).empty());
 }
 
 TEST(ClosedFormValues, AreNotShownWhereTheRunEndsBeforeThePairMeets) {
-  const HardScene scene = test::head_on(0.15, -0.15, 0.9);
+  const Scene scene = test::head_on(0.15, -0.15, 0.9);
   const ReferenceResult before = test::run_hard(scene, {Run::Until::time, 0.01, 0.01}, kNames);
   EXPECT_EQ(before.run.collisions, 0u);
   EXPECT_TRUE(before.closed_form.empty());

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../reference/soft_scenes.h"
-#include "harness/reference_run.h"
+#include "harness/run/reference_run.h"
 
 namespace slipcheck {
 namespace {
@@ -31,7 +31,7 @@ struct Strike {
   static constexpr double kCollisionTime = 1e-4;
 
   ContactScene scene() const {
-    HardScene hard = test::steel_scene(2);
+    Scene hard = test::steel_scene(2);
     hard.pairs[0].restitution = restitution;
     const Vector3 n(std::cos(heading), std::sin(heading), 0);
     hard.initial[1].position += (0.004 + speed * wait) * n;
@@ -142,7 +142,7 @@ TEST(ContactTime, IsThatInWhichTheLawActs) {
   constexpr double kSoonAfter = 0.0205;  // they meet at 0.02 s
   for (const double e : {0.2, 0.57, 0.9, 0.99}) {
     for (const ContactEnd end : {ContactEnd::zero_force, ContactEnd::zero_overlap}) {
-      HardScene hard = test::head_on(0.3, 0, e);
+      Scene hard = test::head_on(0.3, 0, e);
       hard.substrate[0].static_friction = hard.substrate[0].kinetic_friction = 0;
       const ContactScene scene = test::soft(hard, 2.5e-5, end);
       const double m = hard.bodies[0].mass / 2;
@@ -166,7 +166,7 @@ TEST(ContactTime, IsThatInWhichTheLawActs) {
 /// What is told after the collision is told of the instant at which the law ends: friction has
 /// braked the sliding pair for so long, and no longer.
 TEST(ContactTime, WhatFollowsTheCollisionIsSampledAtItsEnd) {
-  HardScene hard = test::head_on(0.3, -0.3, 0.57);
+  Scene hard = test::head_on(0.3, -0.3, 0.57);
   const double mu = hard.substrate[0].kinetic_friction, g = hard.gravity;
   const ContactScene scene = test::soft(hard, 1e-3, ContactEnd::zero_force);
   const Named seen = reference(scene, Compare::Reference::contact, 0.3);

@@ -1,4 +1,4 @@
-#include "harness/gas_restitution.h"
+#include "harness/observe/gas_restitution.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "../scenes.h"
 #include "physics/closed_forms.h"
-#include "reference/event_solver.h"
+#include "reference/events/event_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -14,9 +14,9 @@ namespace {
 /// Two rolling balls that meet head-on, and nothing else: e_eff = (A e_n − 1)/(1+A), K (44) for s.
 TEST(GasRestitution, OfOnePairIsKondics) {
   const double v = 0.15, e = 0.9;
-  const HardScene scene = test::head_on(v, -v, e);
+  const Scene scene = test::head_on(v, -v, e);
   // A second pair far away, so that there are two collisions to average.
-  HardScene two = scene;
+  Scene two = scene;
   for (std::size_t i = 0; i < 2; ++i) {
     two.bodies.push_back(scene.bodies[i]);
     two.material.push_back(scene.material[i]);
@@ -48,7 +48,7 @@ TEST(GasRestitution, OfOnePairIsKondics) {
 /// lies between.
 TEST(GasRestitution, AnInterruptedSlideEndsWithTheNextCollision) {
   const double e = 0.9, gap = 1e-9;
-  HardScene scene = test::head_on(0.3, 0, e);
+  Scene scene = test::head_on(0.3, 0, e);
   scene.bodies.push_back(scene.bodies[1]);
   scene.material.push_back(scene.material[1]);
   scene.initial.push_back(scene.initial[1]);

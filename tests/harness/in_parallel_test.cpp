@@ -1,4 +1,4 @@
-#include "harness/in_parallel.h"
+#include "harness/run/in_parallel.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "harness/scene_run.h"
+#include "harness/run/scene_run.h"
 #include "scenario/load.h"
 
 namespace slipcheck {

@@ -18,8 +18,8 @@ const UncertainValue& of(const ReferenceResult& result, const std::string& name)
 }
 
 /// One ball on three that touch each other, all at rest.
-HardScene pyramid(double friction) {
-  HardScene scene = test::steel_scene(4);
+Scene pyramid(double friction) {
+  Scene scene = test::steel_scene(4);
   const double R = scene.bodies[0].radius;
   scene.substrate[0].static_friction = scene.substrate[0].kinetic_friction = 0.6;
   scene.pairs[0] = {0.5, friction, 0.0};
@@ -31,13 +31,13 @@ HardScene pyramid(double friction) {
 
 TEST(LastingContacts, AreThoseOfBodiesOnBodiesAndOfPairsThatDoNotRebound) {
   EXPECT_TRUE(has_lasting_contacts(pyramid(0.5)));
-  HardScene apart = pyramid(0.5);
+  Scene apart = pyramid(0.5);
   apart.initial[3].position.z() += 1e-3;
   EXPECT_FALSE(has_lasting_contacts(apart));
-  HardScene on_plane = pyramid(0.5);
+  Scene on_plane = pyramid(0.5);
   on_plane.initial[3] = test::rolling_at(1, 1, 0, 0);
   EXPECT_FALSE(has_lasting_contacts(on_plane));
-  HardScene pair = test::head_on(0.1, -0.1, 0);
+  Scene pair = test::head_on(0.1, -0.1, 0);
   EXPECT_TRUE(has_lasting_contacts(pair));
   pair.substrate[0].kinetic_friction = 0;  // nothing presses them together
   EXPECT_FALSE(has_lasting_contacts(pair));
@@ -49,7 +49,7 @@ TEST(LastingContacts, APyramidStandsAsStaticsSays) {
   // the friction N tan(θ/2) = 0.318 N at both its contacts.
   const double tan_half = std::tan(0.5 * std::asin(1 / std::sqrt(3.0)));
   ASSERT_LT(tan_half, 0.5);
-  const HardScene scene = pyramid(0.5);
+  const Scene scene = pyramid(0.5);
   const ReferenceResult stands = test::run_hard(scene, until(0.5), {"a", "b", "c", "top"});
   EXPECT_EQ(stands.solver, "contact");
   ASSERT_TRUE(stands.run.reached) << stands.run.reason;
@@ -70,7 +70,7 @@ TEST(LastingContacts, PairThatDoesNotReboundIsPressedTogetherUntilItsSpinsAreSpe
   // push: Ω(t) = v/R − A μ_k g t/R.
   const double v = 0.15, push = 2.5 * 0.1 * 9.81, R = 0.002;
   const double meeting = (0.01 - 0.004) / (2 * v), spent = v / push;
-  const HardScene scene = test::head_on(v, -v, 0);
+  const Scene scene = test::head_on(v, -v, 0);
   const double half = 0.5 * spent;
   const ReferenceResult pressed = test::run_hard(scene, until(meeting + half), {"i", "j"});
   EXPECT_EQ(pressed.solver, "contact");
@@ -94,7 +94,7 @@ TEST(LastingContacts, PairThatDoesNotReboundIsPressedTogetherUntilItsSpinsAreSpe
 TEST(LastingContacts, ALineThatDoesNotReboundGoesOnWithTheMomentumOfOne) {
   // Four balls: all go on with v/4, but for what the substrate takes, at most μ_k g t of each.
   const double v = 1, friction = 1e-4, end = 0.06;
-  HardScene scene = test::steel_scene(4);
+  Scene scene = test::steel_scene(4);
   scene.substrate[0].kinetic_friction = friction;
   scene.pairs[0].restitution = 0.0;
   for (std::size_t k = 0; k < 4; ++k)
@@ -109,7 +109,7 @@ TEST(LastingContacts, ALineThatDoesNotReboundGoesOnWithTheMomentumOfOne) {
 }
 
 TEST(LastingContacts, AStateThatIsNoNumberFailsTheRunByName) {
-  HardScene scene = test::head_on(0.1, -0.1, 0.9);
+  Scene scene = test::head_on(0.1, -0.1, 0.9);
   scene.initial[1].angular_velocity.z() = std::numeric_limits<double>::quiet_NaN();
   const ReferenceResult result = test::run_hard(scene, until(0.01), {"i", "j"});
   EXPECT_TRUE(result.run.failed);

@@ -1,4 +1,4 @@
-#include "harness/motion.h"
+#include "harness/observe/motion.h"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 
 #include "../scenes.h"
 #include "../support/extremes.h"
-#include "harness/motion_quantities.h"
-#include "harness/motion_recorder.h"
-#include "harness/reference_motion.h"
-#include "harness/scene_run.h"
+#include "harness/observe/motion_quantities.h"
+#include "harness/observe/motion_recorder.h"
+#include "harness/run/reference_motion.h"
+#include "harness/run/scene_run.h"
 #include "scenario/load.h"
 
 namespace slipcheck {
@@ -38,7 +38,7 @@ std::vector<BodyState> moving_balls(std::size_t count, double time) {
 // --- thinning ------------------------------------------------------------------------------------
 
 TEST(MotionThinning, AShortRunIsKeptWhole) {
-  const HardScene scene = test::steel_scene(1);
+  const Scene scene = test::steel_scene(1);
   MotionThinning thinning(scene, 64);
   for (int n = 0; n < 60; ++n) thinning.take(n, moving_balls(1, n), {});
   const auto frames = thinning.finish();
@@ -48,7 +48,7 @@ TEST(MotionThinning, AShortRunIsKeptWhole) {
 }
 
 TEST(MotionThinning, ALongRunKeepsItsEndsAndEvenSteps) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.motion = SubstrateMotion::oscillation({0.1, 0}, 0.01, 0.5);
   MotionThinning thinning(scene, 64);
   constexpr int kLast = 12345;
@@ -70,7 +70,7 @@ TEST(MotionThinning, ALongRunKeepsItsEndsAndEvenSteps) {
 }
 
 TEST(MotionThinning, ACollisionKeepsTheFramesAroundIt) {
-  const HardScene scene = test::steel_scene(2);
+  const Scene scene = test::steel_scene(2);
   MotionThinning thinning(scene, 64);
   const std::vector<Touch> on_substrate = {{0, kSubstrate, 1}, {1, kSubstrate, 1}};
   std::vector<Touch> collision = on_substrate;
@@ -89,7 +89,7 @@ TEST(MotionThinning, ACollisionKeepsTheFramesAroundIt) {
 }
 
 TEST(MotionThinning, ALandingKeepsTheFramesAroundIt) {
-  const HardScene scene = test::steel_scene(1);
+  const Scene scene = test::steel_scene(1);
   MotionThinning thinning(scene, 64);
   for (int n = 0; n < 10000; ++n) {
     std::vector<BodyState> ball = moving_balls(1, n);
@@ -106,7 +106,7 @@ TEST(MotionThinning, ALandingKeepsTheFramesAroundIt) {
 
 TEST(MotionThinning, EveryTouchIsInTheNextFrameOnce) {
   // Pairs in turn, for three steps out of ten: far more collisions than frames.
-  const HardScene scene = test::steel_scene(3);
+  const Scene scene = test::steel_scene(3);
   const Pair pairs[] = {{0, 1}, {0, 2}, {1, 2}, {0, kSubstrate}};
   const auto touches_at = [&](int n) {
     std::vector<Touch> touches;
@@ -132,7 +132,7 @@ TEST(MotionThinning, EveryTouchIsInTheNextFrameOnce) {
 }
 
 TEST(MotionThinning, FramesThatAreNotFiniteArePassedOver) {
-  const HardScene scene = test::steel_scene(1);
+  const Scene scene = test::steel_scene(1);
   MotionThinning thinning(scene, 64);
   for (int n = 0; n < 10; ++n) {
     std::vector<BodyState> ball = moving_balls(1, n);
@@ -156,7 +156,7 @@ TEST(MotionThinning, ManyBodiesHaveFewerFrames) {
 
 /// Of phases that begin at 0, 1, 2, …
 std::vector<RecordedMotion> picked(const std::vector<double>& errors, std::size_t phases) {
-  const HardScene scene = test::steel_scene(1);
+  const Scene scene = test::steel_scene(1);
   MotionRecorder recorder(scene);
   for (std::size_t p = 0; p < phases; ++p) {
     const auto time = static_cast<double>(p);
@@ -207,13 +207,13 @@ TEST(MotionRecorder, WithoutErrorsTheFirstPhase) {
 
 // --- the reference -------------------------------------------------------------------------------
 
-RecordedMotion motion_of(const HardScene& scene, double end) {
+RecordedMotion motion_of(const Scene& scene, double end) {
   const ContactScene contacts = with_hard_contacts(scene);
   return reference_motion(ReferenceSolver(contacts, Compare::Reference::automatic), end);
 }
 
 TEST(ReferenceMotion, OfASlidingBallIsTheClosedForm) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   const double v0 = 0.5, a = 0.1 * 9.81, rolls_at = 2 * v0 / (7 * a), rolling = 5 * v0 / 7;
   scene.initial[0].velocity = {v0, 0, 0};
   const RecordedMotion motion = motion_of(scene, 2 * rolls_at);
@@ -260,7 +260,7 @@ TEST(ReferenceMotion, HasTheInstantsAroundACollision) {
 
 TEST(ReferenceMotion, OfManyBouncesKeepsThoseOfTheLongestFlights) {
   // A ball that falls from 1 m and rebounds with e = 0.95, 50 times and more until the end.
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].restitution = 0.95;
   scene.initial[0].position.z() += 1;
   const double fall = std::sqrt(2 / 9.81);
@@ -288,7 +288,7 @@ TEST(ReferenceMotion, ARunThatEndsAtOnceHasOneFrame) {
 // --- quantities ----------------------------------------------------------------------------------
 
 TEST(MotionQuantities, AreOverTheSubstrate) {
-  HardScene scene = test::steel_scene(3);
+  Scene scene = test::steel_scene(3);
   scene.motion = SubstrateMotion::constant({0.3, 0});
   RecordedMotion motion;
   MotionFrame& frame = motion.frames.emplace_back();

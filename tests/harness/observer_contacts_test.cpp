@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../scenes.h"
-#include "harness/observer.h"
+#include "harness/observe/observer.h"
 
 namespace slipcheck {
 namespace {
@@ -39,7 +39,7 @@ Frame frame_of(const Shown& shown) {
 }
 
 Observables seen_in(const std::vector<Shown>& frames, double step = 0, bool resolved = true) {
-  const HardScene scene = test::head_on(0.2, -0.2, 0.9);
+  const Scene scene = test::head_on(0.2, -0.2, 0.9);
   Observer observer(scene, step, 0.2, resolved);
   for (const Shown& shown : frames) observer.take(shown.time, frame_of(shown));
   return observer.finish(frames.back().time);
@@ -197,7 +197,7 @@ TEST(ObserverOfResolvedContacts, AWeakTouchStaysNoneHoweverItGoesOn) {
 TEST(ObserverOfResolvedContacts, RestitutionIsOfTheLineOfCentresOfItsInstant) {
   // The line turns by δ in the contact while the bodies slip past each other: along the present
   // line the surfaces part with 0.9 of the approach, across it the slip has turned round to −½.
-  const HardScene scene = test::head_on(0.2, -0.2, 0.9);
+  const Scene scene = test::head_on(0.2, -0.2, 0.9);
   const double delta = 0.01, g_n = 0.3, g_t = 0.1;
   const auto frame_at = [&](double angle, double along, double across, bool touch) {
     const Vector3 n(-std::cos(angle), std::sin(angle), 0), t(n.y(), -n.x(), 0);
@@ -267,7 +267,7 @@ TEST(ObserverOfAnEngine, ContactTimeIsThatOfTheStepsThatTouch) {
                                {2 * h, -2e-4, -0.1, 0.1, true, -0.3, 0.3},
                                {3 * h, 0, -0.16, 0.16, true, -0.3, 0.3},
                                {4 * h, 3e-4, -0.16, 0.16}};
-  const HardScene scene = test::head_on(0.2, -0.2, 0.9);
+  const Scene scene = test::head_on(0.2, -0.2, 0.9);
   Observer observer(scene, h, 0.2, true);
   for (const Shown& shown : frames) {
     Frame frame = frame_of(shown);
@@ -287,7 +287,7 @@ TEST(ObserverOfAnEngine, EffectiveRestitutionOfSlidesThatEndTogetherUpToRounding
   // A solid sphere's slip falls by (7/2) μ g h in a step, its velocity changes by μ g h, and in all
   // by 2/7 of the first slip. What is left after ten steps counts as zero: less than half a step's.
   const double h = 1e-3;
-  const HardScene scene = test::head_on(0.2, -0.2, 0.9);
+  const Scene scene = test::head_on(0.2, -0.2, 0.9);
   const double brake = scene.on_substrate(0).kinetic_friction * scene.gravity * h;
   const double u0 = 10.3 * 3.5 * brake, u1 = u0 * (1 - 1e-12);
   const double w0 = 0.11, w1 = 0.27;

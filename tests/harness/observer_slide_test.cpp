@@ -9,8 +9,8 @@
 #include "../scenes.h"
 #include "../support/extremes.h"
 #include "engine/remote_engine.h"
-#include "harness/observer.h"
-#include "reference/event_solver.h"
+#include "harness/observe/observer.h"
+#include "reference/events/event_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -37,7 +37,7 @@ struct Slide {
 /// and at most to zero.
 template <class Factor>
 Slide slide(double u0, double h, const Factor& factor) {
-  const HardScene scene = test::steel_scene(1);
+  const Scene scene = test::steel_scene(1);
   Observer observer(scene, h, 1);
   double x = 0, v = 1, u = u0;
   observer.take(0, sliding(x, v, u));
@@ -74,7 +74,7 @@ TEST(ObserverOfASlide, EndsWhereTheSlipDoesHoweverItFallsIntoTheStep) {
 
 TEST(ObserverOfASlide, EndsInOneOfTheStepsThatAnEngineMakesOfAStep) {
   // Four frames a step: half of what friction takes in the whole step is two of them.
-  const HardScene scene = test::steel_scene(1);
+  const Scene scene = test::steel_scene(1);
   const double h = 1.0 / 240, brake = 3.5 * kMu * kG * h / 4;
   for (int k = 0; k < 100; ++k) {
     const double parts = 21 + k / 25.0;
@@ -110,7 +110,7 @@ TEST(ObserverOfASlide, WhatAnEngineLeavesInEachStepIsNoSlide) {
   // Less than half of what friction takes, and for ever: the slide has ended in the first such
   // step.
   const double h = 1e-3, brake = 3.5 * kMu * kG * h;
-  const HardScene scene = test::steel_scene(1);
+  const Scene scene = test::steel_scene(1);
   Observer observer(scene, h, 1);
   for (int n = 0; n <= 12; ++n)
     observer.take(n * h, sliding(n * h, 1, std::max((8.5 - n) * brake, 0.3 * brake)));
@@ -154,7 +154,7 @@ class Thrown {
     return observer;
   }
 
-  HardScene scene;
+  Scene scene;
 };
 
 TEST(ObserverOfALanding, FlyingIsNotRolling) {
@@ -197,7 +197,7 @@ TEST(ObserverOfALanding, ARunsEndIsShownByTheFramesAroundIt) {
   // A ball that slides for 20.5 steps, x = v t − ½ μ g t², and rolls on; then an engine trembles,
   // at last in two frames that are 1e-9 s apart. What follows the end is no part of it.
   const double h = 1e-3, u0 = 20.5 * 3.5 * kMu * kG * h;
-  const HardScene scene = test::steel_scene(1);
+  const Scene scene = test::steel_scene(1);
   Observer observer(scene, h, 1);
   double time = 0, x = 0, v = 1, u = u0;
   observer.take(0, sliding(x, v, u));
@@ -230,7 +230,7 @@ TEST(ObserverOfBullet, EffectiveRestitutionIsThatOfFramesThatRoll) {
   double most = 0;
   RemoteEngine engine(SLIPCHECK_BINARY_DIR "/slipcheck-engine-bullet-double");
   for (int k = 0; k < 64; ++k) {
-    const HardScene scene =
+    const Scene scene =
         test::head_on(speed / 2, -speed / 2, 0.9, kR + (3 + (k + 0.5) / 64) * speed / rate / 2);
     engine.configure(scene, {}, 1 / rate);
     engine.start(scene.initial);

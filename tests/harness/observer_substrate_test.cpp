@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "../scenes.h"
-#include "harness/observer.h"
+#include "harness/observe/observer.h"
 
 namespace slipcheck {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kG = 9.81, kMu = 0.1, kR = 0.002, kA = 2.5;
 Frame on_plane(const BodyState& state) { return {{state}, {{0, kSubstrate, 1}}}; }
 
 /// An engine's frames of a path.
-Observer watched(const HardScene& scene, double scale, double step, double end,
+Observer watched(const Scene& scene, double scale, double step, double end,
                  const std::function<BodyState(double)>& path) {
   Observer observer(scene, step, scale);
   observer.take(0, on_plane(path(0)));
@@ -44,7 +44,7 @@ BodyState put_on_belt(double V, double t) {
 
 TEST(ObserverOnABelt, SlipAndSlidingAreRelativeToIt) {
   const double V = 0.4;
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.motion = SubstrateMotion::constant({V, 0});
   const double a = kMu * kG, t_s = V / ((1 + kA) * a);
   for (double step : {0.013, 0.0007}) {
@@ -64,7 +64,7 @@ TEST(ObserverOnABelt, SlipAndSlidingAreRelativeToIt) {
 
 TEST(ObserverOnABelt, ABodyRestsThatMovesWithIt) {
   const double V = 0.4, w = 0.1, mu_r = 0.02, a = mu_r * kG;
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].rolling = RollingFriction(mu_r);
   scene.motion = SubstrateMotion::constant({V, 0});
   const auto path = [&](double t) {
@@ -85,7 +85,7 @@ TEST(ObserverOnABelt, ABodyRestsThatMovesWithIt) {
 TEST(ObserverOnABelt, AKinkOfTheMotionStartsASlide) {
   // At rest until 0.1 s, then V. The reference shows the last instant before the kink and the kink.
   const double V = 0.2, kink = 0.1, t_s = V / ((1 + kA) * kMu * kG);
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.motion = SubstrateMotion::table({{kink, {0, 0}}, {9, {V * 8.9, 0}}});
   Observer observer(scene, 0, V);
   observer.take(0, on_plane(put_on_belt(V, 0)));
@@ -104,7 +104,7 @@ TEST(ObserverOnABelt, AKinkOfTheMotionStartsASlide) {
 
 TEST(ObserverOnAShaker, RollingWithTwoSeventhsOfItsAccelerationIsNoSliding) {
   // K (15): a = a_S/(1+A), so the body follows with x_S/(1+A).
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.motion = SubstrateMotion::oscillation({0.001, 0}, 5, 0);
   const auto path = [&](double t) {
     const double x = scene.motion.position(t).x(), v = scene.motion.velocity(t).x();
@@ -125,8 +125,8 @@ TEST(ObserverOnAShaker, RollingWithTwoSeventhsOfItsAccelerationIsNoSliding) {
 }
 
 /// A slope on which a sphere that rolls is pulled by (5/7) a_G along x.
-HardScene slope(double a_G, double mu_r) {
-  HardScene scene = test::steel_scene(1);
+Scene slope(double a_G, double mu_r) {
+  Scene scene = test::steel_scene(1);
   scene.downhill = {a_G, 0};
   scene.substrate[0].rolling = RollingFriction(mu_r);
   return scene;
@@ -135,7 +135,7 @@ HardScene slope(double a_G, double mu_r) {
 TEST(ObserverOnASlope, WhereABodyTurnsRoundItDoesNotRest) {
   // Uphill at 0.2 m/s, then down again; at the turn a frame shows no speed at all.
   const double a_G = 0.7, a = a_G * kA / (1 + kA), turn = 0.2 / a;
-  const HardScene scene = slope(a_G, 0);
+  const Scene scene = slope(a_G, 0);
   const auto path = [&](double t) {
     return state_of(-0.2 * t + 0.5 * a * t * t, -0.2 + a * t, -0.2 + a * t);
   };
@@ -152,7 +152,7 @@ TEST(ObserverOnASlope, WhereABodyTurnsRoundItDoesNotRest) {
 TEST(ObserverOnASlope, RollingFrictionThatHoldsTheBodyStopsIt) {
   // Uphill: gravity and rolling friction both brake.
   const double a_G = 0.14, mu_r = 0.02, a = a_G * kA / (1 + kA) + mu_r * kG, stop = 0.2 / a;
-  const HardScene scene = slope(a_G, mu_r);
+  const Scene scene = slope(a_G, mu_r);
   const auto path = [&](double t) {
     const double s = std::min(t, stop);
     return state_of(-0.2 * s + 0.5 * a * s * s, -0.2 + a * s, -0.2 + a * s);
@@ -164,7 +164,7 @@ TEST(ObserverOnASlope, RollingFrictionThatHoldsTheBodyStopsIt) {
   EXPECT_NEAR(body.stopping_time, stop, 1e-12);
   EXPECT_NEAR(body.stopping_distance, 0.04 / (2 * a), a * step * step);
   // What cannot hold it lets it go at once.
-  const HardScene steep = slope(0.4, mu_r);
+  const Scene steep = slope(0.4, mu_r);
   Observer rolls_away(steep, 0, 0.2);
   rolls_away.take(0, on_plane(state_of(0, 0, 0)));
   EXPECT_FALSE(rolls_away.everything_rests());
@@ -173,7 +173,7 @@ TEST(ObserverOnASlope, RollingFrictionThatHoldsTheBodyStopsIt) {
 TEST(ObserverOnASlope, FindsTheEndOfASlideInsideAStep) {
   // Downhill without spin: v̇ = a_G − μ g, u̇ = a_G − (1+A) μ g.
   const double a_G = 0.5, v0 = 0.3, fall = (1 + kA) * kMu * kG - a_G, t_s = v0 / fall;
-  const HardScene scene = slope(a_G, 0);
+  const Scene scene = slope(a_G, 0);
   const auto path = [&](double t) {
     const double s = std::min(t, t_s), r = std::max(0.0, t - t_s);
     const double v = v0 + (a_G - kMu * kG) * s + a_G * kA / (1 + kA) * r;
@@ -186,7 +186,7 @@ TEST(ObserverOnASlope, FindsTheEndOfASlideInsideAStep) {
 }
 
 TEST(ObserverOfCoupledDrilling, SlipThatDiesOutHasEndedAtAMillionthOfTheScenesSpeed) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   BodyState slow = state_of(0, 0.1 + 0.9e-6 * 0.3, 0.1),
             faster = state_of(0, 0.1 + 1.1e-6 * 0.3, 0.1);
   for (BodyState* state : {&slow, &faster}) state->angular_velocity.z() = 10;

@@ -1,4 +1,4 @@
-#include "harness/observer.h"
+#include "harness/observe/observer.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "../scenes.h"
 #include "physics/closed_forms.h"
-#include "reference/event_solver.h"
+#include "reference/events/event_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -20,7 +20,7 @@ Frame on_plane(std::vector<BodyState> bodies) {
 }
 
 /// The reference's exact path, looked at once a step as an engine shows it.
-Observables sampled(const HardScene& scene, double step, double end) {
+Observables sampled(const Scene& scene, double step, double end) {
   Observer observer(scene, step, speed_scale(scene, scene.initial));
   observer.take(0, on_plane(scene.initial));
   bool collided = false;
@@ -37,7 +37,7 @@ Observables sampled(const HardScene& scene, double step, double end) {
 }
 
 TEST(Observer, FindsTheEndOfSlidingInsideAStep) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.initial[0].velocity = {0.3, 0.1, 0};
   const SlideToRoll exact(scene.bodies[0], 0.1, 9.81, scene.initial[0].velocity, Vector3::Zero());
   // Steps from a quarter to a thousandth of the slide, none a divisor of it.
@@ -53,7 +53,7 @@ TEST(Observer, FindsTheEndOfSlidingInsideAStep) {
 }
 
 TEST(Observer, FindsTheStopOfARollingBallInsideAStep) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].rolling = RollingFriction(0.02);
   scene.initial[0] = test::rolling_at(0, 0, 0.3, 0);
   const double a = 0.02 * 9.81;
@@ -66,7 +66,7 @@ TEST(Observer, FindsTheStopOfARollingBallInsideAStep) {
 }
 
 TEST(Observer, FindsTheEndOfASpinInsideAStep) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].drilling_length = 1e-5;
   scene.initial[0].angular_velocity.z() = -40;
   const double rate = 1e-5 * 9.81 / (0.4 * 0.002 * 0.002);
@@ -74,7 +74,7 @@ TEST(Observer, FindsTheEndOfASpinInsideAStep) {
 }
 
 TEST(Observer, SeesTheSameCollisionInStepsAndAtEvents) {
-  const HardScene scene = test::head_on(0.2, -0.1, 0.9);
+  const Scene scene = test::head_on(0.2, -0.1, 0.9);
   EventSolver solver(scene, scene.initial);
   Observer exact(scene, 0, 0.2);
   const EventRun run = solver.run({Run::Until::rolling, 0, 1}, &exact);
@@ -94,7 +94,7 @@ TEST(Observer, SeesTheSameCollisionInStepsAndAtEvents) {
 
 TEST(Observer, LeaningBallsDoNotCollide) {
   // A second, weak touch is no collision: it would start all counts anew.
-  const HardScene scene = test::head_on(0.15, -0.15, 0.9);
+  const Scene scene = test::head_on(0.15, -0.15, 0.9);
   Observer observer(scene, 1e-3, 0.15);
   std::vector<BodyState> s = scene.initial;
   observer.take(0, on_plane(s));
@@ -114,7 +114,7 @@ TEST(Observer, LeaningBallsDoNotCollide) {
 }
 
 TEST(Observer, JumpHasTheBallisticHeightAndTime) {
-  HardScene scene = test::head_on(0.3, 0, 0.9);
+  Scene scene = test::head_on(0.3, 0, 0.9);
   scene.pairs[0].friction = 0.05;
   scene.pairs[0].tangential_restitution = 0;
   EventSolver solver(scene, scene.initial);
@@ -130,7 +130,7 @@ TEST(Observer, JumpHasTheBallisticHeightAndTime) {
 }
 
 TEST(Observer, ABounceIsAJumpWithTheHeightOfItsSpeed) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].restitution = 0.8;
   scene.initial[0].position.z() = 0.002 + 0.05;
   EventSolver solver(scene, scene.initial);
@@ -147,7 +147,7 @@ TEST(Observer, ABounceIsAJumpWithTheHeightOfItsSpeed) {
 }
 
 TEST(Observer, EffectiveRestitutionOfACollisionThatAnotherInterruptsIsNotObserved) {
-  HardScene scene = test::steel_scene(3);
+  Scene scene = test::steel_scene(3);
   scene.initial = {test::rolling_at(-0.01, 0, 0.2, 0), test::rolling_at(0, 0, 0, 0),
                    test::rolling_at(0.006, 0, 0, 0)};
   EventSolver solver(scene, scene.initial);
@@ -164,7 +164,7 @@ TEST(Observer, EffectiveRestitutionIsNegativeWhereSpinsDriveThePairTogetherAgain
   // relative velocity on the way, (e_n + e_eff)/2 of the first, parts it: e_n > 1/(1+2A) = 1/6.
   // Below, hits follow each other while both slide, until the two lie together.
   const auto effective = [](double e_n) {
-    const HardScene scene = test::head_on(0.15, -0.15, e_n);
+    const Scene scene = test::head_on(0.15, -0.15, e_n);
     EventSolver solver(scene, scene.initial);
     Observer observer(scene, 0, 0.15);
     const EventRun run = solver.run({Run::Until::rolling, 0, 5}, &observer);
@@ -180,7 +180,7 @@ TEST(Observer, EffectiveRestitutionIsNegativeWhereSpinsDriveThePairTogetherAgain
 
 TEST(Observer, MemoryDoesNotGrowWithTheRun) {
   // By design: it holds two frames, whatever their number.
-  const HardScene scene = test::head_on(0.01, 0.01, 0.9);
+  const Scene scene = test::head_on(0.01, 0.01, 0.9);
   Observer observer(scene, 1e-3, 0.01);
   const Frame frame = on_plane(scene.initial);
   for (int n = 0; n < 100000; ++n) observer.take(1e-3 * n, frame);

@@ -1,4 +1,4 @@
-#include "harness/phases.h"
+#include "harness/run/phases.h"
 
 #include <gtest/gtest.h>
 

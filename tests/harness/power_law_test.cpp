@@ -1,4 +1,4 @@
-#include "harness/power_law.h"
+#include "harness/compare/power_law.h"
 
 #include <gtest/gtest.h>
 

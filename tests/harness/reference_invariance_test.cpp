@@ -39,10 +39,10 @@ void expect_agreement(const ReferenceResult& one, const ReferenceResult& other, 
 }
 
 TEST(ReferenceInvariance, APlaceFarAwayCostsDigitsInProportion) {
-  const HardScene scene = test::head_on(0.15, -0.15, 0.9);
+  const Scene scene = test::head_on(0.15, -0.15, 0.9);
   const ReferenceResult here = test::run_hard(scene, rolling(10), kPair);
   for (const double far : {1.0, 1e3}) {
-    HardScene moved = scene;
+    Scene moved = scene;
     for (BodyState& state : moved.initial) state.position += Vector3(far, -far, 0);
     // A gap of 6 mm between places of the size L has lost ε L/6 mm of itself, in a few roundings.
     const double lost = 8 * std::numeric_limits<double>::epsilon() * far / 0.006;
@@ -54,7 +54,7 @@ TEST(ReferenceInvariance, SmallBallsMeetWhereTheyTouchHoweverFarTheyCome) {
   // Radius r, from the distance d, straight on: after (d − 2r)/v, and e_eff is the closed form's.
   for (const double d : {1e-3, 1.0, 1e3}) {
     const double r = 1e-6, v = 1;
-    HardScene scene = test::head_on(v, 0, 0.9, d / 2);
+    Scene scene = test::head_on(v, 0, 0.9, d / 2);
     for (Sphere& sphere : scene.bodies) sphere.radius = r;
     scene.initial = {test::rolling_at(-d / 2, 0, v, 0, r), test::rolling_at(d / 2, 0, 0, 0, r)};
     const ReferenceResult result = test::run_hard(scene, rolling(2 * d + 10), kPair);
@@ -69,7 +69,7 @@ TEST(ReferenceInvariance, AFarObliqueMeetingHasItsLineOfCentres) {
   // Aside by b = r: n makes the angle asin(b/2r) = 30° with the way, so u_n' = −e u_n parts them
   // with e v cos 30°.
   const double r = 1e-6, d = 10, v = 1;
-  HardScene scene = test::steel_scene(2);
+  Scene scene = test::steel_scene(2);
   for (Sphere& sphere : scene.bodies) sphere.radius = r;
   scene.initial = {test::rolling_at(-d, r, v, 0, r), test::rolling_at(0, 0, 0, 0, r)};
   const ReferenceResult result = test::run_hard(scene, rolling(100), kPair);
@@ -84,7 +84,7 @@ TEST(ReferenceInvariance, AStrangerDoesNotChangeAPair) {
   // e_n = 0.5 rolls apart with (A e − 1)/(1 + A) of the approach; what is 1e-5 m/s here is below
   // 1e-6 of the stranger's speed.
   const double v = 1e-5, e_eff = (2.5 * 0.5 - 1) / 3.5;
-  HardScene scene = test::head_on(v, -v, 0.5);
+  Scene scene = test::head_on(v, -v, 0.5);
   const ReferenceResult alone = test::run_hard(scene, rolling(1e4), kPair);
   scene.bodies.push_back(scene.bodies[0]);
   scene.material.push_back(0);
@@ -96,7 +96,7 @@ TEST(ReferenceInvariance, AStrangerDoesNotChangeAPair) {
 }
 
 TEST(ReferenceInvariance, ALaterLimitCostsNothing) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.motion = SubstrateMotion::oscillation({0.01, 0}, 5, M_PI / 2);
   const RunEnd soon{Run::Until::time, 1, 1}, late{Run::Until::time, 1, 1e9};
   const ReferenceResult one = test::run_hard(scene, soon, {"i"});

@@ -26,7 +26,7 @@ TEST(ReferenceRun, UncertaintyIsOfRoundingAndCoversTheClosedForm) {
 
 TEST(ReferenceRun, AChaoticSceneSaysHowLittleItKnows) {
   // A ball into a tight rack: which of the simultaneous blows comes first is up to rounding.
-  HardScene scene = test::steel_scene(7);
+  Scene scene = test::steel_scene(7);
   scene.initial[0] = test::rolling_at(-0.02, 0, 0.5, 0);
   std::size_t n = 1;
   for (int row = 0; row < 3; ++row)
@@ -60,7 +60,7 @@ TEST(ReferenceRun, SoftContactsHaveTheUncertaintyOfTheIntegration) {
 
 TEST(ReferenceRun, ANaNIsAFailureAndNotNothing) {
   // A ball that spins on the spot, at no number of turns.
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.initial[0] = test::rolling_at(0, 0, 0, 0);
   scene.initial[0].angular_velocity.z() = std::sqrt(-scene.gravity);
   const ReferenceResult result = test::run_hard(scene, {Run::Until::time, 1, 1}, {"i"});
@@ -114,7 +114,7 @@ TEST(ReferenceRun, WarnsOfCollapseAndOfRunsThatDoNotEnd) {
       test::run_hard(test::head_on(0.15, -0.15, 0.2), {Run::Until::rolling, 0, 10}, {"i", "j"});
   ASSERT_EQ(collapse.warnings.size(), 1u);
   EXPECT_NE(collapse.warnings[0].find("inelastic collapse"), std::string::npos);
-  HardScene frictionless = test::steel_scene(1);
+  Scene frictionless = test::steel_scene(1);
   frictionless.substrate[0].kinetic_friction = 0;
   frictionless.initial[0].velocity.x() = 1;
   const ReferenceResult endless = test::run_hard(frictionless, {Run::Until::rolling, 0, 2}, {"i"});

@@ -1,4 +1,4 @@
-#include "harness/requested_runs.h"
+#include "harness/run/requested_runs.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "engine/protocol.h"
-#include "harness/engine_grid.h"
+#include "harness/run/engine_grid.h"
 #include "scenario/fault.h"
 #include "scenario/load.h"
 
@@ -184,7 +184,7 @@ TEST_F(RequestedRunsTest, EverythingThatIsWrongIsToldAtOnceAndOnce) {
 TEST_F(RequestedRunsTest, MoreBodiesThanAMessageHoldsAreRefused) {
   // What each further body adds to the longest message, of 64 MiB at most.
   const auto bytes = [](std::size_t bodies) {
-    HardScene scene;
+    Scene scene;
     scene.bodies.assign(bodies, {0.1, 1.0 / 3, 0.4});
     scene.material.assign(bodies, 0);
     scene.initial.resize(bodies);

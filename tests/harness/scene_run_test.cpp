@@ -1,4 +1,4 @@
-#include "harness/scene_run.h"
+#include "harness/run/scene_run.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 
 #include "engine/profile.h"
 #include "scenario/fault.h"
-#include "scenario/hard_scene.h"
 #include "scenario/load.h"
+#include "scene/scene.h"
 
 namespace slipcheck {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../support/extremes.h"
-#include "harness/scene_run.h"
+#include "harness/run/scene_run.h"
 #include "scenario/load.h"
 
 namespace slipcheck {

@@ -1,4 +1,4 @@
-#include "harness/steady_state.h"
+#include "harness/observe/steady_state.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/engine_run.h"
-#include "harness/reference_run.h"
+#include "harness/run/engine_run.h"
+#include "harness/run/reference_run.h"
 #include "reference/box_solver.h"
 #include "scenario/load.h"
 

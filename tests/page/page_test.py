@@ -23,7 +23,7 @@ def run(*command, accepted=(0,)):
 
 def make_fixture(node, modules, page):
     script = modules.parent / "page.js"
-    run(node, HERE / "fixture.mjs", script, page, SOURCE / "core/report/page.css")
+    run(node, HERE / "fixture.mjs", script, page, SOURCE / "core/report/html/page.css")
 
 
 def make_report(slipcheck, folder, page):

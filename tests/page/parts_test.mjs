@@ -2,12 +2,12 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { deflateSync } from 'node:zlib';
-import { count_of, read_data, values_of } from '../../core/report/page/src/data.js';
-import { escaped, number_text, prefixed, quantity_text } from '../../core/report/page/src/dom.js';
-import { empty_filter, name_passes, run_passes, scene_passes } from '../../core/report/page/src/filter.js';
-import { between, between_periodic, end_of, frame_at, orientations, turned } from '../../core/report/page/src/motion.js';
-import { border_of, borders_of, floor_of, range_of } from '../../core/report/page/src/scales.js';
-import { number_of, sorted_order } from '../../core/report/page/src/sort.js';
+import { count_of, read_data, values_of } from '../../core/report/html/page/src/data.js';
+import { escaped, number_text, prefixed, quantity_text } from '../../core/report/html/page/src/dom.js';
+import { empty_filter, name_passes, run_passes, scene_passes } from '../../core/report/html/page/src/filter.js';
+import { between, between_periodic, end_of, frame_at, orientations, turned } from '../../core/report/html/page/src/motion.js';
+import { border_of, borders_of, floor_of, range_of } from '../../core/report/html/page/src/scales.js';
+import { number_of, sorted_order } from '../../core/report/html/page/src/sort.js';
 
 const close = (a, b, tolerance = 1e-12) => assert(Math.abs(a - b) <= tolerance, `${a} is not ${b}`);
 

@@ -1,4 +1,4 @@
-#include "physics/collision.h"
+#include "physics/contact/collision.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "physics/coupled_friction.h"
+#include "physics/contact/coupled_friction.h"
 
 #include <gtest/gtest.h>
 

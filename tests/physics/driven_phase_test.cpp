@@ -1,4 +1,4 @@
-#include "physics/driven_phase.h"
+#include "physics/motion/driven_phase.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "integration.h"
-#include "physics/driven_phase.h"
+#include "physics/motion/driven_phase.h"
 
 // A sphere on a tilted or moving substrate, followed by phases and by the laws themselves.
 

@@ -11,11 +11,11 @@
 
 #include "integration.h"
 #include "physics/closed_forms.h"
-#include "physics/collision.h"
-#include "physics/elastic_pair.h"
-#include "physics/normal_force.h"
-#include "physics/pair_insight.h"
-#include "physics/tangential_force.h"
+#include "physics/contact/collision.h"
+#include "physics/contact/elastic_pair.h"
+#include "physics/contact/normal_force.h"
+#include "physics/contact/pair_insight.h"
+#include "physics/contact/tangential_force.h"
 #include "soft_pair.h"
 
 namespace slipcheck {

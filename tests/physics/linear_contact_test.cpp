@@ -1,4 +1,4 @@
-#include "physics/linear_contact.h"
+#include "physics/contact/linear_contact.h"
 
 #include <gtest/gtest.h>
 

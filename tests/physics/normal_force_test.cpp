@@ -1,12 +1,12 @@
-#include "physics/normal_force.h"
+#include "physics/contact/normal_force.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "physics/elastic_pair.h"
-#include "physics/tabulated_restitution.h"
+#include "physics/contact/elastic_pair.h"
+#include "physics/contact/tabulated_restitution.h"
 
 namespace slipcheck {
 namespace {

@@ -1,4 +1,4 @@
-#include "physics/pair_insight.h"
+#include "physics/contact/pair_insight.h"
 
 #include <gtest/gtest.h>
 

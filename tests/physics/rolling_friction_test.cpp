@@ -1,4 +1,4 @@
-#include "physics/rolling_friction.h"
+#include "physics/contact/rolling_friction.h"
 
 #include <gtest/gtest.h>
 

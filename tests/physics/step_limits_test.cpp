@@ -1,4 +1,4 @@
-#include "physics/step_limits.h"
+#include "physics/contact/step_limits.h"
 
 #include <gtest/gtest.h>
 

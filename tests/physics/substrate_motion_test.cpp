@@ -1,4 +1,4 @@
-#include "physics/substrate_motion.h"
+#include "physics/motion/substrate_motion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "physics/substrate_phase.h"
+#include "physics/motion/substrate_phase.h"
 
 #include <gtest/gtest.h>
 

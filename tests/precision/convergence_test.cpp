@@ -1,4 +1,4 @@
-#include "precision/convergence.h"
+#include "studies/precision/convergence.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "precision/pareto.h"
+#include "studies/precision/pareto.h"
 
 #include <gtest/gtest.h>
 

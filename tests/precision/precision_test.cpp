@@ -1,4 +1,4 @@
-#include "precision/precision.h"
+#include "studies/precision/precision.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "precision/precision_errors.h"
 #include "scenario/fault.h"
 #include "scenario/load.h"
+#include "studies/precision/precision_errors.h"
 
 namespace slipcheck {
 namespace {

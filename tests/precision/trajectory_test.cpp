@@ -1,4 +1,4 @@
-#include "precision/trajectory.h"
+#include "studies/precision/trajectory.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "../scenes.h"
-#include "precision/sampled_path.h"
+#include "studies/precision/sampled_path.h"
 
 namespace slipcheck {
 namespace {

@@ -1,4 +1,4 @@
-#include "precision/work_cost.h"
+#include "studies/precision/work_cost.h"
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "precision/pinned_thread.h"
+#include "studies/precision/pinned_thread.h"
 
 namespace slipcheck {
 namespace {

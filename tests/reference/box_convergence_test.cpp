@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "../support/extremes.h"
-#include "harness/box_observer.h"
-#include "reference/planar_solver.h"
+#include "harness/observe/box_observer.h"
+#include "reference/events/planar_solver.h"
 #include "soft_box_scenes.h"
 
 namespace slipcheck {
@@ -89,7 +89,7 @@ struct Averages {
 };
 
 template <class Solver, class Count>
-Averages averages(const HardScene& scene, Solver& solver, std::size_t periods, Count count) {
+Averages averages(const Scene& scene, Solver& solver, std::size_t periods, Count count) {
   BoxSampling sampling;
   sampling.discard = 150;
   BoxObserver observer(scene, sampling, count);

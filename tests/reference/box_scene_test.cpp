@@ -5,9 +5,9 @@
 #include <string>
 
 #include "../scenario/scenes.h"
-#include "physics/elastic_pair.h"
-#include "reference/contact_scene.h"
-#include "reference/impact.h"
+#include "physics/contact/elastic_pair.h"
+#include "scene/contact_scene.h"
+#include "scene/impact.h"
 
 // Scenes in a box: its surfaces are flat and do not give way.
 
@@ -183,11 +183,11 @@ TEST(BoxScene, BundledScenesOfManyBodiesAreMade) {
   }
   EXPECT_TRUE(made("box-one-ball").hard.box->floor.is_still());
   // "0.9 or so at 1 m/s".
-  const HardScene viscoelastic = made("box-viscoelastic").hard;
+  const Scene viscoelastic = made("box-viscoelastic").hard;
   EXPECT_NEAR(restitution_at(viscoelastic.between(0, 1).restitution, 1), 0.9, 0.02);
   EXPECT_NEAR(restitution_at(viscoelastic.box->on_floor[0].restitution, 1), 0.9, 0.02);
   for (const char* name : {"gas-rolling", "gas-oscillating"}) {
-    const HardScene gas = made(name).hard;
+    const Scene gas = made(name).hard;
     EXPECT_EQ(gas.bodies.size(), 200u);
     EXPECT_EQ(gas.periodic, Vector2(0.16, 0.16));
     // "0.098 of the cell".

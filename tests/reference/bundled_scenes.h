@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/observer.h"
-#include "harness/reference_run.h"
+#include "harness/observe/observer.h"
+#include "harness/run/reference_run.h"
 #include "reference/reference_solver.h"
 #include "scenario/load.h"
 
@@ -47,7 +47,7 @@ inline Played play(const Scenario& scenario, Compare::Reference asked) {
   Played played;
   played.scene = make_contact_scene(scenario);
   const ReferenceSolver solver(played.scene, asked);
-  const HardScene& hard = solver.scene().hard;
+  const Scene& hard = solver.scene().hard;
   Observer observer(hard, 0, speed_scale(hard, hard.initial), solver.is_resolved());
   played.run = solver.run(run_end(scenario), &observer);
   played.seen = named_values(observer.finish(played.run.end_time), body_names(scenario));

@@ -1,4 +1,4 @@
-#include "reference/cell_grid.h"
+#include "reference/events/cell_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "reference/contact_scene.h"
+#include "scene/contact_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "../scenario/scenes.h"
-#include "physics/elastic_pair.h"
-#include "physics/linear_contact.h"
-#include "reference/impact.h"
+#include "physics/contact/elastic_pair.h"
+#include "physics/contact/linear_contact.h"
 #include "scenario/fault.h"
+#include "scene/impact.h"
 
 namespace slipcheck {
 namespace {
@@ -298,7 +298,7 @@ TEST(ContactScene, TakesTiltMotionCoupledDrillingAndRollingWhileSliding) {
 
 TEST(ContactScene, TakesPeriodicSubstrates) {
   EXPECT_TRUE(scene_of(kHard).hard.periodic.isZero(0));
-  const HardScene scene =
+  const Scene scene =
       scene_of(with(with(kHard, "substrate: {}", "substrate: {periodic: [3, 800 mm]}"),
                     "position: [1, 0]", "position: [-100, 7.4]"))
           .hard;

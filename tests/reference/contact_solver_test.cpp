@@ -1,4 +1,4 @@
-#include "reference/contact_solver.h"
+#include "reference/forces/contact_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -38,8 +38,8 @@ struct Film final : FrameSink {
   }
 };
 
-HardScene free_pair(double v_i, double v_j) {
-  HardScene scene = test::head_on(v_i, v_j, 0.9);
+Scene free_pair(double v_i, double v_j) {
+  Scene scene = test::head_on(v_i, v_j, 0.9);
   scene.gravity = 0;
   scene.substrate[0] = {};
   for (BodyState& state : scene.initial) state.angular_velocity.setZero();
@@ -67,7 +67,7 @@ TEST(ContactSolver, K2FreePairPartsWithItsRestitutionAfterItsTime) {
 
 TEST(ContactSolver, AGapOfRoundOffBetweenBallsAtRestTakesNoTime) {
   // Looked at as if friction could close it at any moment, a minute would take ten billion looks.
-  HardScene hard = test::head_on(0, 0, 0.9);
+  Scene hard = test::head_on(0, 0, 0.9);
   hard.initial[1].position = hard.initial[0].position;
   hard.initial[1].position.x() += 2 * hard.bodies[0].radius * (1 + 8e-15);
   for (BodyState& state : hard.initial) state.angular_velocity.setZero();
@@ -81,7 +81,7 @@ TEST(ContactSolver, AGapOfRoundOffBetweenBallsAtRestTakesNoTime) {
 
 TEST(ContactSolver, AGapOfRoundOffBesideBallsThatLeanTakesNoTime) {
   // One ball stands on another; beside it a third one that nothing pushes.
-  HardScene hard = test::steel_scene(3);
+  Scene hard = test::steel_scene(3);
   const double radius = hard.bodies[0].radius;
   hard.initial[1].position = Vector3(2 * radius * (1 + 8e-15), 0, radius);
   hard.initial[2].position = Vector3(0, 0, 3 * radius);
@@ -114,7 +114,7 @@ TEST(ContactSolver, KD1ToD4SubstrateFrictionLengthensTheCollision) {
   Film film;
   solver.run(kRolling, &film);
   EXPECT_NEAR(film.duration() / 2.55e-5 - 1, 1.01e-4, 0.08e-4);
-  HardScene elastic = test::head_on(0.05, -0.05, 1.0);
+  Scene elastic = test::head_on(0.05, -0.05, 1.0);
   const ContactScene undamped = test::soft(elastic);
   ContactSolver second(undamped, undamped.hard.initial);
   Film other;
@@ -125,7 +125,7 @@ TEST(ContactSolver, KD1ToD4SubstrateFrictionLengthensTheCollision) {
 
 TEST(ContactSolver, K34SlidingStartsAtTmin) {
   // Without damping x(t) = (v/ω0) sin ω0 t passes x_min = 2 (1+A) μ_s g/ω0² at 2.27e-8 s.
-  HardScene hard = test::head_on(0.05, -0.05, 1.0);
+  Scene hard = test::head_on(0.05, -0.05, 1.0);
   const ContactScene scene = test::soft(hard, M_PI / 1.2327e5);
   ContactSolver solver(scene, scene.hard.initial);
   Film film;
@@ -147,7 +147,7 @@ TEST(ContactSolver, K34SlidingStartsAtTmin) {
 TEST(ContactSolver, K55CappedRubbingTurnsBothBy0113) {
   // γ_S = γ_N/2, ν_s = 0.5, confined, on a frictionless substrate so that the rubbing acts alone.
   // 0.113 is with K's clamp at the end of the contact and γ_N of zero_overlap.
-  HardScene hard = test::head_on(0.1, 0, 0.9);
+  Scene hard = test::head_on(0.1, 0, 0.9);
   hard.confined = true;
   hard.substrate[0].kinetic_friction = hard.substrate[0].static_friction = 0;
   const LinearContact law = LinearContact::with_collision_time(
@@ -173,7 +173,7 @@ TEST(ContactSolver, K55CappedRubbingTurnsBothBy0113) {
 
 TEST(ContactSolver, AgreesWithTheEventSolverToTheShareOfTheContactInTheSlide) {
   // The difference is O(t_col/t^s) and falls with the collision time.
-  const HardScene hard = test::head_on(0.15, -0.15, 0.9);
+  const Scene hard = test::head_on(0.15, -0.15, 0.9);
   const HeadOnCollision closed{2.5, 0.9};
   double last = 0;
   for (const double t_col : {4e-5, 2e-5, 1e-5}) {
@@ -193,7 +193,7 @@ TEST(ContactSolver, AgreesWithTheEventSolverToTheShareOfTheContactInTheSlide) {
 }
 
 TEST(ContactSolver, HardPairsCollideAtAnInstantAsInTheEventSolver) {
-  const HardScene hard = test::head_on(0.2, -0.1, 0.8);
+  const Scene hard = test::head_on(0.2, -0.1, 0.8);
   const ContactScene scene = with_hard_contacts(hard);
   ContactSolver solver(scene, hard.initial);
   EventSolver exact(hard, hard.initial);
@@ -208,7 +208,7 @@ TEST(ContactSolver, HardPairsCollideAtAnInstantAsInTheEventSolver) {
 
 TEST(ContactSolver, AGrazeShorterThanAStepIsNotMissed) {
   // Two balls pass and overlap by a millionth of their radius, for 1e-5 of the flight.
-  HardScene hard = free_pair(1, -1);
+  Scene hard = free_pair(1, -1);
   const double reach = 2 * 0.002 - 2e-9;
   hard.initial[0].position.y() = reach / 2;
   hard.initial[1].position.y() = -reach / 2;
@@ -223,7 +223,7 @@ TEST(ContactSolver, AGrazeShorterThanAStepIsNotMissed) {
 
 TEST(ContactSolver, KAppFLiftedStrikerFliesAndLands) {
   // Strong rubbing lifts the striker: ballistic flight from its speed at the end of the contact.
-  HardScene hard = test::head_on(0.3, 0, 0.9);
+  Scene hard = test::head_on(0.3, 0, 0.9);
   const ContactScene scene =
       test::soft(hard, 2.55e-5, ContactEnd::zero_overlap, ViscousForce{4, 0.1});
   ContactSolver solver(scene, scene.hard.initial);
@@ -247,7 +247,7 @@ TEST(ContactSolver, SpinAboutTheVerticalShearsAnObliqueHit) {
   // Two free balls, sticking never reached: the shear impulse is ν_s times the normal one, against
   // R Ω_z at the contact. L (5)-(12), sliding; the line of centres turns by a little, which sets
   // the error.
-  HardScene hard = free_pair(0.1, -0.1);
+  Scene hard = free_pair(0.1, -0.1);
   hard.initial[0].angular_velocity.z() = 200;
   const ContactScene scene =
       test::soft(hard, 1e-6, ContactEnd::zero_overlap, ViscousForce{1e3, 0.05});
@@ -264,7 +264,7 @@ TEST(ContactSolver, SpinAboutTheVerticalShearsAnObliqueHit) {
 
 TEST(ContactSolver, BallsThatComeToRestAgainstEachOtherEndTheRun) {
   // The struck ball brakes harder than the striker, which leans on it until both rest.
-  HardScene hard = test::head_on(0.05, 0, 0.05);
+  Scene hard = test::head_on(0.05, 0, 0.05);
   hard.substrate.push_back(hard.substrate[0]);
   hard.substrate[0].rolling = RollingFriction(0.002);
   hard.substrate[1].rolling = RollingFriction(0.3);
@@ -280,12 +280,12 @@ TEST(ContactSolver, BallsThatComeToRestAgainstEachOtherEndTheRun) {
 }
 
 TEST(ContactSolver, TurnedSceneTurnsItsResult) {
-  HardScene hard = test::head_on(0.2, -0.1, 0.9);
+  Scene hard = test::head_on(0.2, -0.1, 0.9);
   hard.initial[1].position.y() = 0.0011;
   const ViscousForce rough{2, 0.3};
   const ContactScene straight = test::soft(hard, 2.55e-5, ContactEnd::zero_overlap, rough);
   const Eigen::AngleAxisd turn(0.7, kUp);
-  HardScene turned_hard = hard;
+  Scene turned_hard = hard;
   for (BodyState& state : turned_hard.initial) {
     state.position = turn * state.position;
     state.velocity = turn * state.velocity;

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "../physics/integration.h"
-#include "physics/coupled_friction.h"
-#include "reference/contact_solver.h"
+#include "physics/contact/coupled_friction.h"
+#include "reference/forces/contact_solver.h"
 #include "soft_scenes.h"
 
 // One ball on a substrate that is tilted, moves, or rubs in other ways than plainly.
@@ -26,7 +26,7 @@ BodyState state_after(const ContactScene& scene, double time) {
   return solver.states()[0];
 }
 
-void tilt(HardScene& scene, double angle) {
+void tilt(Scene& scene, double angle) {
   scene.gravity = kG * std::cos(angle);
   scene.downhill = {0, -kG * std::sin(angle)};
 }

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "physics/numbers.h"
-#include "reference/calendar_queue.h"
-#include "reference/indexed_heap.h"
+#include "reference/events/calendar_queue.h"
+#include "reference/events/indexed_heap.h"
 
 namespace slipcheck {
 namespace {

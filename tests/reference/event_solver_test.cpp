@@ -1,4 +1,4 @@
-#include "reference/event_solver.h"
+#include "reference/events/event_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ struct Recorder final : FrameSink {
 
 TEST(EventSolver, SymmetricPairEndsAsTheClosedFormSays) {
   for (double e : {0.5, 0.7, 0.9, 1.0}) {
-    const HardScene scene = test::head_on(0.15, -0.15, e);
+    const Scene scene = test::head_on(0.15, -0.15, e);
     EventSolver solver(scene, scene.initial);
     Recorder seen;
     const EventRun run = solver.run(kRolling, &seen);
@@ -45,7 +45,7 @@ TEST(EventSolver, SymmetricPairEndsAsTheClosedFormSays) {
 }
 
 TEST(EventSolver, FramesComeBeforeAndAfterEachEvent) {
-  const HardScene scene = test::head_on(0.15, -0.15, 0.9);
+  const Scene scene = test::head_on(0.15, -0.15, 0.9);
   EventSolver solver(scene, scene.initial);
   Recorder seen;
   solver.run(kRolling, &seen);
@@ -60,7 +60,7 @@ TEST(EventSolver, FramesComeBeforeAndAfterEachEvent) {
 
 /// Two balls by small steps: semi-implicit Euler with hard collisions where they overlap. Its error
 /// is of first order in the step and vanishes with it; shares nothing with the solver.
-std::vector<BodyState> stepped(const HardScene& scene, double end, double h) {
+std::vector<BodyState> stepped(const Scene& scene, double end, double h) {
   std::vector<BodyState> s = scene.initial;
   const auto n_steps = static_cast<long>(std::llround(end / h));
   const double R = scene.bodies[0].radius, A = scene.bodies[0].inverse_shape_factor();
@@ -94,7 +94,7 @@ std::vector<BodyState> stepped(const HardScene& scene, double end, double h) {
 }
 
 TEST(EventSolver, ObliqueCollisionWithRollingFrictionMatchesSmallSteps) {
-  HardScene scene = test::steel_scene(2);
+  Scene scene = test::steel_scene(2);
   scene.substrate[0].rolling = RollingFriction({{0, 0.004}, {0.2, 0.02}, {0.4, 0.01}});
   scene.initial = {test::rolling_at(-0.02, 0.001, 0.3, 0), test::rolling_at(0, 0, -0.1, 0.05)};
   const double end = 0.6;
@@ -117,7 +117,7 @@ TEST(EventSolver, ObliqueCollisionWithRollingFrictionMatchesSmallSteps) {
 TEST(EventSolver, CollisionOnASpeedDependentRollPathIsFoundWhereItIs) {
   // A ball that slows down on a sloping table towards one at rest: the time is the root of
   // x(t) = gap with x from an independent integration.
-  HardScene scene = test::steel_scene(2);
+  Scene scene = test::steel_scene(2);
   scene.substrate[0].rolling = RollingFriction({{0, 0.001}, {1, 0.05}});
   scene.initial = {test::rolling_at(-0.1, 0, 0.5, 0), test::rolling_at(0, 0, 0, 0)};
   const double t = EventSolver(scene, scene.initial).first_contact(10);
@@ -129,7 +129,7 @@ TEST(EventSolver, CollisionOnASpeedDependentRollPathIsFoundWhereItIs) {
 }
 
 TEST(EventSolver, BallThatStopsShortOfAnotherDoesNotCollide) {
-  HardScene scene = test::steel_scene(2);
+  Scene scene = test::steel_scene(2);
   scene.substrate[0].rolling = RollingFriction(0.05);
   // It rolls v²/(2 μ_r g) = 0.0917 m of the 0.096 m to the contact.
   scene.initial = {test::rolling_at(-0.1, 0, 0.3, 0), test::rolling_at(0, 0, 0, 0)};
@@ -143,7 +143,7 @@ TEST(EventSolver, BallThatStopsShortOfAnotherDoesNotCollide) {
 
 TEST(EventSolver, BallThatSlowsDownForEverNeverReachesAnother) {
   // μ_r = c v: v falls as e^(−c g t), the ball ends v/(c g) = 2 cm on, 8 cm short.
-  HardScene scene = test::steel_scene(2);
+  Scene scene = test::steel_scene(2);
   scene.substrate[0].rolling = RollingFriction({{0, 0}, {1, 0.05}});
   scene.initial = {test::rolling_at(-0.1, 0, 0.01, 0), test::rolling_at(0, 0, 0, 0)};
   EventSolver solver(scene, scene.initial);
@@ -157,7 +157,7 @@ TEST(EventSolver, BallThatSlowsDownForEverNeverReachesAnother) {
 
 TEST(EventSolver, RollingRunDoesNotEndBeforeTheLastCollision) {
   // Both roll from the start; they must still meet.
-  const HardScene scene = test::head_on(0.01, -0.01, 0.9, 0.5);
+  const Scene scene = test::head_on(0.01, -0.01, 0.9, 0.5);
   EventSolver solver(scene, scene.initial);
   EXPECT_NEAR(solver.next_collision(1000), (1 - 0.004) / 0.02, 1e-10);
   RunEnd end = kRolling;
@@ -166,7 +166,7 @@ TEST(EventSolver, RollingRunDoesNotEndBeforeTheLastCollision) {
 }
 
 TEST(EventSolver, RunThatCannotEndSaysWhy) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].kinetic_friction = 0;
   scene.initial[0].velocity.x() = 1;
   EventSolver solver(scene, scene.initial);
@@ -177,7 +177,7 @@ TEST(EventSolver, RunThatCannotEndSaysWhy) {
 }
 
 TEST(EventSolver, ZeroLengthRunAndRunToATime) {
-  const HardScene scene = test::head_on(0.15, -0.15, 0.9);
+  const Scene scene = test::head_on(0.15, -0.15, 0.9);
   EventSolver at_once(scene, scene.initial);
   EXPECT_TRUE(at_once.run(until(0), nullptr).reached);
   EXPECT_EQ(at_once.states()[0].position.x(), -0.005);
@@ -188,7 +188,7 @@ TEST(EventSolver, ZeroLengthRunAndRunToATime) {
 
 TEST(EventSolver, InelasticCollapseEndsAndIsCounted) {
   // e_n < 1/A: the spins drive the balls together again and again.
-  const HardScene scene = test::head_on(0.15, -0.15, 0.2);
+  const Scene scene = test::head_on(0.15, -0.15, 0.2);
   EventSolver solver(scene, scene.initial);
   const EventRun run = solver.run(kRolling, nullptr);
   EXPECT_TRUE(run.reached) << run.reason;
@@ -201,7 +201,7 @@ TEST(EventSolver, InelasticCollapseEndsAndIsCounted) {
 
 TEST(EventSolver, EventLimitIsAnErrorNotALoop) {
   // Nothing keeps the collapse finite: the spins press the balls together at one instant.
-  const HardScene scene = test::head_on(0.15, -0.15, 0.0);
+  const Scene scene = test::head_on(0.15, -0.15, 0.0);
   EventSettings settings;
   settings.collapse_fraction = 0;
   settings.burst = 100;
@@ -214,7 +214,7 @@ TEST(EventSolver, EventLimitIsAnErrorNotALoop) {
 }
 
 TEST(EventSolver, BouncingBallFollowsTheGeometricSeries) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].restitution = 0.5;
   scene.initial[0].position.z() = 0.002 + 0.1;
   EventSolver solver(scene, scene.initial);
@@ -227,7 +227,7 @@ TEST(EventSolver, BouncingBallFollowsTheGeometricSeries) {
 
 TEST(EventSolver, StrikerIsLiftedFliesAndLandsWhereTheBallisticsSay) {
   // K App. F: the struck ball is pressed down, the striker lifted.
-  HardScene scene = test::head_on(0.3, 0, 0.9);
+  Scene scene = test::head_on(0.3, 0, 0.9);
   scene.pairs[0].friction = 0.05;
   scene.pairs[0].tangential_restitution = 0;
   EventSolver solver(scene, scene.initial);
@@ -253,8 +253,8 @@ TEST(EventSolver, StrikerIsLiftedFliesAndLandsWhereTheBallisticsSay) {
 
 TEST(EventSolver, AZeroFeatureChangesNoBit) {
   // A table of zeros, a drilling without a spin, and a substrate restitution that nothing falls on.
-  HardScene plain = test::head_on(0.2, -0.1, 0.9);
-  HardScene general = plain;
+  Scene plain = test::head_on(0.2, -0.1, 0.9);
+  Scene general = plain;
   general.substrate[0].rolling = RollingFriction({{0, 0}, {1, 0}});
   general.substrate[0].drilling_length = 1e-5;
   general.substrate[0].restitution = 0.5;

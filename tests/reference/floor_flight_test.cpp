@@ -1,4 +1,4 @@
-#include "reference/floor_flight.h"
+#include "reference/forces/floor_flight.h"
 
 #include <gtest/gtest.h>
 

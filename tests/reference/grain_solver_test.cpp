@@ -1,4 +1,4 @@
-#include "reference/grain_solver.h"
+#include "reference/steps/grain_solver.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
@@ -9,8 +9,8 @@
 
 #include "../support/extremes.h"
 #include "planar_scenes.h"
-#include "reference/grain_scene.h"
-#include "reference/step_solver.h"
+#include "reference/steps/grain_scene.h"
+#include "reference/steps/step_solver.h"
 #include "step_scenes.h"
 
 namespace slipcheck {
@@ -32,7 +32,7 @@ std::string name_of(const testing::TestParamInfo<Laws>& info) { return info.para
 
 /// Steel balls that fly into each other from a jittered lattice, fast and with spins.
 ContactScene cluster(const Laws& laws, std::size_t side) {
-  HardScene hard = steel_scene(side * side);
+  Scene hard = steel_scene(side * side);
   hard.confined = true;
   if (!laws.on_plane) hard.substrate[0].static_friction = hard.substrate[0].kinetic_friction = 0;
   std::mt19937_64 random(7);

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "../scenario/scenes.h"
-#include "reference/contact_scene.h"
+#include "scene/contact_scene.h"
 
 namespace slipcheck {
 namespace {
@@ -12,7 +12,7 @@ using testing::kExample;
 using testing::kHard;
 using testing::with;
 
-HardScene hard_scene(const std::string& text) {
+Scene hard_scene(const std::string& text) {
   return make_contact_scene(parse_scenario(text, "s.yaml")).hard;
 }
 
@@ -25,13 +25,12 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
-TEST(HardScene, HasTheNumbersOfTheScenario) {
-  const HardScene scene =
-      hard_scene(with(kHard, "friction: 0.2",
-                      "friction: {static: 0.3, kinetic: 0.2}\n"
-                      "    rolling: [[0, 0.1], [1, 0.2]]\n"
-                      "    drilling: {model: uncoupled, contact_radius: 0.003}\n"
-                      "    restitution: 0.4"));
+TEST(Scene, HasTheNumbersOfTheScenario) {
+  const Scene scene = hard_scene(with(kHard, "friction: 0.2",
+                                      "friction: {static: 0.3, kinetic: 0.2}\n"
+                                      "    rolling: [[0, 0.1], [1, 0.2]]\n"
+                                      "    drilling: {model: uncoupled, contact_radius: 0.003}\n"
+                                      "    restitution: 0.4"));
   ASSERT_EQ(scene.bodies.size(), 2u);
   EXPECT_EQ(scene.bodies[0].radius, 0.1);
   EXPECT_EQ(scene.initial[1].velocity, Vector3(-1, 0, 0));
@@ -50,27 +49,27 @@ TEST(HardScene, HasTheNumbersOfTheScenario) {
   EXPECT_EQ(pair.tangential_restitution, 0.5);
 }
 
-TEST(HardScene, WithoutTangentialModelIsSmooth) {
-  const HardScene scene =
+TEST(Scene, WithoutTangentialModelIsSmooth) {
+  const Scene scene =
       hard_scene(with(kHard, "{model: hard, friction: 0.1, tangential_restitution: 0.5}", "none"));
   EXPECT_EQ(scene.between(0, 1).friction, 0);
   EXPECT_EQ(scene.between(0, 1).tangential_restitution, -1);
 }
 
-TEST(HardScene, PassesThePowerLawOn) {
-  const HardScene scene =
+TEST(Scene, PassesThePowerLawOn) {
+  const Scene scene =
       hard_scene(with(kHard, "restitution: 0.9", "restitution: {bridges: {speed: 2 cm/s}}"));
   EXPECT_EQ(std::get<PowerLawRestitution>(scene.between(0, 1).restitution).speed, 0.02);
 }
 
-TEST(HardScene, SplitsAMaterialWhereTheContactRadiusIsHertzian) {
+TEST(Scene, SplitsAMaterialWhereTheContactRadiusIsHertzian) {
   std::string text =
       with(kHard, "{density: 7850}", "{density: 7850, young_modulus: 2e11, poisson_ratio: 0.3}");
   text = with(text, "friction: 0.2",
               "friction: 0.2\n    drilling: {model: uncoupled, contact_radius: hertz}");
   EXPECT_EQ(hard_scene(text).substrate.size(), 1u);
   text = with(text, "radius: 0.1", "radius: 0.2");
-  const HardScene scene = hard_scene(text);
+  const Scene scene = hard_scene(text);
   ASSERT_EQ(scene.substrate.size(), 2u);
   for (const std::size_t i : {0u, 1u}) {
     // Hertz, sphere on a rigid plane: F = (4/3) E* a³/R with E* = Y/(1 − ν²).
@@ -84,7 +83,7 @@ TEST(HardScene, SplitsAMaterialWhereTheContactRadiusIsHertzian) {
   }
 }
 
-TEST(HardScene, NeedsNoPairContactForASingleBody) {
+TEST(Scene, NeedsNoPairContactForASingleBody) {
   std::string text =
       with(kHard,
            "  - between: [steel, steel]\n    normal: {model: hard, restitution: 0.9}\n"
@@ -97,16 +96,16 @@ TEST(HardScene, NeedsNoPairContactForASingleBody) {
   EXPECT_EQ(hard_scene(text).between(0, 0).friction, 0);
 }
 
-TEST(HardScene, GravityIsTurnedByTheTilt) {
-  const HardScene level = hard_scene(kHard);
+TEST(Scene, GravityIsTurnedByTheTilt) {
+  const Scene level = hard_scene(kHard);
   EXPECT_EQ(level.downhill, Vector2(0, 0));
-  const HardScene scene = hard_scene(with(kHard, "substrate: {}", "substrate: {tilt: 30}"));
+  const Scene scene = hard_scene(with(kHard, "substrate: {}", "substrate: {tilt: 30}"));
   EXPECT_NEAR(scene.gravity, 9.80665 * std::sqrt(0.75), 1e-14);
   EXPECT_NEAR(scene.downhill.y(), -9.80665 / 2, 1e-14);
   EXPECT_EQ(scene.downhill.x(), 0);
 }
 
-TEST(HardScene, PassesEveryMotionOn) {
+TEST(Scene, PassesEveryMotionOn) {
   const auto motion = [](const std::string& keys) {
     return hard_scene(with(kHard, "substrate: {}", "substrate: {motion: {kind: " + keys + "}}"))
         .motion;
@@ -122,7 +121,7 @@ TEST(HardScene, PassesEveryMotionOn) {
   EXPECT_EQ(table.velocity(3), Vector3(0, 0, 0));
 }
 
-TEST(HardScene, CoupledDrillingHasItsDiscAndTheLengthOfPureDrilling) {
+TEST(Scene, CoupledDrillingHasItsDiscAndTheLengthOfPureDrilling) {
   const auto ground = [](const std::string& keys) {
     return hard_scene(with(with(kHard, "{density: 7850}",
                                 "{density: 7850, young_modulus: 2e11, poisson_ratio: 0.3}"),
@@ -143,7 +142,7 @@ TEST(HardScene, CoupledDrillingHasItsDiscAndTheLengthOfPureDrilling) {
   EXPECT_EQ(ground("none").drilling_length, 0);
 }
 
-TEST(HardScene, HertzianRadiusFollowsTheNormalPartOfGravity) {
+TEST(Scene, HertzianRadiusFollowsTheNormalPartOfGravity) {
   const std::string text = with(
       with(kHard, "{density: 7850}", "{density: 7850, young_modulus: 2e11, poisson_ratio: 0.3}"),
       "friction: 0.2", "friction: 0.2\n    drilling: {model: uncoupled, contact_radius: hertz}");
@@ -154,7 +153,7 @@ TEST(HardScene, HertzianRadiusFollowsTheNormalPartOfGravity) {
   EXPECT_NEAR(tilted / level, std::cbrt(0.5), 1e-14);
 }
 
-TEST(HardScene, RollingWhileSliding) {
+TEST(Scene, RollingWhileSliding) {
   const auto ground = [](const std::string& rolling) {
     return hard_scene(with(kHard, "friction: 0.2", "friction: 0.2\n    rolling: " + rolling))
         .on_substrate(0)
@@ -165,7 +164,7 @@ TEST(HardScene, RollingWhileSliding) {
   EXPECT_FALSE(ground("{coefficient: 0.1}"));
 }
 
-TEST(HardScene, NamesAllThatItCannotSolve) {
+TEST(Scene, NamesAllThatItCannotSolve) {
   std::string text = with(kContainer, "{density: 7850}",
                           "{density: 7850, young_modulus: 2e11, poisson_ratio: 0.3}");
   for (int i = 0; i < 2; ++i) text = with(text, "restitution: 0.9", "restitution: viscoelastic");
@@ -176,7 +175,7 @@ TEST(HardScene, NamesAllThatItCannotSolve) {
             "materials.steel.dissipation_time, got viscoelastic");
 }
 
-TEST(HardScene, TakesAllSurroundings) {
+TEST(Scene, TakesAllSurroundings) {
   EXPECT_EQ(refusal(with(kHard, "substrate: {}", "substrate: {periodic: [9, 9]}")), "");
   EXPECT_EQ(refusal(with(kHard, "substrate: {}", "substrate: {confined: true}")), "");
   EXPECT_EQ(refusal(kHard + "compare: {reference: contact}\n"), "");

@@ -1,4 +1,4 @@
-#include "reference/huge_pages.h"
+#include "reference/events/huge_pages.h"
 
 #include <gtest/gtest.h>
 

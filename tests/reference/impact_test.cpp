@@ -1,4 +1,4 @@
-#include "reference/impact.h"
+#include "scene/impact.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "../support/extremes.h"
-#include "physics/elastic_pair.h"
-#include "physics/linear_contact.h"
-#include "reference/asperity_passivity.h"
-#include "reference/restitution_curve.h"
+#include "physics/contact/elastic_pair.h"
+#include "physics/contact/linear_contact.h"
+#include "scene/asperity_passivity.h"
+#include "scene/restitution_curve.h"
 
 namespace slipcheck {
 namespace {

@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "physics/elastic_pair.h"
+#include "physics/contact/elastic_pair.h"
 #include "reference/reference_solver.h"
-#include "reference/step_solver.h"
+#include "reference/steps/step_solver.h"
 #include "soft_scenes.h"
 
 namespace slipcheck {
@@ -35,8 +35,8 @@ struct LastTouch final : FrameSink {
 };
 
 /// `count` balls at rest in a row, each `overlap` [m] into the next, on a smooth substrate.
-HardScene row(std::size_t count, double overlap, double restitution = 1) {
-  HardScene hard = test::steel_scene(count);
+Scene row(std::size_t count, double overlap, double restitution = 1) {
+  Scene hard = test::steel_scene(count);
   hard.pairs[0].restitution = restitution;
   hard.substrate[0].static_friction = hard.substrate[0].kinetic_friction = 0;
   for (std::size_t i = 0; i < count; ++i)
@@ -49,7 +49,7 @@ double overlap_now(const ContactSolver& solver) {
   return 2 * kR - (states[0].position - states[1].position).norm();
 }
 
-ContactScene with_law(const HardScene& hard, const NormalForce& normal,
+ContactScene with_law(const Scene& hard, const NormalForce& normal,
                       const TangentialForce& tangential = NoTangentialForce{}) {
   ContactScene scene = with_hard_contacts(hard);
   scene.soft[0] = SoftContact{normal, ContactEnd::zero_overlap, tangential};
@@ -114,7 +114,7 @@ TEST(InitialContacts, ADampedSpringFollowsItsClosedForm) {
 }
 
 TEST(InitialContacts, HertzGivesBackTwoFifthsOfKTimesTheOverlapToFiveHalves) {
-  const HardScene hard = row(2, 0.1 * kR);
+  const Scene hard = row(2, 0.1 * kR);
   const double overlap = 0.1 * kR, rho = 1e6;
   const ContactScene scene = with_law(hard, HertzForce{rho});
   ContactSolver solver(scene, hard.initial);
@@ -129,7 +129,7 @@ TEST(InitialContacts, HertzGivesBackTwoFifthsOfKTimesTheOverlapToFiveHalves) {
 }
 
 TEST(InitialContacts, WithoutGravityNothingElseSetsAScale) {
-  HardScene hard = row(2, 0.5 * kR);
+  Scene hard = row(2, 0.5 * kR);
   hard.gravity = 0;
   const ContactScene scene = test::soft(hard, 1e-3);
   ContactSolver solver(scene, hard.initial);
@@ -141,7 +141,7 @@ TEST(InitialContacts, WithoutGravityNothingElseSetsAScale) {
 
 TEST(InitialContacts, ThrownUpwardsTheyFallAgain) {
   // One above the other, the lower one held by the plane: m z̈ = k ξ − m g.
-  HardScene hard = row(2, 0);
+  Scene hard = row(2, 0);
   const double overlap = 0.5 * kR, k = 100, m = hard.bodies[0].mass;
   hard.initial[1].position = Vector3(0, 0, 3 * kR - overlap);
   const ContactScene scene = with_law(hard, LinearForce{k, 0});
@@ -156,7 +156,7 @@ TEST(InitialContacts, ThrownUpwardsTheyFallAgain) {
 }
 
 TEST(InitialContacts, RollingFrictionHoldsWhatPressesLess) {
-  HardScene hard = row(2, 0.1 * kR);
+  Scene hard = row(2, 0.1 * kR);
   hard.substrate[0].static_friction = hard.substrate[0].kinetic_friction = 0.5;
   hard.substrate[0].rolling = RollingFriction(0.3);
   const double weight = hard.bodies[0].mass * hard.gravity;
@@ -187,7 +187,7 @@ TEST(InitialContacts, ManyOnRoughStillTiltedAndMovingPlanes) {
   for (const int plane : {0, 1, 2})
     for (const TangentialForce& tangential : rubbing)
       for (const NormalForce& normal : normals) {
-        HardScene hard = row(4, 0.2 * kR);
+        Scene hard = row(4, 0.2 * kR);
         hard.substrate[0].static_friction = 0.5;
         hard.substrate[0].kinetic_friction = 0.2;
         hard.bodies[1].radius *= 1.1;

@@ -5,14 +5,14 @@
 
 #include "../scenes.h"
 #include "../support/extremes.h"
-#include "reference/event_solver.h"
+#include "reference/events/event_solver.h"
 
 namespace slipcheck {
 namespace {
 
 /// Balls on a jittered grid with random velocities, converging on the middle.
-HardScene cloud(std::size_t side, double friction, double restitution, unsigned seed) {
-  HardScene scene = test::steel_scene(side * side);
+Scene cloud(std::size_t side, double friction, double restitution, unsigned seed) {
+  Scene scene = test::steel_scene(side * side);
   scene.pairs[0].restitution = restitution;
   scene.substrate[0].kinetic_friction = friction;
   std::mt19937_64 random(seed);
@@ -28,7 +28,7 @@ HardScene cloud(std::size_t side, double friction, double restitution, unsigned 
 
 /// Watches for overlaps in every frame.
 struct OverlapWatch final : FrameSink {
-  explicit OverlapWatch(const HardScene& scene) : scene_(scene) {}
+  explicit OverlapWatch(const Scene& scene) : scene_(scene) {}
   void take(double, const Frame& frame) override {
     for (std::size_t i = 0; i < frame.bodies.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
@@ -37,17 +37,17 @@ struct OverlapWatch final : FrameSink {
         deepest = test::largest_of(deepest, 1 - distance / contact);
       }
   }
-  const HardScene& scene_;
+  const Scene& scene_;
   double deepest = 0;
 };
 
-Vector3 momentum(const HardScene& scene, const std::vector<BodyState>& states) {
+Vector3 momentum(const Scene& scene, const std::vector<BodyState>& states) {
   Vector3 p = Vector3::Zero();
   for (std::size_t i = 0; i < states.size(); ++i) p += scene.bodies[i].mass * states[i].velocity;
   return p;
 }
 
-double kinetic_energy(const HardScene& scene, const std::vector<BodyState>& states) {
+double kinetic_energy(const Scene& scene, const std::vector<BodyState>& states) {
   double e = 0;
   for (std::size_t i = 0; i < states.size(); ++i)
     e += 0.5 * scene.bodies[i].mass * states[i].velocity.squaredNorm();
@@ -55,7 +55,7 @@ double kinetic_energy(const HardScene& scene, const std::vector<BodyState>& stat
 }
 
 TEST(ManyBodies, FrictionlessElasticGasConservesMomentumAndEnergyWithoutOverlap) {
-  const HardScene scene = cloud(6, 0, 1, 1);
+  const Scene scene = cloud(6, 0, 1, 1);
   EventSolver solver(scene, scene.initial);
   OverlapWatch watch(scene);
   const EventRun run = solver.run({Run::Until::time, 0.5, 0.5}, &watch);
@@ -71,7 +71,7 @@ TEST(ManyBodies, FrictionlessElasticGasConservesMomentumAndEnergyWithoutOverlap)
 }
 
 TEST(ManyBodies, SlidingGasComesToRollingWithoutOverlap) {
-  const HardScene scene = cloud(5, 0.1, 0.9, 2);
+  const Scene scene = cloud(5, 0.1, 0.9, 2);
   EventSolver solver(scene, scene.initial);
   OverlapWatch watch(scene);
   const EventRun run = solver.run({Run::Until::rolling, 0, 60}, &watch);
@@ -83,7 +83,7 @@ TEST(ManyBodies, SlidingGasComesToRollingWithoutOverlap) {
 }
 
 TEST(ManyBodies, TimeReversedFrictionlessElasticGasRetracesItsPath) {
-  const HardScene scene = cloud(4, 0, 1, 3);
+  const Scene scene = cloud(4, 0, 1, 3);
   const RunEnd end{Run::Until::time, 0.05, 0.05};
   EventSolver there(scene, scene.initial);
   ASSERT_GT(there.run(end, nullptr).collisions, 3u);
@@ -101,7 +101,7 @@ TEST(ManyBodies, TimeReversedFrictionlessElasticGasRetracesItsPath) {
 
 TEST(ManyBodies, RowOfTouchingBallsPassesTheBlowOn) {
   // Equal elastic balls: the velocity goes to the last, all others stop.
-  HardScene scene = test::steel_scene(4);
+  Scene scene = test::steel_scene(4);
   scene.pairs[0].restitution = 1.0;
   scene.substrate[0].kinetic_friction = 0;
   scene.initial[0] = test::rolling_at(-0.01, 0, 0.1, 0);
@@ -115,7 +115,7 @@ TEST(ManyBodies, RowOfTouchingBallsPassesTheBlowOn) {
 }
 
 TEST(ManyBodies, SameSceneGivesTheSameBits) {
-  const HardScene scene = cloud(5, 0.1, 0.9, 4);
+  const Scene scene = cloud(5, 0.1, 0.9, 4);
   EventSolver a(scene, scene.initial), b(scene, scene.initial);
   const RunEnd end{Run::Until::rolling, 0, 60};
   EXPECT_EQ(a.run(end, nullptr).events, b.run(end, nullptr).events);

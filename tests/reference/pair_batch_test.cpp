@@ -1,4 +1,4 @@
-#include "reference/pair_batch.h"
+#include "reference/pair/pair_batch.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "physics/elastic_pair.h"
-#include "physics/linear_contact.h"
-#include "reference/scaled_impact.h"
+#include "physics/contact/elastic_pair.h"
+#include "physics/contact/linear_contact.h"
+#include "scene/scaled_impact.h"
 
 namespace slipcheck {
 namespace {

@@ -1,4 +1,4 @@
-#include "reference/pair_map.h"
+#include "reference/pair/pair_map.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "physics/elastic_pair.h"
-#include "physics/linear_contact.h"
+#include "physics/contact/elastic_pair.h"
+#include "physics/contact/linear_contact.h"
 
 namespace slipcheck {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "scenario/hard_scene.h"
+#include "scene/scene.h"
 
 namespace slipcheck::test {
 
@@ -16,8 +16,8 @@ inline double uniform(std::mt19937_64& random) {
 }
 
 /// One material with one contact for everything.
-inline HardScene of_one_material(std::size_t n, double radius, const PairContact& contact) {
-  HardScene scene;
+inline Scene of_one_material(std::size_t n, double radius, const PairContact& contact) {
+  Scene scene;
   scene.bodies.assign(n, Sphere{radius, 1, 0.4});
   scene.material.assign(n, 0);
   scene.substrate.resize(1);
@@ -27,10 +27,10 @@ inline HardScene of_one_material(std::size_t n, double radius, const PairContact
 
 /// A gas of n unit-mass spheres of radius 1/2 on a smooth periodic plane at an area fraction; on a
 /// square lattice at first, with random velocities of about 1 m/s.
-inline HardScene smooth_gas(std::size_t n, double area_fraction, const PairContact& contact,
-                            std::uint64_t seed = 1) {
+inline Scene smooth_gas(std::size_t n, double area_fraction, const PairContact& contact,
+                        std::uint64_t seed = 1) {
   constexpr double kRadius = 0.5;
-  HardScene scene = of_one_material(n, kRadius, contact);
+  Scene scene = of_one_material(n, kRadius, contact);
   const double disks = static_cast<double>(n) * std::numbers::pi * kRadius * kRadius;
   const double length = std::sqrt(disks / area_fraction);
   scene.periodic = {length, length};
@@ -52,10 +52,10 @@ inline HardScene smooth_gas(std::size_t n, double area_fraction, const PairConta
 
 /// L's box with n spheres of 1 mm and 1 g, a width of 10 mm, f = 100 Hz and the floor speed V
 /// [m/s]; the same contact for pairs, floor and walls.
-inline HardScene shaken_box(std::size_t n, double V, const PairContact& contact,
-                            std::uint64_t seed = 1) {
+inline Scene shaken_box(std::size_t n, double V, const PairContact& contact,
+                        std::uint64_t seed = 1) {
   constexpr double kRadius = 0.5e-3;
-  HardScene scene = of_one_material(n, kRadius, contact);
+  Scene scene = of_one_material(n, kRadius, contact);
   for (Sphere& sphere : scene.bodies) sphere.mass = 1e-3;
   scene.gravity = 9.81;
   Box box;

@@ -1,4 +1,4 @@
-#include "reference/planar_solver.h"
+#include "reference/events/planar_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <cstring>
 
 #include "../support/extremes.h"
-#include "physics/collision.h"
+#include "physics/contact/collision.h"
 #include "planar_scenes.h"
-#include "reference/indexed_heap.h"
+#include "reference/events/indexed_heap.h"
 
 namespace slipcheck {
 namespace {
@@ -30,7 +30,7 @@ TEST(PlanarCollision, IsTheSpatialOneInThePlane) {
   const auto symmetric = [&] { return 2 * test::uniform(random) - 1; };
   for (int k = 0; k < 500; ++k) {
     const double e = test::uniform(random), mu = test::uniform(random), beta0 = symmetric();
-    HardScene scene = test::of_one_material(2, 1, contact(e, mu, beta0));
+    Scene scene = test::of_one_material(2, 1, contact(e, mu, beta0));
     scene.bodies[0] = {0.5 + test::uniform(random), 0.5 + test::uniform(random), 0.4};
     scene.bodies[1] = {0.5 + test::uniform(random), 0.5 + test::uniform(random), 0.5};
     Box box;
@@ -65,7 +65,7 @@ TEST(PlanarCollision, IsTheSpatialOneInThePlane) {
 /// A ball in a still box without friction: it bounces on the floor with the period 2 v/g and
 /// between the walls with 2 (width − 2R)/v_x, for ever.
 TEST(PlanarSolver, ABallInAnElasticBoxGoesOnForEver) {
-  HardScene scene = test::shaken_box(1, 0, contact(1));
+  Scene scene = test::shaken_box(1, 0, contact(1));
   const double R = scene.bodies[0].radius, vx = 0.3, v = 1.2;
   scene.initial[0].position = {R, 0, R};
   scene.initial[0].velocity = {vx, 0, v};
@@ -88,25 +88,25 @@ TEST(PlanarSolver, ABallInAnElasticBoxGoesOnForEver) {
 }
 
 TEST(PlanarSolver, KnowsWhatStaysInAPlane) {
-  const HardScene gas = test::smooth_gas(9, 0.1, contact(0.9));
-  const auto is_planar = [](const HardScene& scene) {
+  const Scene gas = test::smooth_gas(9, 0.1, contact(0.9));
+  const auto is_planar = [](const Scene& scene) {
     return PlanarWorld::is_planar(scene, scene.initial);
   };
   EXPECT_TRUE(is_planar(gas));
   EXPECT_TRUE(is_planar(test::shaken_box(5, 1, contact(0.9, 0.1, 0))));
-  HardScene rubbed = gas, rolling = gas, unlike = gas, tilted = gas, flying = gas;
+  Scene rubbed = gas, rolling = gas, unlike = gas, tilted = gas, flying = gas;
   rubbed.substrate[0].kinetic_friction = 0.1;
   rolling.initial[3].angular_velocity.x() = 1;  // its collisions would lift
   unlike.bodies[2].radius *= 0.5;               // lines of centres would not be level
   tilted.downhill = {0, -1};
   flying.initial[1].position.z() *= 2;
-  for (const HardScene& scene : {rubbed, rolling, unlike, tilted, flying})
+  for (const Scene& scene : {rubbed, rolling, unlike, tilted, flying})
     EXPECT_FALSE(is_planar(scene));
 }
 
 /// On a floor that moves with v_f at the impact the rebound is −e (v − v_f) + v_f.
 TEST(PlanarSolver, ReboundsFromAMovingFloorInItsFrame) {
-  HardScene scene = test::shaken_box(1, 1.5, contact(0.7));
+  Scene scene = test::shaken_box(1, 1.5, contact(0.7));
   scene.initial[0].position = {5e-3, 0, 0.05};
   scene.initial[0].velocity = Vector3::Zero();
   struct Looker : FrameSink {
@@ -141,11 +141,11 @@ TEST(PlanarSolver, ReboundsFromAMovingFloorInItsFrame) {
 /// A lid, still or shaken with the box, and rough side walls keep a fast body in.
 TEST(PlanarSolver, ALidKeepsBodiesIn) {
   for (const bool moving : {false, true}) {
-    HardScene scene = test::shaken_box(8, 2, contact(0.95, 0.3, 0.2));
+    Scene scene = test::shaken_box(8, 2, contact(0.95, 0.3, 0.2));
     scene.box->lid = 0.02;
     scene.box->moving_walls = moving;
     struct Looker : FrameSink {
-      const HardScene* scene;
+      const Scene* scene;
       void take(double time, const Frame& frame) override {
         const Box& box = *scene->box;
         const double shift = box.floor.height(time);
@@ -169,7 +169,7 @@ TEST(PlanarSolver, ALidKeepsBodiesIn) {
 }
 
 TEST(PlanarSolver, AGasKeepsMomentumAndEnergyAndNeverOverlaps) {
-  const HardScene scene = test::smooth_gas(200, 0.3, contact(1));
+  const Scene scene = test::smooth_gas(200, 0.3, contact(1));
   PlanarSolver solver(scene, scene.initial);
   const PlanarRun run = solver.run(until(150), nullptr, 1);
   EXPECT_GT(run.collisions, 10'000u);
@@ -183,9 +183,9 @@ TEST(PlanarSolver, AGasKeepsMomentumAndEnergyAndNeverOverlaps) {
 TEST(PlanarSolver, NothingOverlapsInManyEvents) {
   const char* asked = std::getenv("SLIPCHECK_SOAK_EVENTS");
   const auto events = static_cast<std::size_t>(asked ? std::atof(asked) : 2e5);
-  const HardScene gas = test::smooth_gas(300, 0.4, contact(1));
-  const HardScene box = test::shaken_box(50, 1, contact(0.9, 0.2, 0.3));
-  for (const HardScene& scene : {gas, box}) {
+  const Scene gas = test::smooth_gas(300, 0.4, contact(1));
+  const Scene box = test::shaken_box(50, 1, contact(0.9, 0.2, 0.3));
+  for (const Scene& scene : {gas, box}) {
     PlanarWorld world(scene, scene.initial, 1e-6, 1e-4);
     EventScheduler<PlanarWorld> scheduler(world, 0);
     const double first = world.energy_at(0);
@@ -211,7 +211,7 @@ TEST(PlanarSolver, NothingOverlapsInManyEvents) {
 
 /// What the collisions' laws say they dissipate is what is gone.
 TEST(PlanarSolver, ARoughGasLosesWhatItsCollisionsDissipate) {
-  const HardScene scene = test::smooth_gas(200, 0.3, contact(0.9, 0.4, 0.5));
+  const Scene scene = test::smooth_gas(200, 0.3, contact(0.9, 0.4, 0.5));
   PlanarSolver solver(scene, scene.initial);
   const PlanarRun run = solver.run(until(50), nullptr, 1);
   EXPECT_GT(run.dissipated, 0.5 * run.energy);
@@ -223,7 +223,7 @@ TEST(PlanarSolver, ARoughGasLosesWhatItsCollisionsDissipate) {
 /// √(2π)... in two dimensions 2 n d √π √(T/m) χ with χ = (1 − 7φ/16)/(1 − φ)² (Henderson 1975).
 TEST(PlanarSolver, AnElasticGasCollidesAtEnskogsRate) {
   const double fraction = 0.1, n = 400;
-  const HardScene scene = test::smooth_gas(400, fraction, contact(1));
+  const Scene scene = test::smooth_gas(400, fraction, contact(1));
   PlanarSolver solver(scene, scene.initial);
   solver.run(until(50), nullptr, 1);  // to a Maxwellian
   const std::size_t before = solver.world().collisions();
@@ -240,7 +240,7 @@ TEST(PlanarSolver, AnElasticGasCollidesAtEnskogsRate) {
 }
 
 TEST(PlanarSolver, TheSameSceneGivesTheSameBits) {
-  const HardScene scene = test::shaken_box(50, 1, contact(0.9, 0.2, 0.3));
+  const Scene scene = test::shaken_box(50, 1, contact(0.9, 0.2, 0.3));
   std::vector<BodyState> first;
   for (int turn = 0; turn < 2; ++turn) {
     PlanarSolver solver(scene, scene.initial);
@@ -255,7 +255,7 @@ TEST(PlanarSolver, TheSameSceneGivesTheSameBits) {
 }
 
 TEST(PlanarSolver, BothQueuesServeTheSameEvents) {
-  const HardScene scene = test::shaken_box(50, 1, contact(0.9, 0.2, 0.3));
+  const Scene scene = test::shaken_box(50, 1, contact(0.9, 0.2, 0.3));
   PlanarWorld one(scene, scene.initial, 1e-6, 1e-4), other(scene, scene.initial, 1e-6, 1e-4);
   EventScheduler<PlanarWorld, CalendarQueue> calendar(one, 0);
   EventScheduler<PlanarWorld, HeapQueue> heap(other, 0);
@@ -269,15 +269,15 @@ TEST(PlanarSolver, BothQueuesServeTheSameEvents) {
 /// A loop that leaves out what the scene lacks gives the bits of the one that leaves out nothing.
 TEST(PlanarSolver, LeavingOutWhatASceneLacksChangesNoBit) {
   struct Case {
-    HardScene scene;
+    Scene scene;
     double time;
     std::vector<std::string> left_out;
   };
-  HardScene unlike = test::shaken_box(40, 1, contact(0.9, 0.2, 0.3));
+  Scene unlike = test::shaken_box(40, 1, contact(0.9, 0.2, 0.3));
   unlike.bodies[7].radius *= 0.7;
-  HardScene clustered = test::smooth_gas(100, 0.4, contact(0.5));
+  Scene clustered = test::smooth_gas(100, 0.4, contact(0.5));
   clustered.collapse = {CollapseRule::Model::largest_velocity, 1e-4};
-  HardScene spinning = test::smooth_gas(100, 0.3, contact(0.95));
+  Scene spinning = test::smooth_gas(100, 0.3, contact(0.95));
   for (std::size_t i = 0; i < 100; ++i)
     spinning.initial[i].angular_velocity.z() = std::cos(static_cast<double>(i));
   const std::vector<std::string> smooth{"gravity and walls", "different radii",
@@ -315,7 +315,7 @@ TEST(PlanarSolver, LeavingOutWhatASceneLacksChangesNoBit) {
 }
 
 TEST(PlanarSolver, WhatIsShownDoesNotChangeTheRun) {
-  const HardScene scene = test::shaken_box(20, 1, contact(0.9, 0.2, 0.3));
+  const Scene scene = test::shaken_box(20, 1, contact(0.9, 0.2, 0.3));
   struct : FrameSink {
     std::size_t frames = 0;
     void take(double, const Frame&) override { ++frames; }
@@ -330,7 +330,7 @@ TEST(PlanarSolver, WhatIsShownDoesNotChangeTheRun) {
 
 /// Balls of different sizes find each other whatever the cell: none overlap in a dense box.
 TEST(PlanarSolver, PolydisperseBodiesNeverOverlap) {
-  HardScene scene = test::shaken_box(60, 0.8, contact(0.9, 0.2, 0.3));
+  Scene scene = test::shaken_box(60, 0.8, contact(0.9, 0.2, 0.3));
   std::mt19937_64 random(5);
   for (Sphere& sphere : scene.bodies) sphere.radius *= 0.4 + 0.6 * test::uniform(random);
   PlanarSolver solver(scene, scene.initial);
@@ -342,9 +342,9 @@ TEST(PlanarSolver, PolydisperseBodiesNeverOverlap) {
 
 /// Four balls in a row on a wall with e below the limit of Bernu and Mazighi collapse: infinitely
 /// many collisions in finite time. Each rule ends it, and a hard limit says so where none does.
-HardScene collapsing_row(const CollapseRule& rule) {
+Scene collapsing_row(const CollapseRule& rule) {
   // e = 0.05 for 4 balls and a wall is far below tan²((π/4)(1 − 1/N)).
-  HardScene scene = test::shaken_box(4, 0, contact(0.05));
+  Scene scene = test::shaken_box(4, 0, contact(0.05));
   scene.gravity = 0;
   scene.collapse = rule;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -359,7 +359,7 @@ TEST(InelasticCollapse, EveryRuleEndsIt) {
   for (const CollapseRule& rule :
        {CollapseRule{Model::slowest_rebound, 0}, CollapseRule{Model::contact_time, 1e-5},
         CollapseRule{Model::largest_velocity, 1e-5}}) {
-    const HardScene scene = collapsing_row(rule);
+    const Scene scene = collapsing_row(rule);
     PlanarSolver solver(scene, scene.initial);
     const PlanarRun run = solver.run(until(0.1), nullptr, 1);
     EXPECT_TRUE(run.reached) << run.reason;
@@ -371,7 +371,7 @@ TEST(InelasticCollapse, EveryRuleEndsIt) {
 }
 
 TEST(InelasticCollapse, TheLimitOnEventsEndsWhatNoRuleDoes) {
-  const HardScene scene = collapsing_row({});
+  const Scene scene = collapsing_row({});
   PlanarSettings settings;
   settings.collapse_fraction = settings.landing_fraction = 1e-300;
   settings.most_events = 1e6;
@@ -384,10 +384,10 @@ TEST(InelasticCollapse, TheLimitOnEventsEndsWhatNoRuleDoes) {
 
 /// The TC model only acts on bodies that collide twice within t_c: a dilute gas does not see it.
 TEST(InelasticCollapse, TheContactTimeDoesNotChangeADiluteGas) {
-  HardScene scene = test::smooth_gas(30, 0.05, contact(0.9));
+  Scene scene = test::smooth_gas(30, 0.05, contact(0.9));
   PlanarSolver without(scene, scene.initial);
   without.run(until(5), nullptr, 1);
-  HardScene with_rule = scene;
+  Scene with_rule = scene;
   with_rule.collapse = {CollapseRule::Model::contact_time, 1e-9};
   PlanarSolver with(with_rule, with_rule.initial);
   with.run(until(5), nullptr, 1);

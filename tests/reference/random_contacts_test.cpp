@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "reference/contact_solver.h"
+#include "reference/forces/contact_solver.h"
 #include "soft_scenes.h"
 
 // Random scenes with every law, end rule, substrate and motion: the ledger of energy must close,
@@ -84,7 +84,7 @@ SubstrateContact random_substrate(Dice& dice, double radius) {
 
 ContactScene random_scene(std::uint64_t seed) {
   Dice dice(seed);
-  HardScene hard;
+  Scene hard;
   const int count = 1 + dice.pick(4);
   const double radius = dice.log(1e-3, 1e-1);
   hard.gravity = dice.chance(0.1) ? 0 : 9.81;

@@ -5,7 +5,7 @@
 
 #include "../scenes.h"
 #include "../support/extremes.h"
-#include "reference/event_solver.h"
+#include "reference/events/event_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -24,9 +24,9 @@ class Random {
 
 /// Anything the solver takes: unlike spheres, rubbing, rolling friction over the speed, drilling,
 /// drops and bounces.
-HardScene random_scene(unsigned seed) {
+Scene random_scene(unsigned seed) {
   Random random(seed);
-  HardScene scene;
+  Scene scene;
   scene.gravity = random.chance(0.1) ? 0 : random(1, 30);
   scene.confined = random.chance(0.2);
   const std::size_t materials = random.chance(0.5) ? 1 : 2;
@@ -70,7 +70,7 @@ HardScene random_scene(unsigned seed) {
 
 /// No energy out of nothing, no overlap, nobody below the plane, no state that is not finite.
 struct Watch final : FrameSink {
-  explicit Watch(const HardScene& watched) : scene(watched) {}
+  explicit Watch(const Scene& watched) : scene(watched) {}
 
   double energy(const Frame& frame) const {
     double sum = 0;
@@ -103,14 +103,14 @@ struct Watch final : FrameSink {
     }
   }
 
-  const HardScene& scene;
+  const Scene& scene;
   double last_time = 0, before = -1, scale = 1, largest_gain = 0, deepest = 0;
 };
 
 TEST(RandomScenes, GainNoEnergyAndNeverOverlap) {
   std::size_t collisions = 0;
   for (unsigned seed = 0; seed < 400; ++seed) {
-    const HardScene scene = random_scene(seed);
+    const Scene scene = random_scene(seed);
     EventSettings settings;
     settings.most_events = 1000;
     settings.burst = 5000;

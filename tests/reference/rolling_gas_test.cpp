@@ -5,8 +5,8 @@
 
 #include "../scenes.h"
 #include "../support/extremes.h"
-#include "reference/contact_solver.h"
-#include "reference/event_solver.h"
+#include "reference/events/event_solver.h"
+#include "reference/forces/contact_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -15,9 +15,8 @@ RunEnd until(double time) { return {Run::Until::time, time, time}; }
 
 /// side² rolling balls on a jittered square lattice of `spacing` [m] around `middle`, with
 /// velocities of up to `speed` [m/s].
-HardScene gas(std::size_t side, double spacing, double speed, const Vector2& middle,
-              unsigned seed) {
-  HardScene scene = test::steel_scene(side * side);
+Scene gas(std::size_t side, double spacing, double speed, const Vector2& middle, unsigned seed) {
+  Scene scene = test::steel_scene(side * side);
   std::mt19937_64 random(seed);
   const auto u = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
   const double low = -0.5 * spacing * static_cast<double>(side);
@@ -30,9 +29,9 @@ HardScene gas(std::size_t side, double spacing, double speed, const Vector2& mid
   return scene;
 }
 
-HardScene periodic_gas(std::size_t side, double spacing, double speed, const Vector2& middle,
-                       unsigned seed) {
-  HardScene scene = gas(side, spacing, speed, middle, seed);
+Scene periodic_gas(std::size_t side, double spacing, double speed, const Vector2& middle,
+                   unsigned seed) {
+  Scene scene = gas(side, spacing, speed, middle, seed);
   scene.periodic = Vector2::Constant(spacing * static_cast<double>(side));
   return scene;
 }
@@ -50,7 +49,7 @@ struct Collisions final : FrameSink {
   std::vector<std::pair<int, int>> pairs;
 };
 
-Collisions collisions_of(const HardScene& scene, double end, const EventSettings& settings = {}) {
+Collisions collisions_of(const Scene& scene, double end, const EventSettings& settings = {}) {
   Collisions seen;
   EventSolver(scene, scene.initial, settings).run(until(end), &seen);
   return seen;
@@ -63,7 +62,7 @@ EventSettings without_cells() {
 }
 
 /// The deepest overlap over the sum of the radii, over the nearest images.
-double deepest_overlap(const HardScene& scene, const std::vector<BodyState>& states) {
+double deepest_overlap(const Scene& scene, const std::vector<BodyState>& states) {
   double deepest = 0;
   for (std::size_t i = 0; i < states.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -77,13 +76,13 @@ double deepest_overlap(const HardScene& scene, const std::vector<BodyState>& sta
   return deepest;
 }
 
-Vector3 momentum(const HardScene& scene, const std::vector<BodyState>& states) {
+Vector3 momentum(const Scene& scene, const std::vector<BodyState>& states) {
   Vector3 p = Vector3::Zero();
   for (std::size_t i = 0; i < states.size(); ++i) p += scene.bodies[i].mass * states[i].velocity;
   return p;
 }
 
-double kinetic_energy(const HardScene& scene, const std::vector<BodyState>& states) {
+double kinetic_energy(const Scene& scene, const std::vector<BodyState>& states) {
   double e = 0;
   for (std::size_t i = 0; i < states.size(); ++i)
     e += 0.5 * scene.bodies[i].mass * states[i].velocity.squaredNorm() +
@@ -101,19 +100,19 @@ void expect_same(const Collisions& a, const Collisions& b, std::size_t count, do
 }
 
 TEST(RollingGas, CellsFindTheCollisionsOfAllPairs) {
-  const HardScene scene = gas(10, 0.0055, 0.3, {0.013, -0.002}, 1);
+  const Scene scene = gas(10, 0.0055, 0.3, {0.013, -0.002}, 1);
   // Rounding, 1e-17 s here, grows some tenfold at each of a ball's collisions, here 4 in the mean.
   expect_same(collisions_of(scene, 0.5), collisions_of(scene, 0.5, without_cells()), 200, 1e-9);
 }
 
 TEST(RollingGas, CellsFindTheCollisionsOfAllPairsWhereRollingFrictionDependsOnTheSpeed) {
-  HardScene scene = gas(8, 0.0055, 0.3, {0, 0}, 2);
+  Scene scene = gas(8, 0.0055, 0.3, {0, 0}, 2);
   scene.substrate[0].rolling = RollingFriction({{0, 0.001}, {0.1, 0.004}, {0.5, 0.01}});
   expect_same(collisions_of(scene, 0.5), collisions_of(scene, 0.5, without_cells()), 150, 1e-9);
 }
 
 TEST(RollingGas, RunUntilRollingEndsAlikeWithCellsAndWithout) {
-  HardScene scene = gas(7, 0.012, 0.1, {0, 0}, 3);
+  Scene scene = gas(7, 0.012, 0.1, {0, 0}, 3);
   scene.substrate[0].rolling = RollingFriction(0.002);
   for (const Run::Until what : {Run::Until::rolling, Run::Until::rest}) {
     EventSolver cells(scene, scene.initial), pairs(scene, scene.initial, without_cells());
@@ -128,14 +127,14 @@ TEST(RollingGas, RunUntilRollingEndsAlikeWithCellsAndWithout) {
 
 TEST(RollingGas, PeriodicGasIsTheSameWhereverItsBorderLies) {
   // Shifted by half the cell, what met inside meets across the border.
-  const HardScene here = periodic_gas(6, 0.007, 0.3, {0.021, 0.021}, 4);
-  const HardScene there = periodic_gas(6, 0.007, 0.3, {0.0, 0.042}, 4);
+  const Scene here = periodic_gas(6, 0.007, 0.3, {0.021, 0.021}, 4);
+  const Scene there = periodic_gas(6, 0.007, 0.3, {0.0, 0.042}, 4);
   // Positions are other numbers with other roundings; 5 collisions a ball amplify them as above.
   expect_same(collisions_of(here, 1), collisions_of(there, 1), 100, 1e-9);
 }
 
 TEST(RollingGas, StatesGoOnAcrossThePeriodicBorder) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.periodic = {0.02, 0};
   scene.initial[0] = test::rolling_at(0.001, 0.3, -0.5, 0.25);
   EventSolver solver(scene, scene.initial);
@@ -146,7 +145,7 @@ TEST(RollingGas, StatesGoOnAcrossThePeriodicBorder) {
 }
 
 TEST(RollingGas, TwoBallsMeetAroundThePeriodicCell) {
-  HardScene scene = test::head_on(-0.1, 0.1, 0.9);  // 1 cm apart, running apart
+  Scene scene = test::head_on(-0.1, 0.1, 0.9);  // 1 cm apart, running apart
   scene.periodic = {0.03, 0.02};
   EventSolver solver(scene, scene.initial);
   // The images are 3 − 1 cm apart and touch at 4 mm.
@@ -154,7 +153,7 @@ TEST(RollingGas, TwoBallsMeetAroundThePeriodicCell) {
 }
 
 TEST(RollingGas, FrictionlessPeriodicGasKeepsMomentumAndEnergy) {
-  HardScene scene = periodic_gas(10, 0.006, 0.3, {0, 0}, 5);
+  Scene scene = periodic_gas(10, 0.006, 0.3, {0, 0}, 5);
   scene.substrate[0].kinetic_friction = 0;
   scene.pairs[0].restitution = 1.0;
   EventSolver solver(scene, scene.initial);
@@ -174,7 +173,7 @@ TEST(RollingGas, FrictionlessPeriodicGasKeepsMomentumAndEnergy) {
 /// Adds up what each contact takes: sliding μ_k m g |u|, whose slip falls linearly; rolling
 /// (1 + q) μ_r m g |v|; a collision ½ m_eff (1 − e²) u_n².
 struct Losses final : FrameSink {
-  explicit Losses(const HardScene& watched) : scene(watched) {}
+  explicit Losses(const Scene& watched) : scene(watched) {}
   void take(double time, const Frame& frame) override {
     for (std::size_t i = 0; time > last && i < frame.bodies.size(); ++i) {
       const Sphere& ball = scene.bodies[i];
@@ -203,13 +202,13 @@ struct Losses final : FrameSink {
     before = frame;
     last = time;
   }
-  const HardScene& scene;
+  const Scene& scene;
   Frame before;
   double last = 0, lost = 0;
 };
 
 TEST(RollingGas, EnergyGoesWhereTheContactsTakeIt) {
-  HardScene scene = periodic_gas(7, 0.006, 0.3, {0, 0}, 6);
+  Scene scene = periodic_gas(7, 0.006, 0.3, {0, 0}, 6);
   scene.substrate[0].rolling = RollingFriction(0.003);
   EventSolver solver(scene, scene.initial);
   Losses losses(scene);
@@ -221,7 +220,7 @@ TEST(RollingGas, EnergyGoesWhereTheContactsTakeIt) {
 }
 
 TEST(RollingGas, ThousandBallsNeverOverlapAndGiveTheSameBitsAgain) {
-  HardScene scene = periodic_gas(32, 0.0052, 0.3, {0.01, 0.02}, 7);
+  Scene scene = periodic_gas(32, 0.0052, 0.3, {0.01, 0.02}, 7);
   scene.substrate[0].rolling = RollingFriction({{0, 0.001}, {0.2, 0.004}});
   EventSolver a(scene, scene.initial), b(scene, scene.initial);
   std::size_t collisions = 0;
@@ -241,7 +240,7 @@ TEST(RollingGas, ThousandBallsNeverOverlapAndGiveTheSameBitsAgain) {
 }
 
 TEST(RollingGas, CopyRunsOnByItself) {
-  const HardScene scene = periodic_gas(6, 0.006, 0.3, {0, 0}, 8);
+  const Scene scene = periodic_gas(6, 0.006, 0.3, {0, 0}, 8);
   EventSolver solver(scene, scene.initial);
   solver.run(until(0.05), nullptr);
   EventSolver other = solver;
@@ -256,7 +255,7 @@ TEST(RollingGas, CopyRunsOnByItself) {
 TEST(RollingGas, CollisionsInQuickSuccessionDoNotDissipateUnderTheContactTimeModel) {
   // The spins drive the balls together again 2 e v/(μ_k g) = 6 ms after the first time, and slide
   // for (1 + e) v/((1 + A) μ_k g) = 45 ms.
-  HardScene scene = test::head_on(0.15, -0.15, 0.02);
+  Scene scene = test::head_on(0.15, -0.15, 0.02);
   scene.collapse = {CollapseRule::Model::contact_time, 1.0};
   struct Speeds final : FrameSink {
     void take(double, const Frame& frame) override {
@@ -285,7 +284,7 @@ TEST(RollingGas, CollisionsInQuickSuccessionDoNotDissipateUnderTheContactTimeMod
 TEST(RollingGas, ClusterComesToRestAtOnceUnderTheLargestVelocityModel) {
   // Three balls in a row, without friction: 0 runs into 1 and 2, which nearly touch. Once 0 and 1
   // meet again, the three have collapsed: what is left of approach is 1e-6 of it.
-  HardScene scene = test::steel_scene(3);
+  Scene scene = test::steel_scene(3);
   scene.substrate[0].kinetic_friction = 0;
   scene.pairs[0].restitution = 0.1;
   scene.collapse = {CollapseRule::Model::largest_velocity, 1.0};
@@ -307,7 +306,7 @@ TEST(RollingGas, ClusterComesToRestAtOnceUnderTheLargestVelocityModel) {
 // --- tilted and moving planes --------------------------------------------------------------------
 
 /// The event solver against the integrated phases of ContactSolver: their collisions and states.
-void expect_as_integrated(const HardScene& scene, double end, std::size_t collisions,
+void expect_as_integrated(const Scene& scene, double end, std::size_t collisions,
                           double tolerance) {
   Collisions a, b;
   EventSolver events(scene, scene.initial);
@@ -326,14 +325,14 @@ void expect_as_integrated(const HardScene& scene, double end, std::size_t collis
 }
 
 TEST(RollingGas, ThirtySixBallsOnAnOscillatingPlaneMoveAsIntegrated) {
-  HardScene scene = gas(6, 0.0065, 0.2, {0, 0}, 9);
+  Scene scene = gas(6, 0.0065, 0.2, {0, 0}, 9);
   scene.motion = SubstrateMotion::oscillation({0.004, 0.001}, 8, 0.4);
   // CVODE's error, 1e-13 relative a step, and tenfold at each of a ball's first collisions.
   expect_as_integrated(scene, 0.03, 10, 1e-11);
 }
 
 TEST(RollingGas, BallsOnATiltedPlaneWithRollingFrictionMoveAsIntegrated) {
-  HardScene scene = gas(6, 0.0065, 0.2, {0, 0}, 10);
+  Scene scene = gas(6, 0.0065, 0.2, {0, 0}, 10);
   scene.downhill = {0, -9.81 * std::sin(0.05)};
   scene.gravity = 9.81 * std::cos(0.05);
   scene.substrate[0].rolling = RollingFriction(0.005);
@@ -341,7 +340,7 @@ TEST(RollingGas, BallsOnATiltedPlaneWithRollingFrictionMoveAsIntegrated) {
 }
 
 TEST(RollingGas, GasOnAnOscillatingPlaneRunsInCellsAsInAllPairs) {
-  HardScene scene = gas(6, 0.0055, 0.3, {0, 0}, 11);
+  Scene scene = gas(6, 0.0055, 0.3, {0, 0}, 11);
   scene.motion = SubstrateMotion::oscillation({0.002, 0}, 10, 0);
   expect_same(collisions_of(scene, 0.2), collisions_of(scene, 0.2, without_cells()), 40, 1e-9);
 }

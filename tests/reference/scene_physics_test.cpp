@@ -5,9 +5,9 @@
 
 #include "bundled_scenes.h"
 #include "physics/closed_forms.h"
-#include "physics/elastic_pair.h"
-#include "physics/linear_contact.h"
-#include "physics/pair_insight.h"
+#include "physics/contact/elastic_pair.h"
+#include "physics/contact/linear_contact.h"
+#include "physics/contact/pair_insight.h"
 
 // What each bundled scene of colliding bodies was made for, as its reference shows it. Numbers of
 // the files are repeated here in SI. g = 9.81 m/s², steel R = 2 mm, μ_s = 0.5, μ_k = 0.1, A = 5/2
@@ -61,7 +61,7 @@ TEST_P(BundledScene, ReachesItsEndWithoutAFailureAndItsEnergyBalances) {
 }
 
 /// Whether rolling friction acts while bodies slide, or the plane moves or tilts.
-bool has_more_than_k18(const HardScene& scene) {
+bool has_more_than_k18(const Scene& scene) {
   for (const SubstrateContact& contact : scene.substrate)
     if (contact.rolling_while_sliding) return true;
   return !scene.motion.is_still() || !scene.downhill.isZero(0);

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "reference/contact_solver.h"
-#include "reference/impact.h"
+#include "reference/forces/contact_solver.h"
+#include "scene/impact.h"
 #include "soft_box_scenes.h"
 
 namespace slipcheck {

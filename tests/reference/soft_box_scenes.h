@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "../support/extremes.h"
-#include "physics/linear_contact.h"
-#include "reference/contact_scene.h"
-#include "reference/event_solver.h"
-#include "reference/soft_box_solver.h"
+#include "physics/contact/linear_contact.h"
+#include "reference/events/event_solver.h"
+#include "reference/forces/soft_box_solver.h"
+#include "scene/contact_scene.h"
 
 namespace slipcheck::test {
 
@@ -43,7 +43,7 @@ struct BeadBox {
 
   ContactScene scene(const std::vector<BodyState>& initial) const {
     ContactScene made;
-    HardScene& hard = made.hard;
+    Scene& hard = made.hard;
     hard.gravity = gravity;
     hard.bodies.assign(initial.size(), Sphere{kRadius, mass(), 0.4});
     hard.material.assign(initial.size(), 0);

@@ -1,13 +1,13 @@
 #pragma once
 
 #include "../scenes.h"
-#include "physics/linear_contact.h"
-#include "reference/contact_scene.h"
+#include "physics/contact/linear_contact.h"
+#include "scene/contact_scene.h"
 
 namespace slipcheck::test {
 
 /// The scene's pairs in K's linear contact, with the restitution of the scene's first pair.
-inline ContactScene soft(HardScene hard, double collision_time = 2.55e-5,
+inline ContactScene soft(Scene hard, double collision_time = 2.55e-5,
                          ContactEnd end = ContactEnd::zero_overlap,
                          const TangentialForce& tangential = NoTangentialForce{}) {
   ContactScene scene = with_hard_contacts(std::move(hard));
@@ -24,7 +24,7 @@ inline ContactScene soft(HardScene hard, double collision_time = 2.55e-5,
 
 /// One steel ball on the substrate.
 inline ContactScene one_ball(const BodyState& state) {
-  HardScene scene = steel_scene(1);
+  Scene scene = steel_scene(1);
   scene.initial = {state};
   return with_hard_contacts(std::move(scene));
 }

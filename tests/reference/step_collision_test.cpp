@@ -6,10 +6,10 @@
 #include <limits>
 #include <random>
 
-#include "reference/contact_solver.h"
-#include "reference/pair_map.h"
-#include "reference/step_pair.h"
-#include "reference/step_solver.h"
+#include "reference/forces/contact_solver.h"
+#include "reference/pair/pair_map.h"
+#include "reference/steps/step_pair.h"
+#include "reference/steps/step_solver.h"
 #include "step_scenes.h"
 
 namespace slipcheck {
@@ -20,7 +20,7 @@ using namespace test;
 /// A bound pair of spinning spheres with all components in play, against Runge-Kutta steps.
 struct Turning {
   double stiffness = 1e5, damping = 0.05, rubbing = 0.03;
-  HardScene scene = free_pair(0);
+  Scene scene = free_pair(0);
 
   Turning() {
     // The pair swings about its centre while it is pressed together by nothing but inertia's lack:
@@ -133,7 +133,7 @@ TEST(StepSolver, BendTurnsWithTheLineOfCentres) {
 
 TEST(StepSolver, FreeCollisionsMeetThePairMap) {
   const double g_n = 1e-3, g_t = 2e-4;
-  HardScene scene = free_pair(g_n);
+  Scene scene = free_pair(g_n);
   scene.initial[0].velocity.y() = 0.5 * g_t;
   scene.initial[1].velocity.y() = -0.5 * g_t;
   const double mass = 0.5 * scene.bodies[0].mass, omega = M_PI / kCollisionTime;
@@ -233,7 +233,7 @@ ContactScene random_collision(unsigned seed) {
   const auto within = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
   };
-  HardScene hard = test::head_on(0.1, -0.1, 0.8);
+  Scene hard = test::head_on(0.1, -0.1, 0.8);
   SubstrateContact& c = hard.substrate[0];
   c.static_friction = 0.3;
   c.kinetic_friction = within(0.05, 0.3);

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "planar_scenes.h"
-#include "reference/event_solver.h"
-#include "reference/step_solver.h"
+#include "reference/events/event_solver.h"
+#include "reference/steps/step_solver.h"
 #include "step_scenes.h"
 
 namespace slipcheck {
@@ -15,8 +15,8 @@ using namespace test;
 constexpr double kStep = kCollisionTime / 50;
 
 /// Three balls, the last one smaller, of which the first two meet in a graze and the others later.
-HardScene three_balls() {
-  HardScene scene = steel_scene(3);
+Scene three_balls() {
+  Scene scene = steel_scene(3);
   scene.bodies[2].radius = 0.0015;
   scene.initial[2].position.z() = 0.0015;
   scene.initial[0].position.head<2>() = Vector2(-0.0021, 0);
@@ -40,7 +40,7 @@ class GeneralLoop : public testing::TestWithParam<Case> {};
 
 /// A feature left out is one whose terms are zeros: it changes no bit of any state.
 TEST_P(GeneralLoop, GivesTheSameBits) {
-  HardScene hard = three_balls();
+  Scene hard = three_balls();
   hard.confined = GetParam().confined;
   if (GetParam().equal) {
     hard.bodies[2] = hard.bodies[0];
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
 /// Phases on any plane are series where those on a level, still one are closed forms: the same to
 /// rounding, here some hundred units in the last place after a collision and two slides.
 TEST(GeneralEvents, PhasesOnAnyPlaneGiveTheSame) {
-  const HardScene scene = head_on(0.2, -0.1, 0.9);
+  const Scene scene = head_on(0.2, -0.1, 0.9);
   EventSettings general;
   general.general = true;
   EventSolver special(scene, scene.initial), other(scene, scene.initial, general);

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "../scenes.h"
-#include "physics/linear_contact.h"
-#include "reference/contact_scene.h"
-#include "reference/event_solver.h"
+#include "physics/contact/linear_contact.h"
+#include "reference/events/event_solver.h"
+#include "scene/contact_scene.h"
 
 namespace slipcheck::test {
 
@@ -17,7 +17,7 @@ inline const RunEnd kRolling{Run::Until::rolling, 0, 10};
 
 inline RunEnd until(double time) { return {Run::Until::time, time, time}; }
 
-inline ContactScene with_contact(HardScene hard, const SoftContact& contact) {
+inline ContactScene with_contact(Scene hard, const SoftContact& contact) {
   ContactScene scene;
   scene.hard = std::move(hard);
   scene.soft.assign(scene.hard.pairs.size(), contact);
@@ -25,7 +25,7 @@ inline ContactScene with_contact(HardScene hard, const SoftContact& contact) {
 }
 
 /// Bodies without a contact law between each other: one body, or apart.
-inline ContactScene alone(HardScene hard) {
+inline ContactScene alone(Scene hard) {
   return with_contact(std::move(hard), {LinearForce{1e6, 0}, ContactEnd::zero_overlap, {}});
 }
 
@@ -37,8 +37,8 @@ inline SoftContact linear_contact(double mass, double restitution, double collis
 }
 
 /// Two spheres far above the plane without gravity, exactly in touch, that approach at g [m/s].
-inline HardScene free_pair(double g, double gap = 0) {
-  HardScene scene = steel_scene(2);
+inline Scene free_pair(double g, double gap = 0) {
+  Scene scene = steel_scene(2);
   scene.gravity = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     scene.initial[i].position = {i == 0 ? -0.002 - gap : 0.002, 0, 1};
@@ -47,7 +47,7 @@ inline HardScene free_pair(double g, double gap = 0) {
   return scene;
 }
 
-inline double overlap(const HardScene& scene, const std::vector<BodyState>& s) {
+inline double overlap(const Scene& scene, const std::vector<BodyState>& s) {
   return scene.bodies[0].radius + scene.bodies[1].radius - (s[0].position - s[1].position).norm();
 }
 
@@ -64,7 +64,7 @@ inline double order(const std::function<double(int)>& error, int steps) {
 inline ContactScene colliding(double v_i, double v_j, double restitution, double collision_time,
                               const TangentialForce& tangential = NoTangentialForce{},
                               double half_distance = 0.0021) {
-  const HardScene hard = head_on(v_i, v_j, restitution, half_distance);
+  const Scene hard = head_on(v_i, v_j, restitution, half_distance);
   SoftContact contact = linear_contact(0.5 * hard.bodies[0].mass, restitution, collision_time,
                                        ContactEnd::zero_overlap);
   contact.tangential = tangential;

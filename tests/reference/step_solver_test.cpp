@@ -1,4 +1,4 @@
-#include "reference/step_solver.h"
+#include "reference/steps/step_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "../support/extremes.h"
-#include "physics/elastic_pair.h"
-#include "reference/impact.h"
+#include "physics/contact/elastic_pair.h"
+#include "scene/impact.h"
 #include "step_scenes.h"
 
 namespace slipcheck {
@@ -16,7 +16,7 @@ namespace {
 using namespace test;
 
 TEST(StepSolver, SecondOrderInDampedLinearCollision) {
-  const HardScene scene = free_pair(0.1);
+  const Scene scene = free_pair(0.1);
   const double mass = 0.5 * scene.bodies[0].mass;
   const SoftContact contact = linear_contact(mass, 0.7, kCollisionTime, ContactEnd::zero_overlap);
   const auto& law = std::get<LinearForce>(contact.normal);
@@ -42,7 +42,7 @@ TEST(StepSolver, SecondOrderInDampedLinearCollision) {
 }
 
 TEST(StepSolver, SecondOrderInHertzCollision) {
-  const HardScene scene = free_pair(0.1);
+  const Scene scene = free_pair(0.1);
   const double mass = 0.5 * scene.bodies[0].mass, modulus = 1e10;
   const ContactScene all =
       with_contact(scene, {HertzForce{modulus}, ContactEnd::zero_overlap, NoTangentialForce{}});
@@ -63,7 +63,7 @@ double worst_restitution_error(const SoftContact& contact, double exact, double 
   double worst = 0;
   for (int phase = 0; phase < 16; ++phase) {
     const double h = duration / steps;
-    const HardScene scene = free_pair(0.1, 0.1 * h * phase / 16);
+    const Scene scene = free_pair(0.1, 0.1 * h * phase / 16);
     const ContactScene all = with_contact(scene, contact);
     StepSolver solver(all, scene.initial, {h});
     solver.run(until(1.5 * duration), nullptr);
@@ -95,8 +95,8 @@ TEST(StepSolver, RestitutionIsOfSecondOrderWhereverWithinAStepTheCollisionBegins
 }
 
 /// A sphere of mass m between two of 1e12 m, both of which it overlaps by `squeeze`.
-HardScene squeezed(double squeeze) {
-  HardScene scene = test::steel_scene(3);
+Scene squeezed(double squeeze) {
+  Scene scene = test::steel_scene(3);
   scene.gravity = 0;
   for (std::size_t i = 0; i < 3; ++i)
     scene.initial[i].position = {(static_cast<double>(i) - 1) * (0.004 - squeeze), 0, 1};
@@ -106,7 +106,7 @@ HardScene squeezed(double squeeze) {
 }
 
 TEST(StepSolver, EnergyOfABoundPairDoesNotDrift) {
-  HardScene scene = squeezed(1e-6);
+  Scene scene = squeezed(1e-6);
   scene.initial[1].velocity = {0.01, 0, 0};
   for (const NormalForce& law : {NormalForce(LinearForce{1e6, 0}), NormalForce(HertzForce{1e9})}) {
     const ContactScene all =
@@ -140,7 +140,7 @@ TEST(StepSolver, EnergyOfABoundPairDoesNotDrift) {
 /// Largest speed of the squeezed sphere in a run of 2000 steps of `ratio` times the limit, over
 /// that at the start.
 double growth(double damping_ratio, double ratio) {
-  HardScene scene = squeezed(1e-6);
+  Scene scene = squeezed(1e-6);
   const double mass = scene.bodies[1].mass, omega = 2e5;
   // Both sides push: ω0² = 2k/m, γ = 2c/m.
   const LinearForce law{0.5 * mass * omega * omega, 0.5 * mass * damping_ratio * omega};

@@ -6,8 +6,8 @@
 
 #include "../support/extremes.h"
 #include "physics/closed_forms.h"
-#include "physics/coupled_friction.h"
-#include "reference/step_solver.h"
+#include "physics/contact/coupled_friction.h"
+#include "reference/steps/step_solver.h"
 #include "step_scenes.h"
 
 namespace slipcheck {
@@ -30,7 +30,7 @@ struct SlideWatch final : FrameSink {
 };
 
 TEST(StepSolver, SlidingTimeAndDistanceAreOfFirstOrder) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.initial[0].velocity = {0.3, 0.1, 0};
   scene.initial[0].angular_velocity = {20, -10, 0};
   const SlideToRoll exact(scene.bodies[0], 0.1, 9.81, scene.initial[0].velocity,
@@ -70,7 +70,7 @@ TEST(StepSolver, SlidingTimeAndDistanceAreOfFirstOrder) {
 
 TEST(StepSolver, TurningSlipIsOfSecondOrder) {
   // A ball on a slope that slides across it: friction turns with the slip. Exact: Runge-Kutta.
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.downhill = {0, -4};
   scene.initial[0].velocity = {0.5, 0, 0};
   const ContactScene all = alone(scene);
@@ -97,7 +97,7 @@ TEST(StepSolver, TurningSlipIsOfSecondOrder) {
 }
 
 TEST(StepSolver, K16RollingStopsAfterItsDistance) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].rolling = RollingFriction(0.01);
   scene.initial[0] = test::rolling_at(0, 0, 0.06, 0.08);
   const ContactScene all = alone(scene);
@@ -115,7 +115,7 @@ TEST(StepSolver, K16RollingStopsAfterItsDistance) {
 }
 
 TEST(StepSolver, RollingFrictionOfATableFollowsItsExponential) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   // μ_r = 0.1 v: v̇ = −0.1 g v.
   scene.substrate[0].rolling =
       RollingFriction(std::vector<RollingFriction::Point>{{0, 0}, {1, 0.1}});
@@ -131,7 +131,7 @@ TEST(StepSolver, RollingFrictionOfATableFollowsItsExponential) {
 }
 
 TEST(StepSolver, RollingFrictionWhileSlidingTurnsTheSphereOnly) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].rolling = RollingFriction(0.01);
   scene.substrate[0].rolling_while_sliding = true;
   scene.initial[0].velocity = {1, 0, 0};
@@ -147,7 +147,7 @@ TEST(StepSolver, RollingFrictionWhileSlidingTurnsTheSphereOnly) {
 }
 
 TEST(StepSolver, DrillingStopsLinearly) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].drilling_length = 2e-6;
   scene.initial[0].angular_velocity = {0, 0, 30};
   const ContactScene all = alone(scene);
@@ -161,7 +161,7 @@ TEST(StepSolver, DrillingStopsLinearly) {
 }
 
 TEST(StepSolver, CoupledDrillingFollowsTheIntegratedLaw) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   SubstrateContact& contact = scene.substrate[0];
   contact.coupled_radius = 2e-4;
   contact.drilling_length = 2.0 / 3 * 0.1 * 2e-4;
@@ -199,7 +199,7 @@ TEST(StepSolver, CoupledDrillingFollowsTheIntegratedLaw) {
 }
 
 TEST(StepSolver, K24FiveSeventhsDownASlope) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   const double tilt = 5 * M_PI / 180;
   scene.gravity = 9.81 * std::cos(tilt);
   scene.downhill = {0, -9.81 * std::sin(tilt)};
@@ -215,7 +215,7 @@ TEST(StepSolver, K24FiveSeventhsDownASlope) {
 
 TEST(StepSolver, SteepSlopeSlides) {
   // Rolling needs (2/7) g sinθ of friction: more than μ_s g cosθ beyond tanθ = 3.5 μ_s.
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].static_friction = 0.2;
   for (const double tan : {0.69, 0.71}) {
     const double tilt = std::atan(tan);
@@ -231,7 +231,7 @@ TEST(StepSolver, SteepSlopeSlides) {
 }
 
 TEST(StepSolver, K15TwoSeventhsOfTheSubstratesVelocity) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.motion = SubstrateMotion::oscillation({0.01, 0.003}, 3, 0);
   const ContactScene all = alone(scene);
   // a = (2/7) a_S: v = (2/7) (v_S − v_S(0)) from a start at rest that rolls on the moving plane.
@@ -249,7 +249,7 @@ TEST(StepSolver, K15TwoSeventhsOfTheSubstratesVelocity) {
 
 TEST(StepSolver, FastOscillationMakesTheBallSlide) {
   // Rolling asks for friction (5/7... of) m a_S/(1+A): K (17) holds up to a_S = 3.5 μ_s g.
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].static_friction = 0.1;
   for (const double share : {0.95, 1.05}) {
     const double amplitude = share * 3.5 * 0.1 * 9.81 / std::pow(2 * M_PI * 5, 2);
@@ -265,7 +265,7 @@ TEST(StepSolver, FastOscillationMakesTheBallSlide) {
 }
 
 TEST(StepSolver, FlightLandingAndRestitution) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.substrate[0].restitution = 0.5;
   scene.initial[0].position.z() = 0.002 + 0.05;
   scene.initial[0].velocity = {0.2, 0, 0};
@@ -290,7 +290,7 @@ TEST(StepSolver, FlightLandingAndRestitution) {
 }
 
 TEST(StepSolver, LandingOnAMovingSubstrateRubsInItsFrame) {
-  HardScene scene = test::steel_scene(1);
+  Scene scene = test::steel_scene(1);
   scene.motion = SubstrateMotion::constant({0.3, 0});
   scene.initial[0].position.z() = 0.002 + 0.01;
   scene.initial[0].velocity = {0.3, 0, 0};  // with the substrate: no slip, no friction

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
-#include "report/check_files.h"
-#include "report/check_table.h"
+#include "report/files/check_files.h"
+#include "report/terminal/check_table.h"
 
 namespace slipcheck {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/context.h"
+#include "report/rows/context.h"
 
 #include <gtest/gtest.h>
 

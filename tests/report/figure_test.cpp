@@ -1,12 +1,12 @@
-#include "report/figure.h"
+#include "report/charts/figure.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "report/csv.h"
-#include "report/plot_text.h"
+#include "report/charts/plot_text.h"
+#include "report/files/csv.h"
 
 namespace slipcheck {
 namespace {

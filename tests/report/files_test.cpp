@@ -1,4 +1,4 @@
-#include "report/files.h"
+#include "report/files/files.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

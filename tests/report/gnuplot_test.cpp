@@ -11,8 +11,8 @@
 #include <string>
 
 #include "records.h"
-#include "report/files.h"
-#include "report/gnuplot_charts.h"
+#include "report/charts/gnuplot_charts.h"
+#include "report/files/files.h"
 #include "study_records.h"
 #include "text_search.h"
 

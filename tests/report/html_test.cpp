@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "records.h"
-#include "report/html_text.h"
-#include "report/phase_charts.h"
-#include "report/phase_spread.h"
-#include "report/report_page.h"
+#include "report/charts/phase_charts.h"
+#include "report/html/html_text.h"
+#include "report/html/report_page.h"
+#include "report/rows/phase_spread.h"
 #include "scenario/load.h"
 #include "text_search.h"
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "records.h"
-#include "report/json_report.h"
+#include "report/json/json_report.h"
 
 namespace slipcheck::testing {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "records.h"
-#include "report/extended_xyz.h"
-#include "report/motion_json.h"
-#include "report/vtk_files.h"
+#include "report/files/extended_xyz.h"
+#include "report/files/vtk_files.h"
+#include "report/json/motion_json.h"
 
 namespace slipcheck {
 namespace {

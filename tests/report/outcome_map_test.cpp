@@ -1,12 +1,11 @@
-#include "report/outcome_map.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "report/figure.h"
-#include "report/outcome_look.h"
+#include "report/charts/category_map.h"
+#include "report/charts/figure.h"
+#include "report/rows/outcome_look.h"
 #include "text_search.h"
 
 namespace slipcheck {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "records.h"
-#include "report/junit.h"
-#include "report/markdown.h"
-#include "report/result_csv.h"
+#include "report/files/junit.h"
+#include "report/files/markdown.h"
+#include "report/files/result_csv.h"
 #include "text_search.h"
 
 namespace slipcheck::testing {

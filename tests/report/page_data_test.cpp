@@ -1,4 +1,4 @@
-#include "report/page_data.h"
+#include "report/html/page_data.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "records.h"
-#include "report/packed_text.h"
-#include "report/page_channel.h"
+#include "report/html/packed_text.h"
+#include "report/html/page_channel.h"
 #include "scenario/load.h"
 #include "study_records.h"
 

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "report/csv_rows.h"
-#include "report/html_precision.h"
-#include "report/precision_charts.h"
-#include "report/precision_csv.h"
-#include "report/precision_json.h"
-#include "report/precision_rows.h"
-#include "report/precision_table.h"
+#include "report/charts/precision_charts.h"
+#include "report/files/precision_csv.h"
+#include "report/html/html_precision.h"
+#include "report/json/precision_json.h"
+#include "report/rows/csv_rows.h"
+#include "report/rows/precision_rows.h"
+#include "report/terminal/precision_table.h"
 #include "study_records.h"
 #include "text_search.h"
 

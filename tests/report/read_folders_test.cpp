@@ -1,4 +1,4 @@
-#include "report/read_folders.h"
+#include "report/json/read_folders.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,11 +9,11 @@
 
 #include "../as_nobody.h"
 #include "read_records.h"
-#include "report/context.h"
-#include "report/json_report.h"
-#include "report/motion_json.h"
-#include "report/precision_json.h"
-#include "report/stability_json.h"
+#include "report/json/json_report.h"
+#include "report/json/motion_json.h"
+#include "report/json/precision_json.h"
+#include "report/json/stability_json.h"
+#include "report/rows/context.h"
 #include "study_records.h"
 
 namespace slipcheck::testing {

@@ -4,11 +4,11 @@
 #include <string>
 
 #include "read_records.h"
-#include "report/json_report.h"
-#include "report/precision_json.h"
-#include "report/read_result.h"
-#include "report/read_studies.h"
-#include "report/stability_json.h"
+#include "report/json/json_report.h"
+#include "report/json/precision_json.h"
+#include "report/json/read_result.h"
+#include "report/json/read_studies.h"
+#include "report/json/stability_json.h"
 #include "study_records.h"
 
 namespace slipcheck::testing {

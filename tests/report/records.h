@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "harness/record.h"
+#include "harness/compare/record.h"
 
 namespace slipcheck::testing {
 

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include "report/html_stability.h"
-#include "report/stability_charts.h"
-#include "report/stability_csv.h"
-#include "report/stability_json.h"
-#include "report/stability_rows.h"
-#include "report/stability_table.h"
+#include "report/charts/stability_charts.h"
+#include "report/files/stability_csv.h"
+#include "report/html/html_stability.h"
+#include "report/json/stability_json.h"
+#include "report/rows/stability_rows.h"
+#include "report/terminal/stability_table.h"
 #include "study_records.h"
 #include "text_search.h"
 

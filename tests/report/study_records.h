@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "precision/precision.h"
-#include "stability/limits.h"
-#include "stability/stability.h"
+#include "studies/precision/precision.h"
+#include "studies/stability/limits.h"
+#include "studies/stability/stability.h"
 
 namespace slipcheck::testing {
 

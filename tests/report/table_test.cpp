@@ -1,4 +1,4 @@
-#include "report/table.h"
+#include "report/terminal/table.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "records.h"
-#include "report/brief.h"
-#include "report/text.h"
+#include "report/terminal/brief.h"
+#include "report/terminal/text.h"
 
 namespace slipcheck::testing {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "report/context.h"
-#include "report/tuning_json.h"
-#include "report/tuning_profile.h"
-#include "report/tuning_table.h"
+#include "report/files/tuning_profile.h"
+#include "report/json/tuning_json.h"
+#include "report/rows/context.h"
+#include "report/terminal/tuning_table.h"
 
 namespace slipcheck {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "records.h"
-#include "report/report_page.h"
+#include "report/html/report_page.h"
 #include "study_records.h"
 
 namespace {

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "scenario/overlap.h"
+#include "scenario/rules/overlap.h"
 #include "scenes.h"
 
 // Rules that span several keys.

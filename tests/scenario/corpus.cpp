@@ -11,7 +11,7 @@
 
 #include "scenario/file_text.h"
 #include "scenario/reading.h"
-#include "scenario/scene_rules.h"
+#include "scenario/rules/scene_rules.h"
 #include "scenario/yaml_tree.h"
 #include "scenes.h"
 

@@ -1,4 +1,4 @@
-#include "scenario/fill_lattice.h"
+#include "scenario/fill/fill_lattice.h"
 
 #include <chrono>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "stability/body_passage.h"
+#include "studies/stability/body_passage.h"
 
 #include <gtest/gtest.h>
 

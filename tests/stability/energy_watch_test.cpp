@@ -1,4 +1,4 @@
-#include "stability/energy_watch.h"
+#include "studies/stability/energy_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "stability/limit_search.h"
+#include "studies/stability/limit_search.h"
 
 #include <gtest/gtest.h>
 

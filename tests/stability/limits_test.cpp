@@ -1,4 +1,4 @@
-#include "stability/limits.h"
+#include "studies/stability/limits.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <string>
 #include <utility>
 
-#include "stability/closed_contact.h"
-#include "stability/fixed_step_limits.h"
-#include "stability/outcome_map.h"
+#include "studies/stability/closed_contact.h"
+#include "studies/stability/fixed_step_limits.h"
+#include "studies/stability/outcome_map.h"
 
 namespace slipcheck {
 namespace {

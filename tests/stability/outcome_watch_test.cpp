@@ -1,4 +1,4 @@
-#include "stability/outcome_watch.h"
+#include "studies/stability/outcome_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "stability/rest_watch.h"
+#include "studies/stability/rest_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "stability/scene_variation.h"
+#include "studies/stability/scene_variation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "harness/prepared_scene.h"
+#include "harness/run/prepared_scene.h"
 #include "scenario/load.h"
 
 namespace slipcheck {

@@ -1,4 +1,4 @@
-#include "stability/stability.h"
+#include "studies/stability/stability.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "stability/phase_comparison.h"
+#include "studies/stability/phase_comparison.h"
 #include "watched_runs.h"
 
 namespace slipcheck {

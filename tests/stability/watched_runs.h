@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scenario/load.h"
-#include "stability/outcome_watch.h"
+#include "studies/stability/outcome_watch.h"
 
 namespace slipcheck::test {
 

@@ -1,4 +1,4 @@
-#include "tuning/tuning_journal.h"
+#include "studies/tuning/tuning_journal.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "tuning/tuning_score.h"
+#include "studies/tuning/tuning_score.h"
 
 #include <gtest/gtest.h>
 

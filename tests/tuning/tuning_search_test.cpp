@@ -1,4 +1,4 @@
-#include "tuning/tuning_search.h"
+#include "studies/tuning/tuning_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tuning/tuning_space.h"
+#include "studies/tuning/tuning_space.h"
 
 #include <gtest/gtest.h>
 

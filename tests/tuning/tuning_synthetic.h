@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tuning/tuning.h"
+#include "studies/tuning/tuning.h"
 
 namespace slipcheck::test {
 

@@ -1,4 +1,4 @@
-#include "tuning/tuning.h"
+#include "studies/tuning/tuning.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,74 @@
+#include "app/explain/first_meeting.h"
+
+#include <cmath>
+
+#include "reference/initial_contacts.h"
+#include "reference/reference_solver.h"
+
+namespace slipcheck {
+namespace {
+
+/// Keeps the last states before two bodies touch.
+class UntilTouch final : public FrameSink {
+ public:
+  explicit UntilTouch(const Vector2& periodic) : periodic_(periodic) {}
+
+  void take(double time, const Frame& frame) override {
+    if (found) return;
+    for (const Touch& touch : frame.touches) {
+      if (touch.second == kSubstrate || before_.empty()) continue;
+      Meeting meeting;
+      meeting.first = static_cast<std::size_t>(touch.first);
+      meeting.second = static_cast<std::size_t>(touch.second);
+      meeting.time = time;
+      meeting.a = before_[meeting.first];
+      meeting.b = before_[meeting.second];
+      meeting.n = to_nearest_image(meeting.b.position - meeting.a.position).normalized();
+      found = meeting;
+      return;
+    }
+    before_ = frame.bodies;
+  }
+
+  std::optional<Meeting> found;
+
+ private:
+  Vector3 to_nearest_image(Vector3 apart) const {
+    for (int k = 0; k < 2; ++k)
+      if (periodic_[k] > 0) apart[k] -= periodic_[k] * std::round(apart[k] / periodic_[k]);
+    return apart;
+  }
+
+  Vector2 periodic_;
+  std::vector<BodyState> before_;
+};
+
+}  // namespace
+
+std::optional<Meeting> first_meeting(const ContactScene& scene, double limit) {
+  if (scene.hard.bodies.size() < 2 || scene.hard.box) return std::nullopt;
+  if (!initial_contacts(scene, scene.hard.initial).empty()) return std::nullopt;
+  const ContactScene hard = with_hard_contacts(scene.hard);
+  UntilTouch sink(scene.hard.periodic);
+  const auto just_after = [](double time) {
+    const double end = time * (1 + 1e-6) + 1e-12;
+    return RunEnd{Run::Until::time, end, end};
+  };
+  if (runs_in_phases(hard.hard)) {
+    // Frames of many bodies cost more than the events between them.
+    EventSolver solver(hard.hard, hard.hard.initial);
+    const double time = solver.next_collision(limit);
+    if (!(time <= limit)) return std::nullopt;
+    const double before = time * (1 - 1e-6);
+    solver.run({Run::Until::time, before, before}, nullptr);
+    solver.run(just_after(time), &sink);
+    return sink.found;
+  }
+  const ReferenceSolver solver(hard, Compare::Reference::event);
+  const double time = solver.next_collision(hard.hard.initial, 0, limit, 0);
+  if (!(time <= limit)) return std::nullopt;
+  solver.run(just_after(time), &sink);
+  return sink.found;
+}
+
+}  // namespace slipcheck

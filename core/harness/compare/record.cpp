@@ -1,0 +1,90 @@
+#include "harness/compare/record.h"
+
+#include <algorithm>
+
+#include "harness/compare/comparison.h"
+#include "harness/observe/observables.h"
+
+namespace slipcheck {
+
+std::vector<ExpectationResult> EngineRecord::expectations() const {
+  if (!expect) return {};
+  std::vector<ExpectationResult> results = expectation_results(*expect, observables);
+  if (status == Status::ok) return results;
+  for (ExpectationResult& result : results) {
+    result.met = false;
+    result.value = kNotObserved;
+    result.reason = std::string("the run is ") + name_of(status);
+  }
+  return results;
+}
+
+Verdict EngineRecord::verdict() const {
+  const auto judged = [](bool good) { return good ? Verdict::within : Verdict::deviates; };
+  if (expect && expect->status) return judged(status == *expect->status);
+  if (status == Status::skipped) return Verdict::undecided;
+  if (status != Status::ok) return Verdict::failed;
+  if (expect) return judged(std::ranges::all_of(expectations(), &ExpectationResult::met));
+  Verdict worst = Verdict::unjudged;
+  for (const auto& [name, error] : errors) worst = std::max(worst, error.verdict);
+  return worst;
+}
+
+Verdict SceneRecord::verdict() const {
+  // Where every run is judged by what is expected of it, the reference judges nothing.
+  const bool by_reference = runs.empty() || !std::ranges::all_of(runs, [](const EngineRecord& run) {
+                              return run.expect.has_value();
+                            });
+  const bool has_end = reference.run.reached || !by_reference;
+  Verdict worst = has_end ? Verdict::unjudged : Verdict::undecided;
+  for (const EngineRecord& run : runs) worst = std::max(worst, run.verdict());
+  return worst;
+}
+
+const char* name_of(EngineRecord::Status status) {
+  switch (status) {
+    case EngineRecord::Status::ok:
+      return "ok";
+    case EngineRecord::Status::unstable:
+      return "unstable";
+    case EngineRecord::Status::crashed:
+      return "crashed";
+    case EngineRecord::Status::timed_out:
+      return "timed_out";
+    case EngineRecord::Status::skipped:
+      return "skipped";
+  }
+  return "";
+}
+
+const char* name_of(ExpectationResult::Statistic statistic) {
+  switch (statistic) {
+    case ExpectationResult::Statistic::min:
+      return "min";
+    case ExpectationResult::Statistic::median:
+      return "median";
+    case ExpectationResult::Statistic::max:
+      return "max";
+    case ExpectationResult::Statistic::none:
+      return "none";
+  }
+  return "";
+}
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unjudged:
+      return "not judged";
+    case Verdict::within:
+      return "within";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::deviates:
+      return "deviates";
+    case Verdict::failed:
+      return "failed";
+  }
+  return "";
+}
+
+}  // namespace slipcheck

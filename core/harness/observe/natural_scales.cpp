@@ -1,0 +1,36 @@
+#include "harness/observe/natural_scales.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reference/initial_contacts.h"
+#include "scenario/owned_names.h"
+
+namespace slipcheck {
+
+double NaturalScales::of(const std::string& full_name) const {
+  const ObservableName* observable = find_observable(owned_name(full_name).observable);
+  const Dimension& d = observable ? observable->dimension : kPureNumber;
+  const double geometry = d.time < 0 ? std::pow(speed, -d.time) * std::pow(small, d.length + d.time)
+                                     : std::pow(large, d.length) * std::pow(time, d.time);
+  return std::pow(mass, d.mass) * geometry;
+}
+
+bool NaturalScales::is_rounding(const std::string& full_name, double difference) const {
+  constexpr double kRounding = 1e-9;
+  return difference <= kRounding * of(full_name);
+}
+
+NaturalScales natural_scales(const ContactScene& scene, double end) {
+  NaturalScales scales{
+      .speed = speed_scale(scene), .small = std::numeric_limits<double>::infinity(), .time = end};
+  for (const Sphere& sphere : scene.hard.bodies) {
+    scales.large = std::max(scales.large, sphere.radius);
+    scales.small = std::min(scales.small, sphere.radius);
+    scales.mass = std::max(scales.mass, sphere.mass);
+  }
+  return scales;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,134 @@
+#include "harness/observe/observables.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "physics/frame.h"
+
+namespace slipcheck {
+namespace {
+
+/// An observable's name and where its value is.
+template <class Owner, class Value>
+struct Named {
+  const char* name;
+  Value Owner::*value;
+};
+using ScalarOfBody = Named<BodyObservables, double>;
+using VectorOfBody = Named<BodyObservables, Vector3>;
+using ScalarOfPair = Named<PairObservables, double>;
+
+constexpr std::array kScalars = {
+    ScalarOfBody{"sliding_time", &BodyObservables::sliding_time},
+    ScalarOfBody{"sliding_distance", &BodyObservables::sliding_distance},
+    ScalarOfBody{"energy_change_sliding", &BodyObservables::energy_change_sliding},
+    ScalarOfBody{"momentum_change_sliding", &BodyObservables::momentum_change_sliding},
+    ScalarOfBody{"stopping_time", &BodyObservables::stopping_time},
+    ScalarOfBody{"stopping_distance", &BodyObservables::stopping_distance},
+    ScalarOfBody{"spin_stopping_time", &BodyObservables::spin_stopping_time},
+    ScalarOfBody{"lift_off_speed", &BodyObservables::lift_off_speed},
+    ScalarOfBody{"jump_height", &BodyObservables::jump_height},
+    ScalarOfBody{"flight_time", &BodyObservables::flight_time},
+};
+
+constexpr std::array kVectors = {
+    VectorOfBody{"velocity_after_collision", &BodyObservables::velocity_after_collision},
+    VectorOfBody{"slip_after_collision", &BodyObservables::slip_after_collision},
+    VectorOfBody{"angular_velocity_after_collision",
+                 &BodyObservables::angular_velocity_after_collision},
+    VectorOfBody{"rolling_velocity", &BodyObservables::rolling_velocity},
+    VectorOfBody{"final_position", &BodyObservables::final_position},
+    VectorOfBody{"final_velocity", &BodyObservables::final_velocity},
+    VectorOfBody{"final_angular_velocity", &BodyObservables::final_angular_velocity},
+};
+
+constexpr std::array kPairScalars = {
+    ScalarOfPair{"restitution", &PairObservables::restitution},
+    ScalarOfPair{"tangential_restitution", &PairObservables::tangential_restitution},
+    ScalarOfPair{"effective_restitution", &PairObservables::effective_restitution},
+    ScalarOfPair{"contact_time", &PairObservables::contact_time},
+    ScalarOfPair{"max_overlap", &PairObservables::max_overlap},
+    ScalarOfPair{"sliding_onset", &PairObservables::sliding_onset},
+};
+
+constexpr std::size_t kOfBody = kScalars.size() + 4 * kVectors.size();
+
+/// What a body's values are called, in the order of flat_values().
+std::vector<std::string> names_of_body() {
+  std::vector<std::string> names;
+  for (const auto& scalar : kScalars) names.emplace_back(scalar.name);
+  for (const auto& vector : kVectors) {
+    names.emplace_back(vector.name);
+    for (const char* axis : {".x", ".y", ".z"}) names.push_back(std::string(vector.name) + axis);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string value_name(const Observables& observables, const std::vector<std::string>& body_names,
+                       std::size_t index) {
+  static const std::vector<std::string> kNames = names_of_body();
+  const std::size_t of_bodies = kOfBody * observables.bodies.size();
+  if (index < of_bodies) return body_names[index / kOfBody] + "." + kNames[index % kOfBody];
+  const std::size_t left = index - of_bodies;
+  const PairObservables& pair = observables.pairs[left / kPairScalars.size()];
+  const std::string second = pair.second == kSubstrate
+                                 ? std::string("substrate")
+                                 : body_names[static_cast<std::size_t>(pair.second)];
+  return body_names[static_cast<std::size_t>(pair.first)] + "-" + second + "." +
+         kPairScalars[left % kPairScalars.size()].name;
+}
+
+std::vector<std::string> value_names(const Observables& observables,
+                                     const std::vector<std::string>& body_names) {
+  std::vector<std::string> names(kOfBody * observables.bodies.size() +
+                                 kPairScalars.size() * observables.pairs.size());
+  for (std::size_t k = 0; k < names.size(); ++k) names[k] = value_name(observables, body_names, k);
+  return names;
+}
+
+std::vector<double> flat_values(const Observables& observables) {
+  std::vector<double> values;
+  values.reserve(kOfBody * observables.bodies.size() +
+                 kPairScalars.size() * observables.pairs.size());
+  for (const BodyObservables& body : observables.bodies) {
+    for (const auto& scalar : kScalars) values.push_back(body.*scalar.value);
+    for (const auto& vector : kVectors) {
+      const Vector3& v = body.*vector.value;
+      values.insert(values.end(), {v.norm(), v.x(), v.y(), v.z()});
+    }
+  }
+  for (const PairObservables& pair : observables.pairs)
+    for (const auto& scalar : kPairScalars) values.push_back(pair.*scalar.value);
+  return values;
+}
+
+std::map<std::string, double> named_values(const Observables& observables,
+                                           const std::vector<std::string>& body_names) {
+  const std::vector<double> values = flat_values(observables);
+  std::map<std::string, double> named;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (!std::isnan(values[k])) named.emplace(value_name(observables, body_names, k), values[k]);
+  return named;
+}
+
+Observables aligned(const Observables& observables, const Observables& like) {
+  Observables result;
+  result.bodies = observables.bodies;
+  result.bodies.resize(like.bodies.size());
+  result.pairs.reserve(like.pairs.size());
+  for (const PairObservables& wanted : like.pairs) {
+    const auto found = std::find_if(
+        observables.pairs.begin(), observables.pairs.end(), [&](const PairObservables& pair) {
+          return pair.first == wanted.first && pair.second == wanted.second;
+        });
+    result.pairs.push_back(found != observables.pairs.end()
+                               ? *found
+                               : PairObservables{.first = wanted.first, .second = wanted.second});
+  }
+  return result;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,292 @@
+#include "harness/observe/observer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/events/event_solver.h"
+
+namespace slipcheck {
+namespace {
+
+/// Linear between two frames.
+Vector3 between(const Vector3& a, const Vector3& b, double fraction) {
+  return a + fraction * (b - a);
+}
+
+}  // namespace
+
+double FallingQuantity::time_to_zero(double before, double after, double dt) const {
+  const double expected = before - rate_ * dt;
+  if (rate_ <= 0 || expected <= 0) return time_to_zero(before, dt);
+  // It counts as zero but goes on falling as before: its zero lies a little further on.
+  return std::abs(after - expected) <= std::min(0.1 * rate_ * dt, 0.5 * expected) ? before / rate_
+                                                                                  : dt;
+}
+
+double FallingQuantity::time_to_zero(double before, double dt) const {
+  return before < rate_ * dt ? before / rate_ : dt;
+}
+
+namespace {
+
+/// The fastest that the scene's centres come together by: a spin alone brings nothing together, but
+/// friction may turn some of it into speed.
+double closing_scale_of(const Scene& scene, double speed_scale) {
+  constexpr double kOfSpins = 1e-3;
+  std::vector<BodyState> without_spin = scene.initial;
+  for (BodyState& state : without_spin) state.angular_velocity.setZero();
+  return std::max(slipcheck::speed_scale(scene, without_spin), kOfSpins * speed_scale);
+}
+
+}  // namespace
+
+Observer::Observer(const Scene& scene, double step, double speed_scale, bool resolved)
+    : scene_(&scene),
+      step_(step),
+      speed_scale_(speed_scale),
+      closing_scale_(closing_scale_of(scene, speed_scale)),
+      resolved_(resolved),
+      bodies_(scene.bodies.size()) {
+  const double floor = (step > 0 ? kEngineNoise : kRoundOff) * speed_scale;
+  const double g = scene.gravity;
+  const double per_step = 0.5 * g * step;
+  // What pulls or shakes a body is left in its slip where an engine adds it after the friction.
+  const double driven = 0.5 * step * (scene.downhill.norm() + scene.motion.largest_acceleration());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Sphere& s = scene.bodies[i];
+    const SubstrateContact& c = scene.on_substrate(i);
+    const double slip_per_step = per_step * (1 + s.inverse_shape_factor());
+    // Rolling friction that is solved for after the sliding leaves its own step of slip.
+    const double left = 2 * slip_per_step * c.rolling.largest_up_to(speed_scale) + driven;
+    Resolution& zero = bodies_[i].zero;
+    zero.left_slip = std::max(floor, left);
+    zero.slip = std::max(floor, slip_per_step * c.kinetic_friction + left);
+    if (resolved && step == 0) zero.slip = std::max(zero.slip, kIntegrationError * speed_scale);
+    if (c.coupled_radius > 0) zero.slip = std::max(zero.slip, kCoupledSlip * speed_scale);
+    zero.speed = std::max(floor, per_step * c.rolling(0));
+    zero.spin = std::max(floor / s.radius,
+                         per_step * c.drilling_length / (s.shape_factor * s.radius * s.radius));
+  }
+}
+
+// --- over the substrate --------------------------------------------------------------------------
+
+void Observer::look_at_ground(double t0, double t1) {
+  const SubstrateMotion& motion = scene_->motion;
+  if (motion.is_still()) return;
+  // A frame at a kink itself is one after it; the reference shows the one before it an instant
+  // earlier.
+  ground0_ = {motion.position(t0), motion.velocity(t0)};
+  ground1_ = {motion.position(t1), motion.velocity(t1)};
+}
+
+Vector3 Observer::slip_of(std::size_t i, const BodyState& state, const Ground& ground) const {
+  Vector3 slip = slip_velocity(state, scene_->bodies[i].radius) - ground.velocity;
+  slip.z() = 0;
+  return slip;
+}
+
+bool Observer::slips(std::size_t i, const BodyState& state, const Ground& ground) const {
+  // A body that falls down a slope becomes faster than anything it began with.
+  const double fastest =
+      std::max(state.velocity.norm(), scene_->bodies[i].radius * state.angular_velocity.norm());
+  const double noise = (step_ > 0 ? kEngineNoise : kRoundOff) * fastest;
+  return slip_speed(i, state, ground) > std::max(bodies_[i].zero.slip, noise);
+}
+
+/// A rolling sphere that gravity and the substrate drive moves over the substrate with
+/// A/(1+A) (a_G − a_S), K (22), (24), unless rolling friction μ_r g can take as much.
+bool Observer::can_rest(std::size_t i, double time) const {
+  Vector3 drive = -scene_->motion.acceleration(time);
+  drive.head<2>() += scene_->downhill;
+  const double A = scene_->bodies[i].inverse_shape_factor();
+  const double hold = scene_->on_substrate(i).rolling(0) * scene_->gravity;
+  return A / (1 + A) * drive.norm() <= hold * (1 + 1e-9);
+}
+
+// --- frame by frame ------------------------------------------------------------------------------
+
+bool Observer::touches_substrate(std::size_t i, const Frame& frame) const {
+  if (bodies_[i].touched) return true;
+  // A sleeping body of an engine is not solved for, yet it lies on the plane.
+  const BodyState& state = frame.bodies[i];
+  const double radius = scene_->bodies[i].radius;
+  return step_ > 0 && state.position.z() - radius < 1e-3 * radius &&
+         std::abs(state.velocity.z()) < vertical_noise();
+}
+
+void Observer::take(double time, const Frame& frame) {
+  if (!started_) {
+    begin(time, frame);
+    return;
+  }
+  const double t0 = time_, t1 = time;
+  look_at_ground(t0, t1);
+  for (Body& body : bodies_) body.touched = false;
+  for (const Touch& touch : frame.touches)
+    if (touch.second == kSubstrate) bodies_[static_cast<std::size_t>(touch.first)].touched = true;
+  note_touches(t0, t1, frame);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
+    const bool touches = touches_substrate(i, frame);
+    follow_landing(body, i, frame);
+    follow_flight(body, i, touches, t0, t1, frame);
+    follow_support(body, touches, t1, frame.bodies[i]);
+    follow_sliding(body, i, t0, t1, frame);
+    follow_stopping(body, i, t0, t1, frame);
+    body.collided_now = false;
+  }
+  settle_effective_restitution(t0, t1, frame);
+  keep_frames_of_the_end();
+  std::swap(before_last_, last_);
+  time_before_ = t0;
+  last_ = frame;
+  time_ = t1;
+}
+
+void Observer::begin(double time, const Frame& frame) {
+  started_ = true;
+  time_ = time_before_ = time;
+  last_ = before_last_ = frame;
+  look_at_ground(time, time);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
+    const BodyState& state = frame.bodies[i];
+    body.origin_time = time;
+    body.origin = position_over(state, ground1_);
+    body.after = state;
+    body.slide_end = time;
+    body.supported = state.position.z() <= scene_->bodies[i].radius * (1 + 1e-9) &&
+                     !(state.velocity.z() > body.zero.slip);
+    if (body.supported) body.supported_frames = kSupportedFrames;
+    if (!body.supported) body.unsupported_since = time;
+    body.began_on_plane = body.supported;
+    body.sliding = body.supported && slips(i, state, ground1_);
+    if (body.supported && !body.sliding) body.rolling_velocity = state.velocity;
+    body.spinning = std::abs(state.angular_velocity.z()) > body.zero.spin;
+    body.spun = body.spinning;
+    body.resting = body.supported && !body.sliding && can_rest(i, time) &&
+                   velocity_over(state, ground1_).norm() <= body.zero.speed;
+    if (body.resting) {
+      body.stop_time = time;
+      body.stop_position = body.origin;
+    }
+  }
+  begin_overlaps(time, frame);
+}
+
+// --- the end -------------------------------------------------------------------------------------
+
+bool Observer::anything_slides_or_flies() const {
+  return !std::ranges::all_of(bodies_, [this](const Body& body) { return rolls(body); });
+}
+
+bool Observer::rolls(const Body& body) const {
+  return !body.sliding && !body.faint && body.supported &&
+         (step_ == 0 || body.quiet_frames > 1 || body.supported_frames >= kSupportedFrames);
+}
+
+bool Observer::everything_rests() const {
+  return std::all_of(bodies_.begin(), bodies_.end(),
+                     [](const Body& body) { return body.resting && !body.spinning; });
+}
+
+double Observer::last_slide_end() const {
+  double last = 0;
+  for (const Body& body : bodies_)
+    last = std::max({last, body.slide_end, body.quiet_frames > 0 ? body.hop_end : 0});
+  return last;
+}
+
+double Observer::last_stop() const {
+  double last = 0;
+  for (const Body& body : bodies_) {
+    if (!std::isnan(body.stop_time)) last = std::max(last, body.stop_time);
+    if (!std::isnan(body.spin_stop_time)) last = std::max(last, body.spin_stop_time);
+  }
+  return last;
+}
+
+void Observer::keep_frames_of_the_end() {
+  if (step_ == 0) return;  // the reference ends with a frame
+  const double end = last_slide_end();
+  if (end > end_) {
+    end_ = end;
+    end_is_kept_ = false;
+  } else if (!end_is_kept_) {
+    end_before_ = before_last_;
+    end_after_ = last_;
+    end_time_before_ = time_before_;
+    end_time_after_ = time_;
+    end_is_kept_ = true;
+  }
+}
+
+Observables Observer::finish(double end) const {
+  // What comes after the end is no part of it, though a few frames were needed to tell.
+  const bool is_kept = end_is_kept_ && end <= end_time_after_;
+  const Frame& before = is_kept ? end_before_ : before_last_;
+  const Frame& after = is_kept ? end_after_ : last_;
+  const double t0 = is_kept ? end_time_before_ : time_before_;
+  const double t1 = is_kept ? end_time_after_ : time_;
+  const double fraction = t1 > t0 ? std::clamp((end - t0) / (t1 - t0), 0.0, 1.0) : 1;
+  Observables seen;
+  seen.bodies.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    BodyObservables& out = seen.bodies[i];
+    if (!body.sliding && body.supported) {
+      out.sliding_time = body.slide_time;
+      out.sliding_distance = body.slide.norm();
+      out.rolling_velocity = body.rolling_velocity;
+      if (body.collided || body.began_on_plane)
+        out.energy_change_sliding =
+            body.after.velocity.squaredNorm() - body.rolling_velocity.squaredNorm();
+      if (body.collided)
+        out.momentum_change_sliding = (body.after.velocity - body.rolling_velocity).dot(body.away);
+    }
+    if (body.collided) {
+      out.velocity_after_collision = body.after.velocity;
+      out.slip_after_collision = body.slip_after;
+      out.angular_velocity_after_collision = body.after.angular_velocity;
+    }
+    if (body.resting && !std::isnan(body.stop_time)) {
+      out.stopping_time = body.stop_time - body.origin_time;
+      out.stopping_distance = (body.stop_position - body.origin).norm();
+    }
+    if (body.spun && !body.spinning)
+      out.spin_stopping_time = body.spin_stop_time - body.origin_time;
+    out.lift_off_speed = body.lift_off_speed;
+    out.flight_time = body.flight_time;
+    if (!std::isnan(body.lift_off_speed) && (!body.jumping || last_.bodies[i].velocity.z() <= 0))
+      out.jump_height = body.peak - body.lift_off_height;
+    const BodyState &s0 = before.bodies[i], &s1 = after.bodies[i];
+    out.final_position = between(s0.position, s1.position, fraction);
+    out.final_velocity = between(s0.velocity, s1.velocity, fraction);
+    out.final_angular_velocity = between(s0.angular_velocity, s1.angular_velocity, fraction);
+    if (!std::isnan(body.landing_restitution))
+      seen.pairs.push_back({.first = static_cast<int>(i),
+                            .second = kSubstrate,
+                            .restitution = body.landing_restitution});
+  }
+  for (const Pair& pair : pairs_) {
+    if (!pair.collided) continue;
+    PairObservables& out = seen.pairs.emplace_back();
+    out.first = pair.first;
+    out.second = pair.second;
+    out.restitution = pair.restitution;
+    out.tangential_restitution = pair.tangential_restitution;
+    out.effective_restitution = pair.effective;
+    // A hard pair in a scene of resolved ones collides at an instant.
+    if (!resolved_ || !(pair.contact_time > 0)) continue;
+    out.contact_time = pair.contact_time;
+    out.max_overlap = pair.max_overlap;
+    out.sliding_onset = pair.sliding_onset;
+  }
+  std::sort(seen.pairs.begin(), seen.pairs.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : a.second < b.second;
+  });
+  return seen;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,206 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "harness/observe/observables.h"
+#include "physics/frame.h"
+#include "scene/scene.h"
+
+namespace slipcheck {
+
+/// Below what a quantity counts as zero, for one body.
+struct Resolution {
+  double slip = 0;       ///< [m/s]
+  double left_slip = 0;  ///< what a rolling body of an engine may keep of it in every step [m/s]
+  double speed = 0;      ///< [m/s]
+  double spin = 0;       ///< about the vertical [rad/s]
+};
+
+/// A quantity that falls towards zero and is seen at some instants only: slip, speed, spin.
+/// Remembers how fast it fell, so that its zero is found inside a step.
+class FallingQuantity {
+ public:
+  void reset() { rate_ = 0; }
+  /// It was `before` and is `after` at the end of an interval `dt` [s], > 0.
+  void fall(double before, double after, double dt) { rate_ = (before - after) / dt; }
+  /// When it reaches zero, counted from the start of an interval `dt` in which it fell from
+  /// `before` to `after` and came to count as zero. The end of the interval where no rate is known;
+  /// beyond it only where `after` is what a steady fall leaves.
+  double time_to_zero(double before, double after, double dt) const;
+  /// The same where it is zero at the end of the interval: not beyond.
+  double time_to_zero(double before, double dt) const;
+  /// What falls in `dt`, or 0 where no rate is known.
+  double falls_in(double dt) const { return std::max(rate_, 0.0) * dt; }
+
+ private:
+  double rate_ = 0;
+};
+
+/// Turns the frames of a run, of the reference or of an engine, into observables while it goes on;
+/// nothing grows with the run's length.
+///
+/// The reference shows its frames at the events themselves (`step` = 0). An engine shows one frame
+/// a step: a collision ends with the step that applied its impulse, and what ends inside a step
+/// (the slip, the speed, the spin) is found from how it fell before. What counts as zero is half of
+/// what friction takes in a step, since friction stops a body inside a step; but slip that the next
+/// step takes away too was still sliding, and so the next frame is waited for.
+///
+/// A body is on the substrate while it touches it and neither comes down nor leaves by more than
+/// what gravity adds in a step: one that bounces flies. It rolls once two frames show no vertical
+/// speed, or kSupportedFrames no flight, as some engines never come to rest.
+///
+/// A contact of two bodies is a collision if it closes faster than 7 % of the pair's fastest
+/// collision so far and 0.1 % of the scene's speed, spins left out; weaker ones are rattling. A
+/// collision that the reference resolves in time lasts from the frame before the first of
+/// consecutive frames in which the pair touches to the last of them, whatever happens in between.
+/// Two bodies that overlap in the first frame collide from there on for as long as they touch.
+///
+/// Slip, rest and the ways to both are relative to the substrate, which may move; velocities and
+/// final positions are those of the laboratory.
+class Observer final : public FrameSink {
+ public:
+  /// step [s], >= 0; speed_scale [m/s] as of event_solver.h. `resolved`: the reference's contacts
+  /// of bodies last, so that their duration, overlap and what happens in them are observed.
+  Observer(const Scene& scene, double step, double speed_scale, bool resolved = false);
+
+  void take(double time, const Frame& frame) override;
+
+  /// What closes slower than this is no collision [m/s].
+  double weakest_collision() const { return kOfSceneSpeed * closing_scale_; }
+
+  bool anything_slides_or_flies() const;
+  bool everything_rests() const;
+  /// When the last body stopped to slide or landed, or came to rest [s].
+  double last_slide_end() const;
+  double last_stop() const;
+
+  /// The observables of a run that ended at `end` [s], in the last interval or after it.
+  Observables finish(double end) const;
+
+ private:
+  /// A collision closes at least at these fractions of the pair's fastest and of the scene's speed.
+  static constexpr double kOfPairsFastest = 0.07;
+  static constexpr double kOfSceneSpeed = 1e-3;
+  static constexpr int kSupportedFrames = 10;
+  /// Of gravity's speed in a step: what an engine leaves to a body that stays on the substrate.
+  static constexpr double kQuiet = 0.05;
+  /// What an engine leaves in a quantity that should be zero, of the scene's speed.
+  static constexpr double kEngineNoise = 1e-5;
+  static constexpr double kRoundOff = 1e-12;
+  /// What an integration leaves in the slip of a body that sticks.
+  static constexpr double kIntegrationError = 1e-9;
+  /// Slip that shares its friction with a spin dies out exponentially: below this fraction of the
+  /// scene's speed it has ended.
+  static constexpr double kCoupledSlip = 1e-6;
+
+  /// The substrate at one instant.
+  struct Ground {
+    Vector3 position = Vector3::Zero(), velocity = Vector3::Zero();
+  };
+  struct Body {
+    Resolution zero;
+    double origin_time = 0;
+    Vector3 origin = Vector3::Zero();  ///< over the substrate, as are all ways below
+    bool supported = true, sliding = false, resting = false, spinning = false;
+    /// Frames in succession on the substrate, and among them those without a vertical speed.
+    int supported_frames = 0, quiet_frames = 0;
+    double hop_end = 0;  ///< the last frame that shows the end of a bounce too small for a flight
+    /// The slide has ended with some slip left; the next frame tells whether it went on. The rest
+    /// of the step is then part of it.
+    bool faint = false;
+    double faint_time = 0;
+    Vector3 faint_way = Vector3::Zero();
+    bool began_on_plane = true, touched = false, collided_now = false;
+    FallingQuantity slip, speed, spin;
+    double slide_end = 0, slide_time = 0;
+    Vector3 slide = Vector3::Zero();
+    Vector3 rolling_velocity = kVectorNotObserved;
+    double stop_time = kNotObserved, spin_stop_time = kNotObserved;
+    Vector3 stop_position = kVectorNotObserved;
+    bool spun = false;
+    bool jumping = false;
+    double unsupported_since = kNotObserved, unsupported_height = 0;
+    double lift_off_time = 0, lift_off_speed = kNotObserved, lift_off_height = 0;
+    double peak = 0, flight_time = kNotObserved;
+    // The last collision.
+    bool collided = false;
+    BodyState after;
+    Vector3 slip_after = Vector3::Zero();
+    double collision_begin = 0, collision_height = 0;
+    Vector3 away = Vector3::Zero();  ///< n from the other body
+    double fall_speed = 0;           ///< of the last landing, for the pair with the substrate
+    double landing_restitution = kNotObserved;
+    double fastest_landing = 0;
+  };
+  struct Pair {
+    int first, second;
+    double fastest = 0;  ///< approach of its collisions so far [m/s]
+    bool touched_before = false, touched_now = false, colliding = false, collided = false;
+    bool from_start = false;      ///< it overlaps since the first frame
+    bool awaits_rolling = false;  ///< for the effective restitution
+    Vector3 n = Vector3::Zero();
+    double approach = 0;
+    Vector3 tangential = Vector3::Zero();
+    double restitution = kNotObserved, tangential_restitution = kNotObserved;
+    double effective = kNotObserved;
+    double begin_time = 0, contact_time = 0, max_overlap = 0;
+    bool slid_before = false;
+    double sliding_onset = kNotObserved;
+  };
+
+  void begin(double time, const Frame& frame);
+  void look_at_ground(double t0, double t1);
+  void keep_frames_of_the_end();
+  bool touches_substrate(std::size_t i, const Frame& frame) const;
+  void follow_support(Body& body, bool touches, double t1, const BodyState& now) const;
+  /// On the substrate and not sliding, as far as the frames tell.
+  bool rolls(const Body& body) const;
+  void begin_overlaps(double time, const Frame& frame);
+  void note_touches(double t0, double t1, const Frame& frame);
+  void note_collision(Pair& pair, const Touch& touch, double t0, double t1, const Frame& frame);
+  /// Whether this touch belongs to a collision, and whether it is the first.
+  bool continues_or_begins(Pair& pair, const Touch& touch, double t0);
+  void resolve(Pair& pair, double t0, double t1, const Frame& frame);
+  void follow_sliding(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
+  void follow_stopping(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
+  void follow_flight(Body& body, std::size_t i, bool touches, double t0, double t1,
+                     const Frame& frame);
+  void follow_landing(Body& body, std::size_t i, const Frame& frame);
+  void settle_effective_restitution(double t0, double t1, const Frame& frame);
+  /// Over the substrate: the slip of the lowest point, the centre's velocity and position.
+  Vector3 slip_of(std::size_t i, const BodyState& state, const Ground& ground) const;
+  double slip_speed(std::size_t i, const BodyState& state, const Ground& ground) const {
+    return slip_of(i, state, ground).norm();
+  }
+  bool slips(std::size_t i, const BodyState& state, const Ground& ground) const;
+  static Vector3 velocity_over(const BodyState& state, const Ground& ground) {
+    return state.velocity - ground.velocity;
+  }
+  static Vector3 position_over(const BodyState& state, const Ground& ground) {
+    return state.position - ground.position;
+  }
+  /// Whether rolling friction could hold the body at rest.
+  bool can_rest(std::size_t i, double time) const;
+  double vertical_noise() const;
+  Pair& pair_of(int first, int second);
+
+  const Scene* scene_;
+  double step_;
+  double speed_scale_;
+  double closing_scale_;  ///< the same of centres alone [m/s]
+  bool resolved_;
+  bool started_ = false;
+  double time_ = 0, time_before_ = 0;
+  Frame last_, before_last_;
+  /// The frames around the latest end of a slide, or landing, once it is not between the last two.
+  Frame end_before_, end_after_;
+  double end_ = 0, end_time_before_ = 0, end_time_after_ = 0;
+  bool end_is_kept_ = false;
+  Ground ground0_, ground1_;  ///< at the start and at the end of the interval
+  std::vector<Body> bodies_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace slipcheck

@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <cmath>
+
+#include "harness/observe/observer.h"
+#include "reference/initial_contacts.h"
+
+namespace slipcheck {
+namespace {
+
+std::size_t index(int body) { return static_cast<std::size_t>(body); }
+
+/// Velocity of the first body at the contact point relative to the second; n from the second.
+Vector3 contact_velocity(const Sphere& a, const BodyState& sa, const Sphere& b, const BodyState& sb,
+                         const Vector3& n) {
+  return sa.velocity - sb.velocity -
+         (a.radius * sa.angular_velocity + b.radius * sb.angular_velocity).cross(n);
+}
+
+double overlap(const Sphere& a, const BodyState& sa, const Sphere& b, const BodyState& sb) {
+  return a.radius + b.radius - (sa.position - sb.position).norm();
+}
+
+}  // namespace
+
+Observer::Pair& Observer::pair_of(int first, int second) {
+  for (Pair& pair : pairs_)
+    if (pair.first == first && pair.second == second) return pair;
+  Pair& pair = pairs_.emplace_back();
+  pair.first = first;
+  pair.second = second;
+  return pair;
+}
+
+/// Bodies that overlap in the first frame, which have no approach.
+void Observer::begin_overlaps(double time, const Frame& frame) {
+  for (const auto& [i, j, overlap] : overlapping_pairs(*scene_, frame.bodies)) {
+    const BodyState &si = frame.bodies[i], &sj = frame.bodies[j];
+    Pair& pair = pair_of(static_cast<int>(i), static_cast<int>(j));
+    pair.touched_now = pair.colliding = pair.from_start = true;
+    pair.n = (si.position - sj.position).normalized();
+    pair.approach = kNotObserved;
+    const Vector3 u = contact_velocity(scene_->bodies[i], si, scene_->bodies[j], sj, pair.n);
+    pair.tangential = u - pair.n.dot(u) * pair.n;
+    pair.begin_time = time;
+    pair.max_overlap = overlap;
+    pair.slid_before = bodies_[i].sliding || bodies_[j].sliding;
+    for (std::size_t k : {i, j}) {
+      bodies_[k].collision_begin = time;
+      bodies_[k].collision_height = frame.bodies[k].position.z();
+    }
+  }
+}
+
+void Observer::note_touches(double t0, double t1, const Frame& frame) {
+  for (Pair& pair : pairs_) {
+    pair.touched_before = pair.touched_now;
+    pair.touched_now = false;
+  }
+  for (const Touch& touch : frame.touches) {
+    if (touch.second == kSubstrate) continue;
+    Pair& pair = pair_of(touch.first, touch.second);
+    // Where its law does not act the contact has not begun anew when it acts again.
+    if (touch.normal_impulse == 0)
+      pair.touched_now = true;
+    else
+      note_collision(pair, touch, t0, t1, frame);
+  }
+  for (Pair& pair : pairs_)
+    if (!pair.touched_now) pair.colliding = pair.from_start = false;
+}
+
+bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
+  pair.touched_now = true;
+  // The reference's contact is a collision or none from its beginning on.
+  if ((step_ == 0 || pair.from_start) && pair.touched_before) return pair.colliding;
+
+  const std::size_t i = index(pair.first), j = index(pair.second);
+  const BodyState &si = last_.bodies[i], &sj = last_.bodies[j];
+  const Sphere &a = scene_->bodies[i], &b = scene_->bodies[j];
+  const Vector3 n = (si.position - sj.position).normalized();
+  const double approach = -n.dot(si.velocity - sj.velocity);
+
+  const double weakest = std::max(kOfPairsFastest * pair.fastest, kOfSceneSpeed * closing_scale_);
+  // A blow that passes through a row of bodies in one step finds this pair without an approach;
+  // what sliding bodies that lean on each other push in a step is none.
+  const double blow = 0.5 * touch.normal_impulse * (1 / a.mass + 1 / b.mass);
+  const double leaning =
+      ((scene_->on_substrate(i).kinetic_friction + scene_->on_substrate(j).kinetic_friction) *
+           scene_->gravity +
+       scene_->downhill.norm()) *
+      step_;
+  if (approach <= weakest && (step_ == 0 || blow <= weakest + leaning)) {
+    pair.colliding = false;
+    return false;
+  }
+  if (pair.colliding) return true;
+
+  pair.colliding = true;
+  pair.n = n;
+  pair.approach = approach > weakest ? approach : kNotObserved;
+  pair.fastest = std::max({pair.fastest, approach, blow > weakest + leaning ? blow : 0});
+  const Vector3 u = contact_velocity(a, si, b, sj, n);
+  pair.tangential = u - n.dot(u) * n;
+  pair.begin_time = t0;
+  pair.max_overlap = std::max(0.0, overlap(a, si, b, sj));
+  pair.slid_before = bodies_[i].sliding || bodies_[j].sliding;
+  pair.sliding_onset = kNotObserved;
+  for (std::size_t k : {i, j}) {
+    bodies_[k].collision_begin = t0;
+    bodies_[k].collision_height = last_.bodies[k].position.z();
+  }
+  return true;
+}
+
+/// What a collision shows that lasts.
+void Observer::resolve(Pair& pair, double t0, double t1, const Frame& frame) {
+  const std::size_t i = index(pair.first), j = index(pair.second);
+  pair.contact_time = t1 - pair.begin_time;
+  pair.max_overlap = std::max(pair.max_overlap, overlap(scene_->bodies[i], frame.bodies[i],
+                                                        scene_->bodies[j], frame.bodies[j]));
+  if (pair.slid_before || !std::isnan(pair.sliding_onset)) return;
+  for (std::size_t k : {i, j})
+    if (touches_substrate(k, frame) && !slips(k, last_.bodies[k], ground0_) &&
+        slips(k, frame.bodies[k], ground1_))
+      pair.sliding_onset = t0 - pair.begin_time;
+}
+
+void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double t1,
+                              const Frame& frame) {
+  if (!continues_or_begins(pair, touch, t0)) return;
+  if (resolved_) resolve(pair, t0, t1, frame);
+
+  const std::size_t i = index(pair.first), j = index(pair.second);
+  const Sphere &a = scene_->bodies[i], &b = scene_->bodies[j];
+  const BodyState &after_i = frame.bodies[i], &after_j = frame.bodies[j];
+  // The line of centres turns while a contact lasts; an engine's normal is that before the step.
+  const Vector3 tangential = pair.tangential;
+  Vector3 direction = tangential;
+  if (step_ == 0 && t1 > pair.begin_time) {
+    pair.n = (after_i.position - after_j.position).normalized();
+    direction -= pair.n.dot(direction) * pair.n;
+    if (direction.squaredNorm() > 0) direction *= tangential.norm() / direction.norm();
+  }
+  pair.collided = true;
+  const double parting = pair.n.dot(after_i.velocity - after_j.velocity);
+  pair.restitution = parting / pair.approach;
+  // What comes later is weighed against what it began with.
+  if (pair.from_start) pair.fastest = std::max(pair.fastest, parting);
+  const double before2 = tangential.squaredNorm();
+  pair.tangential_restitution =
+      std::sqrt(before2) > kEngineNoise * speed_scale_
+          ? contact_velocity(a, after_i, b, after_j, pair.n).dot(direction) / before2
+          : kNotObserved;
+  pair.effective = kNotObserved;
+  // A body that collides again never shows what its earlier collision would have come to.
+  for (Pair& other : pairs_)
+    if (other.first == pair.first || other.first == pair.second || other.second == pair.first ||
+        other.second == pair.second)
+      other.awaits_rolling = false;
+  pair.awaits_rolling = true;
+  for (const auto& [k, away] :
+       {std::pair{i, pair.n}, std::pair<std::size_t, Vector3>{j, -pair.n}}) {
+    Body& body = bodies_[k];
+    body.collided = body.collided_now = true;
+    body.away = away;
+    body.after = frame.bodies[k];
+    body.slip_after = slip_of(k, body.after, ground1_);
+    body.origin_time = t1;
+    body.origin = position_over(body.after, ground1_);
+    body.slide_time = 0;
+    body.slide.setZero();
+    body.slide_end = t1;
+    body.rolling_velocity = kVectorNotObserved;
+    body.stop_time = body.spin_stop_time = kNotObserved;
+    body.resting = false;
+    body.spun = std::abs(frame.bodies[k].angular_velocity.z()) > body.zero.spin;
+    body.spinning = body.spun;
+    body.jumping = false;
+    body.lift_off_speed = body.flight_time = kNotObserved;
+  }
+}
+
+void Observer::settle_effective_restitution(double t0, double t1, const Frame& frame) {
+  for (Pair& pair : pairs_) {
+    if (!pair.awaits_rolling || pair.colliding) continue;
+    const Body &a = bodies_[index(pair.first)], &b = bodies_[index(pair.second)];
+    if (!rolls(a) || !rolls(b)) continue;
+    const double both = std::max(a.slide_end, b.slide_end);
+    const auto velocity_then = [&](int k) -> Vector3 {
+      const std::size_t i = index(k);
+      const Body& body = bodies_[i];
+      const Vector3& now = frame.bodies[i].velocity;
+      // A slide's end is a kink; after it the body goes on as it rolls.
+      const bool kink = body.slide_end > t0;
+      if (body.slide_end == both || (kink && both >= t1)) return body.rolling_velocity;
+      if (t1 <= t0 || both <= time_before_ || both >= t1) return now;
+      const double begin = kink ? body.slide_end : t0;
+      const Vector3& before = kink ? body.rolling_velocity : last_.bodies[i].velocity;
+      return before + (both - begin) / (t1 - begin) * (now - before);
+    };
+    const Vector3 dv = velocity_then(pair.first) - velocity_then(pair.second);
+    pair.effective = pair.n.dot(dv) / pair.approach;
+    pair.awaits_rolling = false;
+  }
+}
+
+}  // namespace slipcheck

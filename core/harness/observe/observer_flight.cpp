@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <cmath>
+
+#include "harness/observe/observer.h"
+
+namespace slipcheck {
+
+/// Vertical speed that says nothing: an engine's bodies move by what gravity adds in a step.
+double Observer::vertical_noise() const {
+  if (step_ == 0) return kRoundOff * speed_scale_;
+  return std::max(kOfSceneSpeed * speed_scale_, scene_->gravity * step_);
+}
+
+void Observer::follow_support(Body& body, bool touches, double t1, const BodyState& now) const {
+  const double speed = std::abs(now.velocity.z());
+  body.supported = touches && speed <= vertical_noise();
+  const bool quiet =
+      speed <= std::max(kEngineNoise * speed_scale_, kQuiet * scene_->gravity * step_);
+  body.supported_frames =
+      body.supported ? std::min(body.supported_frames + 1, kSupportedFrames) : 0;
+  body.quiet_frames = body.supported && quiet ? body.quiet_frames + 1 : 0;
+  if (!quiet && body.supported_frames < kSupportedFrames) body.hop_end = t1;
+}
+
+void Observer::follow_flight(Body& body, std::size_t i, bool touches, double t0, double t1,
+                             const Frame& frame) {
+  const BodyState &s0 = last_.bodies[i], &s1 = frame.bodies[i];
+  const double v0 = s0.velocity.z(), v1 = s1.velocity.z();
+  const double slowest = vertical_noise();
+  if (touches) {
+    body.unsupported_since = kNotObserved;
+  } else if (std::isnan(body.unsupported_since)) {
+    body.unsupported_since = t1;
+    body.unsupported_height = s1.position.z();
+  }
+  if (!body.jumping) {
+    // The reference shows that the support is gone; only at an instant, in a bounce, it does not.
+    const bool is_free = step_ > 0 || !touches || t1 == t0;
+    if (is_free && v1 > slowest && std::isnan(body.lift_off_speed)) {
+      body.jumping = true;
+      body.lift_off_speed = v1;
+      body.lift_off_time = t0;
+      body.lift_off_height = s0.position.z();
+      if (step_ == 0 && !touches) {
+        // Since the support went, though that was in the middle of a collision.
+        const bool flew_before = body.collided_now && body.unsupported_since < body.collision_begin;
+        body.lift_off_time = flew_before ? body.collision_begin : body.unsupported_since;
+        body.lift_off_height = flew_before ? body.collision_height : body.unsupported_height;
+      }
+      body.peak = std::max(s0.position.z(), s1.position.z());
+    }
+    return;
+  }
+  double peak = std::max(s0.position.z(), s1.position.z());
+  if (v0 > 0 && v1 <= 0 && t1 > t0) peak = s0.position.z() + 0.5 * v0 * v0 * (t1 - t0) / (v0 - v1);
+  if (!(touches && v0 < 0 && t1 > t0)) body.peak = std::max(body.peak, peak);
+  // It may bounce again at once.
+  if (touches && (v1 <= slowest || v0 < 0)) {
+    const double plane = scene_->bodies[i].radius;
+    const double above0 = s0.position.z() - plane, above1 = s1.position.z() - plane;
+    const double fraction = above0 > 0 && above1 < 0 ? above0 / (above0 - above1) : 1;
+    body.flight_time = t0 + fraction * (t1 - t0) - body.lift_off_time;
+    body.jumping = false;
+  }
+}
+
+void Observer::follow_landing(Body& body, std::size_t i, const Frame& frame) {
+  const double v0 = last_.bodies[i].velocity.z(), v1 = frame.bodies[i].velocity.z();
+  const double slowest =
+      std::max(kOfPairsFastest * body.fastest_landing, kOfSceneSpeed * speed_scale_);
+  if (body.touched && body.fall_speed == 0 && v0 < -std::max(slowest, 2 * scene_->gravity * step_))
+    body.fall_speed = -v0;
+  if (body.fall_speed == 0) return;
+  if (body.touched && !body.collided_now) {
+    body.fastest_landing = std::max(body.fastest_landing, body.fall_speed);
+    body.landing_restitution = std::max(0.0, v1) / body.fall_speed;
+  }
+  // An engine may take several steps to turn the body round.
+  if (!body.touched || v1 >= 0) body.fall_speed = 0;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "harness/run/reference_run.h"
+#include "reference/box_solver.h"
+#include "reference/reference_solver.h"
+#include "scenario/scenario.h"
+
+namespace slipcheck {
+
+/// A scene with its solver and its reference, which engines are then held against as often as
+/// wanted.
+struct PreparedScene {
+  Scenario scenario;
+  std::unique_ptr<const ContactScene> contact;  ///< the solver looks at it
+  std::variant<ReferenceSolver, BoxSolver> solver;
+  ReferenceResult reference;
+};
+
+/// Solves these scenes, as many at once as there are threads (0: one for each core); how many
+/// changes no bit. Throws Unsupported where no solver knows a model, before any is run. general: as
+/// of ReferenceSettings. time_limit: of wall time for each scene's reference, all its runs [s].
+///
+/// A reference that throws, is interrupted or runs out of time has failed, with the reason in its
+/// run; it shows nothing, and the other scenes go on.
+std::vector<PreparedScene> prepare_scenes(
+    std::vector<Scenario> scenarios, bool general = false, std::size_t threads = 1,
+    double time_limit = std::numeric_limits<double>::infinity());
+
+}  // namespace slipcheck

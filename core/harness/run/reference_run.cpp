@@ -1,0 +1,224 @@
+#include "harness/run/reference_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cfenv>
+#include <cmath>
+#include <limits>
+
+#include "harness/compare/closed_form_values.h"
+#include "harness/observe/observer.h"
+#include "harness/run/cpu_time.h"
+#include "reference/initial_contacts.h"
+#include "reference/lasting_contacts.h"
+
+namespace slipcheck {
+namespace {
+
+/// Restores the rounding mode on leaving.
+class RoundingMode {
+ public:
+  explicit RoundingMode(int mode) : before_(std::fegetround()) { std::fesetround(mode); }
+  ~RoundingMode() { std::fesetround(before_); }
+  RoundingMode(const RoundingMode&) = delete;
+  RoundingMode& operator=(const RoundingMode&) = delete;
+
+ private:
+  int before_;
+};
+
+struct Solved {
+  SolvedRun run;
+  Observables seen;
+};
+
+Solved solve(const ReferenceSolver& solver, const RunEnd& end, int rounding,
+             const SolverAccuracy& accuracy) {
+  const RoundingMode mode(rounding);
+  const Scene& scene = solver.scene().hard;
+  Observer observer(scene, 0, speed_scale(solver.scene()), solver.is_resolved());
+  Solved solved;
+  solved.run = solver.run(end, &observer, accuracy);
+  solved.seen = observer.finish(solved.run.end_time);
+  return solved;
+}
+
+const char* name_of(CollapseRule::Model model) {
+  switch (model) {
+    case CollapseRule::Model::slowest_rebound:
+      return "slowest_rebound: 1e-6 of the hardest impact";
+    case CollapseRule::Model::contact_time:
+      return "contact_time";
+    case CollapseRule::Model::largest_velocity:
+      return "largest_velocity";
+  }
+  return "";
+}
+
+bool is_time(const std::string& name) {
+  return name.ends_with("_time") || name.ends_with(".sliding_onset");
+}
+
+/// The run that the values come from and those that tell their uncertainty.
+struct SolvedRuns {
+  Solved value;
+  std::vector<Observables> others;
+  double cpu_seconds = 0;
+};
+
+SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double tolerance) {
+  SolvedRuns runs;
+  if (solver.is_exact()) {
+    runs.others.push_back(solve(solver, end, FE_UPWARD, {tolerance, 1.5}).seen);
+    runs.others.push_back(solve(solver, end, FE_DOWNWARD, {tolerance, 0.5}).seen);
+  } else if (solver.is_stepped()) {
+    // Where in a step contacts begin and end scatters the error; two other lengths of step show it.
+    for (const double factor : {2.0, 1.37})
+      runs.others.push_back(solve(solver, end, FE_TONEAREST, {tolerance, 1, factor}).seen);
+  } else {
+    runs.others.push_back(solve(solver, end, FE_TONEAREST,
+                                {.tolerance = 10 * tolerance, .cut_offs = 1.5, .softness = 2})
+                              .seen);
+  }
+  const double begin = thread_cpu_seconds();
+  runs.value = solve(solver, end, FE_TONEAREST, {tolerance, 1});
+  runs.cpu_seconds = thread_cpu_seconds() - begin;
+  if (runs.value.run.collapses == 0) return runs;
+  // Where a rule took part, its size, another rule and another order of what comes at one instant
+  // tell what it decided; and so do contacts that last, which need none, where friction with the
+  // substrate presses bodies together.
+  const SolverAccuracy other{.tolerance = tolerance, .cut_offs = 10, .other_rule = true};
+  const SolverAccuracy reversed{.tolerance = tolerance, .reversed = true};
+  for (const SolverAccuracy& accuracy : {other, reversed})
+    runs.others.push_back(solve(solver, end, FE_TONEAREST, accuracy).seen);
+  const Scene& scene = solver.scene().hard;
+  const auto lasting = is_rubbed(scene) ? with_lasting_contacts(scene) : std::nullopt;
+  if (lasting) {
+    const ReferenceSolver resolved(*lasting, Compare::Reference::contact);
+    runs.others.push_back(solve(resolved, end, FE_TONEAREST, {.tolerance = 1e-8}).seen);
+  }
+  return runs;
+}
+
+/// Of each of these values, which may be NaN. Takes the other runs apart: of many bodies they are
+/// large.
+std::vector<double> uncertainty_of(const std::vector<double>& values, const ReferenceSolver& solver,
+                                   SolvedRuns& runs) {
+  // An error of first order is as large as the difference to twice the step; scattered ones were
+  // found up to 2.6 times as large.
+  const double safety = solver.is_stepped() || solver.softened_to() > 0 ? 3 : 1;
+  std::vector<double> uncertainties;
+  uncertainties.reserve(values.size());
+  for (const double value : values)
+    uncertainties.push_back(2 * std::numeric_limits<double>::epsilon() * std::abs(value));
+  for (; !runs.others.empty(); runs.others.pop_back()) {
+    const std::vector<double> other = flat_values(aligned(runs.others.back(), runs.value.seen));
+    for (std::size_t k = 0; k < values.size(); ++k)
+      uncertainties[k] = std::isnan(other[k])
+                             ? std::numeric_limits<double>::infinity()
+                             : std::max(uncertainties[k], safety * std::abs(other[k] - values[k]));
+  }
+  return uncertainties;
+}
+
+}  // namespace
+
+ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
+                              const std::vector<std::string>& names) {
+  const Scene& scene = solver.scene().hard;
+  ReferenceResult result;
+  result.solver = solver.name();
+  double tolerance = SolverAccuracy{}.tolerance;
+  SolvedRuns runs = solve_all(solver, end, tolerance);
+  // A scene whose scales lie too far apart for its last digits.
+  while (runs.value.run.failed && !solver.is_exact() && tolerance < 1e-9) {
+    tolerance *= 10;
+    runs = solve_all(solver, end, tolerance);
+  }
+  if (tolerance > SolverAccuracy{}.tolerance)
+    result.warnings.push_back("integrated at a relative tolerance of 1e" +
+                              std::to_string(std::lround(std::log10(tolerance))));
+  const Solved& solved = runs.value;
+  result.cpu_seconds = runs.cpu_seconds;
+  result.run = solved.run;
+  result.scales = natural_scales(solver.scene(), solved.run.end_time);
+  // What the integrator cannot run has no contact to put phases to; the warning below says so.
+  result.first_contact = solved.run.failed ? std::numeric_limits<double>::infinity()
+                                           : solver.first_contact(result.run.end_time, tolerance);
+
+  // Closed forms are of a body alone, or of two that have met once and not again.
+  const bool has_closed_form = result.run.reached && has_exact_phases(scene) &&
+                               !solver.is_resolved() &&
+                               result.run.collisions + 1 == scene.bodies.size();
+  const std::vector<double> values = flat_values(solved.seen);
+  const std::vector<double> uncertainties = uncertainty_of(values, solver, runs);
+  const std::vector<double> closed =
+      has_closed_form ? flat_values(aligned(closed_form_observables(scene), solved.seen))
+                      : std::vector<double>(values.size(), kNotObserved);
+  std::vector<std::string> not_numbers;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double value = values[k];
+    if (std::isnan(value)) {
+      if (!is_not_observed(value)) not_numbers.push_back(value_name(solved.seen, names, k));
+      continue;
+    }
+    std::string name = value_name(solved.seen, names, k);
+    // A time has a frame at either end, whatever other steps happen to agree with it.
+    const double least = solver.is_stepped() && is_time(name) ? 2 * solver.step() : 0;
+    if (!std::isnan(closed[k])) result.closed_form.emplace(name, closed[k]);
+    result.observables.emplace(std::move(name),
+                               UncertainValue{value, std::max(least, uncertainties[k])});
+  }
+  if (!scene.periodic.isZero(0) && result.run.end_time > 0) {
+    // Counts scatter by their square root where collisions are independent.
+    const auto count = static_cast<double>(result.run.collisions);
+    result.observables["all.collision_rate"] = {count / result.run.end_time,
+                                                std::sqrt(count) / result.run.end_time};
+  }
+  fail_because_of_nan(not_numbers, result);
+  if (solver.softened_to() > 0)
+    result.warnings.push_back(
+        fmt::format("bodies stay in contact: hard contacts are taken as linear ones "
+                    "that last {:.3g} s; the uncertainty holds what twice that time changes",
+                    solver.softened_to()));
+  if (solver.hardens())
+    result.warnings.emplace_back(
+        "event takes soft contacts as hard ones of their restitution and friction; pairs that rub "
+        "or press each other onto the substrate part differently, however stiff they are");
+  for (const std::string& warning : solver.scene().warnings) result.warnings.push_back(warning);
+  if (!result.run.reached) result.warnings.push_back("the run did not end: " + result.run.reason);
+  if (result.run.collapses > 0)
+    result.warnings.push_back(
+        fmt::format("inelastic collapse: the rule of run.collapse ({}) changed {} of {} collisions",
+                    name_of(scene.collapse.model), result.run.collapses, result.run.collisions));
+  return result;
+}
+
+void fail_because_of_nan(const std::vector<std::string>& names, ReferenceResult& result) {
+  if (names.empty()) return;
+  if (!result.run.failed) {  // else the solver has said more
+    result.run.reason = "NaN in " + names.front();
+    if (names.size() > 1)
+      result.run.reason += fmt::format(" and {} more observables", names.size() - 1);
+  }
+  result.run.failed = true;
+  result.run.reached = false;
+  result.first_contact = std::numeric_limits<double>::infinity();
+  result.observables.clear();
+  result.closed_form.clear();
+  result.box.reset();
+}
+
+RunEnd run_end(const Scenario& scenario) {
+  return {scenario.run.until, scenario.run.time, scenario.run.limit};
+}
+
+std::vector<std::string> body_names(const Scenario& scenario) {
+  std::vector<std::string> names;
+  names.reserve(scenario.bodies.size());
+  for (const Body& body : scenario.bodies) names.push_back(body.name);
+  return names;
+}
+
+}  // namespace slipcheck

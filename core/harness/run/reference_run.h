@@ -1,0 +1,59 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/observe/box_observer.h"
+#include "harness/observe/motion.h"
+#include "harness/observe/natural_scales.h"
+#include "reference/reference_solver.h"
+#include "scenario/scenario.h"
+#include "scene/scene.h"
+
+namespace slipcheck {
+
+struct UncertainValue {
+  double value = 0;
+  double uncertainty = 0;  ///< >= 0, in the value's unit
+};
+
+/// How the averages over a box came about.
+struct BoxReference {
+  std::size_t samples = 0;    ///< that they are taken over
+  std::size_t discarded = 0;  ///< periods before the first of them
+  bool steady = false;        ///< H, K and R show no trend over them
+  BoxSeries series;           ///< all samples after `run.discard`
+};
+
+/// What the reference says of a scene.
+struct ReferenceResult {
+  std::string solver = "event";  ///< or "contact"
+  double cpu_seconds = 0;        ///< of the one run that the values come from
+  std::map<std::string, UncertainValue> observables;
+  std::map<std::string, double> closed_form;  ///< where one applies
+  SolvedRun run;
+  double first_contact = 0;         ///< time of the first collision or landing [s], maybe infinite
+  NaturalScales scales;             ///< of the scene; none of one in a box
+  std::optional<BoxReference> box;  ///< of a scene in a box
+  std::optional<RecordedMotion> motion;  ///< where it is recorded
+  std::vector<std::string> warnings;
+};
+
+/// Solves a scene. Where phases are exact the uncertainty is the spread over runs under all three
+/// rounding modes, in which also the cut-offs for vanishing rebounds differ by half; where they are
+/// integrated it is the difference to a run at ten times the tolerance with other cut-offs. It is
+/// never less than two units in the last place. What depends on rounding (a rack of balls struck at
+/// once) shows.
+ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
+                              const std::vector<std::string>& body_names);
+
+/// What computed a NaN has no result: the run has failed, its reason names what is NaN, and nothing
+/// else of it is shown. Does nothing where `names` is empty.
+void fail_because_of_nan(const std::vector<std::string>& names, ReferenceResult& result);
+
+RunEnd run_end(const Scenario& scenario);
+std::vector<std::string> body_names(const Scenario& scenario);
+
+}  // namespace slipcheck

@@ -1,0 +1,238 @@
+#include "harness/run/requested_runs.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "engine/engine_registry.h"
+#include "engine/profile.h"
+#include "engine/remote_engine.h"
+#include "scenario/fault.h"
+#include "scenario/file_text.h"
+#include "scenario/rules/rules.h"
+
+namespace slipcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A message to an engine holds so many bodies: 64 MiB and 4 million items, of which each takes
+/// about 140 bytes and 9 items.
+constexpr std::size_t kMostBodies = 400'000;
+
+/// Every engine that the project or this machine knows of.
+std::vector<std::string> engine_names() {
+  std::set<std::string> names(known_engines().begin(), known_engines().end());
+  for (const EngineExecutable& found : find_engines()) names.insert(found.engine);
+  return {names.begin(), names.end()};
+}
+
+std::string precision_name(EngineRequest::Precision precision) {
+  return precision == EngineRequest::Precision::single_ ? "single" : "double";
+}
+
+/// Finds, reads and checks the profiles of all scenes, each file and each engine once.
+class Profiles {
+ public:
+  Profiles(const WorkerLimits& limits, const std::atomic<bool>* stop, const Settings& settings,
+           bool general)
+      : limits_(limits), stop_(stop), general_(general) {
+    over_.file = "--set";
+    over_.settings = settings;
+  }
+
+  /// The settings for the record of a request, or of one of a grid the reason why it is skipped; a
+  /// fault in it is noted.
+  void choose(const Scenario& scenario, const std::string& key, bool of_grid,
+              EngineRecord& record) {
+    if (std::ranges::find(engines_, record.engine) == engines_.end()) {
+      note(fault_at(scenario, key + ".engine",
+                    fmt::format("must be one of the engines {}{}", fmt::join(engines_, ", "),
+                                did_you_mean(record.engine, engines_)),
+                    record.engine));
+      return;
+    }
+    const auto executable = find_engine(record.engine, record.precision);
+    over_.engine = record.engine;
+    check(over_, record, executable);
+    choose_profile(scenario, key, of_grid, executable, record);
+    // Of both the setting that is given by hand holds.
+    Settings settings = over_.settings;
+    if (general_ && executable && takes_leaves_out(executable->path))
+      settings.try_emplace("leaves_out", false);
+    settings.merge(record.settings);
+    record.settings = std::move(settings);
+  }
+
+  /// Notes a scene that no engine can be told of.
+  void check_size(const Scenario& scenario) {
+    const std::size_t bodies = scenario.bodies.size();
+    if (scenario.compare.engines.empty() || bodies <= kMostBodies) return;
+    note(
+        fault_at(scenario, "compare.engines",
+                 fmt::format("must be [] with more than {} bodies, the reference alone: no message "
+                             "to an engine holds more",
+                             kMostBodies),
+                 fmt::format("{} bodies", bodies)));
+  }
+
+  /// Notes the profiles that no engine of a grid has.
+  void check_grid(const Scenario& scenario, const std::vector<EngineRecord>& records) {
+    std::set<std::string> lacking;
+    for (const EngineRecord& record : records)
+      if (!record.reason.empty()) lacking.insert(record.profile);
+    for (const EngineRecord& record : records)
+      if (record.reason.empty()) lacking.erase(record.profile);
+    std::vector<std::string> names;
+    for (const EngineExecutable& engine : find_engines())
+      for (const std::string& name : profile_names(engine)) names.push_back(name);
+    for (const std::string& profile : lacking)
+      note({scenario.file,
+            {},
+            "--profiles",
+            "must be profiles of the engines" + did_you_mean(profile, names),
+            profile});
+  }
+
+  void throw_faults() const {
+    if (!faults_.empty()) throw BadScenario(faults_);
+  }
+
+ private:
+  void choose_profile(const Scenario& scenario, const std::string& key, bool of_grid,
+                      const std::optional<EngineExecutable>& executable, EngineRecord& record) {
+    if (!executable && !is_profile_path(record.profile)) return;  // the run is skipped for that
+    const auto file =
+        find_profile(executable.value_or(EngineExecutable{}), record.profile, folder_of(scenario));
+    if (!file) {
+      if (record.profile == "default") return;  // without a file the engine's own settings
+      if (of_grid) {
+        record.reason = fmt::format("{} has no profile '{}'", record.engine, record.profile);
+        return;
+      }
+      std::vector<std::string> names = profile_names(*executable);
+      if (std::ranges::find(names, "default") == names.end()) names.push_back("default");
+      note(fault_at(scenario, key + ".profile",
+                    fmt::format("must be one of the profiles of {}, {}, or a path{}", record.engine,
+                                fmt::join(names, ", "), did_you_mean(record.profile, names)),
+                    record.profile));
+      return;
+    }
+    const Profile* profile = load(*file, scenario, key + ".profile", record.profile);
+    if (profile == nullptr) return;
+    check(*profile, record, executable);
+    record.settings = profile->settings;
+  }
+
+  static fs::path folder_of(const Scenario& scenario) {
+    return fs::path(scenario.file).parent_path();
+  }
+
+  static Fault fault_at(const Scenario& scenario, const std::string& key, std::string rule,
+                        std::string value) {
+    const auto place = scenario.locations.find(key);
+    return {scenario.file, place == scenario.locations.end() ? Location{} : place->second, key,
+            std::move(rule), std::move(value)};
+  }
+
+  /// The same file may be asked for at many places.
+  void note(Fault fault) {
+    if (noted_.insert(fault.message()).second) faults_.push_back(std::move(fault));
+  }
+
+  const Profile* load(const fs::path& file, const Scenario& scenario, const std::string& key,
+                      const std::string& written) {
+    const auto [found, is_new] = profiles_.try_emplace(file);
+    if (!is_new && found->second) return &*found->second;
+    std::string text;
+    try {
+      text = read_file(file);
+    } catch (const BadScenario& bad) {
+      const std::string rule = file.string() + ' ' + bad.faults().front().rule;
+      note(fault_at(scenario, key, rule, written));
+      return nullptr;
+    }
+    try {
+      return &found->second.emplace(parse_profile(text, file.string()));
+    } catch (const BadScenario& bad) {
+      for (const Fault& fault : bad.faults()) note(fault);
+      return nullptr;
+    }
+  }
+
+  void check(const Profile& profile, const EngineRecord& record,
+             const std::optional<EngineExecutable>& executable) {
+    EngineInfo info{record.engine, "", record.precision, {}};
+    if (!profile.settings.empty()) {
+      const EngineInfo* known = executable ? ask(executable->path) : nullptr;
+      if (known == nullptr) return;  // the run will tell why
+      info.settings = known->settings;
+    }
+    for (Fault& fault : check_profile(profile, info)) {
+      if (&profile == &over_) fault.key.erase(0, fault.key.find('.') + 1);  // "settings."
+      note(std::move(fault));
+    }
+  }
+
+  bool takes_leaves_out(const fs::path& executable) {
+    const EngineInfo* info = ask(executable);
+    return info && std::ranges::any_of(info->settings, [](const SettingInfo& setting) {
+             return setting.name == "leaves_out";
+           });
+  }
+
+  const EngineInfo* ask(const fs::path& executable) {
+    const auto [found, is_new] = infos_.try_emplace(executable);
+    try {
+      if (is_new) found->second = RemoteEngine(executable, limits_, stop_).info();
+    } catch (const WorkerFailure&) {
+    } catch (const Interrupted&) {
+    }
+    return found->second ? &*found->second : nullptr;
+  }
+
+  WorkerLimits limits_;
+  const std::atomic<bool>* stop_;
+  bool general_;
+  Profile over_;  // over every other; its engine is that of the record at hand
+  std::vector<std::string> engines_ = engine_names();
+  std::map<fs::path, std::optional<Profile>> profiles_;
+  std::map<fs::path, std::optional<EngineInfo>> infos_;  // by executable; none: it has failed
+  std::vector<Fault> faults_;
+  std::set<std::string> noted_;
+};
+
+}  // namespace
+
+std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario>& scenarios,
+                                                      const WorkerLimits& limits,
+                                                      const std::atomic<bool>* stop,
+                                                      const Settings& settings, bool general) {
+  Profiles profiles(limits, stop, settings, general);
+  std::vector<std::vector<EngineRecord>> runs;
+  for (const Scenario& scenario : scenarios) {
+    std::vector<EngineRecord>& records = runs.emplace_back();
+    profiles.check_size(scenario);
+    for (std::size_t k = 0; k < scenario.compare.engines.size(); ++k) {
+      const EngineRequest& request = scenario.compare.engines[k];
+      EngineRecord record;
+      record.engine = request.engine;
+      record.precision = precision_name(request.precision);
+      record.profile = request.profile;
+      record.expect = request.expect;
+      profiles.choose(scenario, fmt::format("compare.engines[{}]", k), request.of_grid, record);
+      for (const double rate : request.rates) records.emplace_back(record).rate = rate;
+    }
+    profiles.check_grid(scenario, records);
+  }
+  profiles.throw_faults();
+  return runs;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,184 @@
+#include "harness/run/scene_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "engine/engine_registry.h"
+#include "engine/worker_pool.h"
+#include "harness/compare/comparison.h"
+#include "harness/observe/motion_recorder.h"
+#include "harness/run/box_run.h"
+#include "harness/run/engine_run.h"
+#include "harness/run/reference_motion.h"
+#include "harness/run/requested_runs.h"
+
+namespace slipcheck {
+namespace {
+
+EngineRecord::Status status_of(JobResult::Status status) {
+  switch (status) {
+    case JobResult::Status::ok:
+      return EngineRecord::Status::ok;
+    case JobResult::Status::timed_out:
+      return EngineRecord::Status::timed_out;
+    case JobResult::Status::skipped:
+    case JobResult::Status::failed:  // a fault of ours is no result of an engine
+      return EngineRecord::Status::skipped;
+    case JobResult::Status::crashed:
+      break;
+  }
+  return EngineRecord::Status::crashed;
+}
+
+/// A task as its workers see it: the phases of one ensemble are shared where nobody looks at all of
+/// them and there are more workers than tasks.
+class EngineWork {
+ public:
+  EngineWork(const EngineTask& task, const RunOptions& options, std::size_t workers)
+      : task_(&task), options_(&options) {
+    if (const auto* solver = std::get_if<ReferenceSolver>(&task.scene->solver)) {
+      ensemble_ = {solver,         &task.scene->reference, &task.scene->scenario,
+                   options.phases, options.time_limit,     task.watch};
+      records_motion_ = options.record_motion && !task.watch &&
+                        solver->scene().hard.bodies.size() <= kMostRecordedBodies;
+      shares_ = phase_shares(options.phases, task.watch || records_motion_ ? 1 : workers);
+    }
+  }
+
+  std::size_t parts() const { return shares_.empty() ? 1 : shares_.size(); }
+  EngineRecord& record() const { return *task_->record; }
+
+  void run(RemoteEngine& engine, std::size_t part) {
+    engine.limit_run(options_->time_limit);
+    if (const auto* box = std::get_if<BoxSolver>(&task_->scene->solver)) {
+      run_box_ensemble(engine,
+                       {box, &task_->scene->reference, &task_->scene->scenario, options_->phases},
+                       record());
+      return;
+    }
+    if (records_motion_) recorder_.emplace(ensemble_.solver->scene().hard);
+    EnsembleTask ensemble = ensemble_;
+    if (recorder_) ensemble.watch = &*recorder_;
+    run_phases(engine, ensemble, record(), shares_[part]);
+  }
+
+  /// All parts have come to an end, one way or another.
+  void finish() {
+    if (shares_.empty()) return;
+    finish_ensemble(ensemble_, shares_, record());
+    if (!recorder_) return;
+    record().motions = record().status == EngineRecord::Status::ok
+                           ? recorder_->picked(phase_errors(
+                                 *ensemble_.scenario, *ensemble_.reference, record().observables))
+                           : recorder_->last_seen();
+  }
+
+ private:
+  const EngineTask* task_;
+  const RunOptions* options_;
+  EnsembleTask ensemble_;
+  bool records_motion_ = false;
+  std::vector<PhaseShare> shares_;  ///< none in a box
+  std::optional<MotionRecorder> recorder_;
+};
+
+/// The first part that did not come to its end tells the record's status.
+void note_failure(const JobResult& result, std::size_t phases, EngineRecord& record) {
+  if (result.status == JobResult::Status::ok) return;
+  record.status = status_of(result.status);
+  record.errors.clear();
+  record.reason = result.status == JobResult::Status::failed
+                      ? "it could not be compared: " + result.reason
+                      : result.reason;
+  if (record.phases > 0)
+    record.reason += fmt::format(" (in phase {} of {})", record.phases + 1, phases);
+}
+
+/// Deviations of a run that came to its end; a fault in them is no result of the engine.
+void finish(EngineWork& work) {
+  try {
+    work.finish();
+  } catch (const std::exception& fault) {
+    note_failure({JobResult::Status::failed, fault.what(), std::current_exception()}, 0,
+                 work.record());
+  }
+}
+
+void record_motion_of(PreparedScene& scene, double time_limit) {
+  const auto* solver = std::get_if<ReferenceSolver>(&scene.solver);
+  if (!solver || scene.scenario.bodies.size() > kMostRecordedBodies) return;
+  if (scene.reference.observables.empty()) return;  // it has failed
+  try {
+    const StopScope limit(time_limit);
+    scene.reference.motion = reference_motion(*solver, scene.reference.run.end_time);
+  } catch (const std::exception& fault) {
+    scene.reference.warnings.push_back(std::string("its motion was not recorded: ") + fault.what());
+  }
+}
+
+}  // namespace
+
+void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
+  const std::vector<EngineExecutable> installed = find_engines();
+  const WorkerPool pool(options.workers, options.limits);
+  const std::size_t workers =
+      (pool.threads() + tasks.size() - 1) / std::max<std::size_t>(tasks.size(), 1);
+  std::deque<EngineWork> works;
+  std::vector<EngineJob> jobs;
+  for (const EngineTask& task : tasks) {
+    EngineRecord& record = *task.record;
+    const auto executable = std::ranges::find_if(installed, [&](const EngineExecutable& each) {
+      return each.engine == record.engine && each.precision == record.precision;
+    });
+    if (executable == installed.end()) {
+      record.reason =
+          fmt::format("slipcheck-engine-{}-{} is not installed", record.engine, record.precision);
+      continue;
+    }
+    EngineWork& work = works.emplace_back(task, options, workers);
+    for (std::size_t part = 0; part < work.parts(); ++part)
+      jobs.push_back(
+          {executable->path, [&work, part](RemoteEngine& engine) { work.run(engine, part); }});
+  }
+
+  const std::vector<JobResult> results = pool.run_all(jobs, options.progress, options.stop);
+  auto result = results.begin();
+  for (EngineWork& work : works) {
+    const auto end = result + static_cast<std::ptrdiff_t>(work.parts());
+    finish(work);
+    const auto failed = std::find_if(
+        result, end, [](const JobResult& each) { return each.status != JobResult::Status::ok; });
+    // What an unstable phase before it says stands.
+    if (failed != end && work.record().status != EngineRecord::Status::unstable)
+      note_failure(*failed, options.phases, work.record());
+    result = end;
+  }
+}
+
+std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOptions& options) {
+  const StopScope scope(options.stop);
+  std::vector<std::vector<EngineRecord>> runs =
+      requested_runs(scenarios, options.limits, options.stop, options.settings, options.general);
+  std::vector<PreparedScene> prepared =
+      prepare_scenes(std::move(scenarios), options.general, options.workers, options.time_limit);
+  std::vector<EngineTask> tasks;
+  for (std::size_t s = 0; s < prepared.size(); ++s)
+    for (EngineRecord& record : runs[s])
+      if (record.reason.empty()) tasks.push_back({&prepared[s], &record});
+  run_engines(tasks, options);
+  if (options.record_motion)
+    for (PreparedScene& scene : prepared) record_motion_of(scene, options.time_limit);
+
+  std::vector<SceneRecord> scenes;
+  for (std::size_t s = 0; s < prepared.size(); ++s)
+    scenes.push_back(
+        {std::move(prepared[s].scenario), std::move(prepared[s].reference), std::move(runs[s])});
+  return scenes;
+}
+
+}  // namespace slipcheck

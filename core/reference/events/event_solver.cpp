@@ -1,0 +1,295 @@
+#include "reference/events/event_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "physics/numbers.h"
+#include "reference/events/event_scheduler.h"
+#include "reference/events/indexed_heap.h"
+#include "reference/events/scan_queue.h"
+#include "reference/events/substrate_world.h"
+#include "reference/lasting_contacts.h"
+
+namespace slipcheck {
+namespace {
+
+LeastSpeeds least_speeds(const Scene& scene, std::span<const BodyState> states,
+                         const EventSettings& settings) {
+  return {.rebound_fraction = settings.collapse_fraction,
+          .rebound = settings.slowest_rebound,
+          .landing = settings.landing_fraction * speed_scale(scene, states)};
+}
+
+/// Tells when events have come too fast for too long.
+class RateLimit {
+ public:
+  RateLimit(const EventSettings& settings, std::size_t bodies, double now)
+      : most_(settings.most_events * static_cast<double>(bodies)),
+        window_(settings.burst + 1000 * (bodies > settings.most_without_cells ? bodies : 0)),
+        start_(now) {}
+
+  /// After one event more, at `now` [s].
+  bool is_exceeded(double now) {
+    if (++count_ % window_ != 0) return false;
+    const double passed = now - start_;
+    start_ = now;
+    return static_cast<double>(window_) > most_ * passed;
+  }
+
+ private:
+  double most_;
+  std::size_t window_, count_ = 0;
+  double start_;
+};
+
+}  // namespace
+
+double speed_scale(const Scene& scene, std::span<const BodyState> states) {
+  double scale = scene.motion.largest_speed();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const BodyState& s = states[i];
+    const double radius = scene.bodies[i].radius;
+    const double height = std::max(0.0, s.position.z() - radius);
+    scale = std::max({scale, s.velocity.norm(), radius * s.angular_velocity.norm(),
+                      std::sqrt(2 * scene.gravity * height),
+                      std::sqrt(2 * scene.downhill.norm() * radius)});
+  }
+  return scale;
+}
+
+/// A world with its scheduler, whatever kind of both the scene asks for.
+class EventSolver::Engine {
+ public:
+  virtual ~Engine() = default;
+  virtual std::unique_ptr<Engine> copy() const = 0;
+  virtual EventRun run(const RunEnd& end, FrameSink* sink) = 0;
+  virtual double first_contact(double limit) const = 0;
+  virtual double next_collision(double limit, double slowest) const = 0;
+  virtual std::vector<BodyState> states() const = 0;
+  virtual double now() const = 0;
+};
+
+template <class World, class Queue>
+class EventSolver::EngineOf final : public Engine {
+ public:
+  EngineOf(const Scene& scene, std::span<const BodyState> initial, const EventSettings& settings,
+           const LeastSpeeds& least, double now)
+      : scene_(&scene),
+        settings_(settings),
+        least_(least),
+        now_(now),
+        world_(scene, initial, least, now),
+        scheduler_(world_, now) {}
+  EngineOf(const EngineOf& other)
+      : scene_(other.scene_),
+        settings_(other.settings_),
+        least_(other.least_),
+        now_(other.now_),
+        world_(other.world_),
+        scheduler_(other.scheduler_, world_) {
+    world_.set_sink(nullptr);
+  }
+
+  std::unique_ptr<Engine> copy() const override { return std::make_unique<EngineOf>(*this); }
+  double now() const override { return now_; }
+  std::vector<BodyState> states() const override {
+    std::vector<BodyState> states(world_.size());
+    for (std::uint32_t i = 0; i < states.size(); ++i) states[i] = world_.state_at(i, now_);
+    return states;
+  }
+
+  double first_contact(double limit) const override {
+    const std::size_t so_far = world_.collisions() + world_.landings();
+    return time_of(
+        limit, [&](const World& world) { return world.collisions() + world.landings() != so_far; });
+  }
+  double next_collision(double limit, double slowest) const override {
+    std::size_t so_far = world_.collisions();
+    return time_of(limit, [&](const World& world) {
+      if (world.collisions() == so_far) return false;
+      so_far = world.collisions();
+      return slowest == 0 || world.last_impact_speed() >= slowest;
+    });
+  }
+
+  EventRun run(const RunEnd& end, FrameSink* sink) override {
+    EventRun run;
+    const bool to_a_time = end.until == Run::Until::time;
+    const double last = end.last();
+    const std::size_t events = world_.events(), collisions = world_.collisions();
+    const std::size_t collapses = world_.collapses();
+    RateLimit rate(settings_, world_.size(), now_);
+    const std::size_t of_many =
+        world_.size() > settings_.most_without_cells ? 1000 * world_.size() : 0;
+    // What nothing presses together comes to an end, however long a cascade it is.
+    const std::size_t most_collapses = is_rubbed(*scene_) ? settings_.most_collapses + of_many
+                                                          : std::numeric_limits<std::size_t>::max();
+    world_.set_sink(sink);
+    world_.show(now_);
+    while (true) {
+      if (has_ended(end)) {
+        run.reached = true;
+        break;
+      }
+      if (!(scheduler_.next_time() <= last)) {
+        if (std::isfinite(last)) now_ = std::max(now_, last);
+        world_.show(now_);
+        run.reached = to_a_time;
+        if (!to_a_time)
+          run.reason = end.until == Run::Until::rolling
+                           ? "a body still slides or flies, or collides again, at the limit"
+                           : "a body still moves at the limit";
+        break;
+      }
+      scheduler_.step();
+      now_ = scheduler_.now();
+      if (rate.is_exceeded(now_)) {
+        world_.show(now_);
+        run.reason = fmt::format(
+            "more than {:g} events for each body and second at {:.9g} s: inelastic collapse; "
+            "run.collapse or run.most_events decides what then happens",
+            settings_.most_events, now_);
+        break;
+      }
+      if (world_.collapses() - collapses > most_collapses) {
+        world_.show(now_);
+        run.reason = fmt::format(
+            "bodies stay in contact at {:.9g} s, of which collisions at instants know nothing: "
+            "run.collapse has changed {} collisions",
+            now_, most_collapses);
+        break;
+      }
+    }
+    world_.set_sink(nullptr);
+    run.end_time = now_;
+    run.events = world_.events() - events;
+    run.collisions = world_.collisions() - collisions;
+    run.collapses = world_.collapses() - collapses;
+    return run;
+  }
+
+ private:
+  /// When a copy that runs ahead comes to what `has_come` tells, or infinity where it does not
+  /// before `limit` [s].
+  template <class HasCome>
+  double time_of(double limit, HasCome has_come) const {
+    EngineOf ahead = *this;
+    RateLimit rate(settings_, world_.size(), now_);
+    while (ahead.scheduler_.next_time() <= limit) {
+      ahead.scheduler_.step();
+      if (has_come(ahead.world_)) return ahead.scheduler_.now();
+      if (rate.is_exceeded(ahead.scheduler_.now())) break;
+    }
+    return kNever;
+  }
+
+  bool has_ended(const RunEnd& end) {
+    if (end.until == Run::Until::time) return false;
+    if (end.until == Run::Until::rest && world_.is_any_moving()) return false;
+    if (world_.is_any_slipping()) return false;
+    if (scheduler_.next_time() == kNever) return true;
+    return !collides_again(end.limit);
+  }
+
+  bool collides_again(double limit) {
+    const std::size_t after_next = world_.collisions() + 1;
+    if (certain_collisions_ == after_next) return true;
+    if (is_any_planned() || time_of_next(limit) < kNever) certain_collisions_ = after_next;
+    return certain_collisions_ == after_next;
+  }
+
+  /// A collision planned on exact paths comes, unless another one comes before.
+  bool is_any_planned() const {
+    for (std::uint32_t i = 0; i < world_.size(); ++i)
+      if (scheduler_.has_collision(i) && world_.is_exact_pair(i, scheduler_.partner(i)))
+        return true;
+    return false;
+  }
+
+  /// On an unbounded plane bodies that fly apart would cross cells for ever; all pairs do not.
+  double time_of_next(double limit) const {
+    if constexpr (World::kHasCells) {
+      if (scene_->periodic == Vector2::Zero()) {
+        using Pairs = SubstrateWorld<typename World::PhaseType, AllPairs>;
+        const EngineOf<Pairs, HeapQueue> ahead(*scene_, states(), settings_, least_, now_);
+        return ahead.next_collision(limit, 0);
+      }
+    }
+    return next_collision(limit, 0);
+  }
+
+  const Scene* scene_;
+  EventSettings settings_;
+  LeastSpeeds least_;
+  double now_;
+  World world_;
+  EventScheduler<World, Queue> scheduler_;
+  std::size_t certain_collisions_ = 0;  ///< so many there will be before the limit
+};
+
+namespace {
+
+bool needs_cells(const Scene& scene, const EventSettings& settings) {
+  return scene.bodies.size() > settings.most_without_cells || scene.periodic != Vector2::Zero();
+}
+bool has_plain_phases(const Scene& scene, const EventSettings& settings) {
+  return EventSolver::is_exact(scene) && !settings.general;
+}
+
+}  // namespace
+
+std::vector<std::string> EventSolver::features(const Scene& scene, const EventSettings& settings) {
+  return {
+      has_plain_phases(scene, settings) ? "phases on a level, still plane" : "phases on any plane",
+      needs_cells(scene, settings) ? "neighbours in cells, a calendar queue"
+                                   : "all pairs, a scan for the next event"};
+}
+
+EventSolver::EventSolver(const Scene& scene, std::span<const BodyState> initial,
+                         const EventSettings& settings) {
+  const bool has_cells = needs_cells(scene, settings);
+  const LeastSpeeds least = least_speeds(scene, initial, settings);
+  const auto make = [&]<class Phase>(std::type_identity<Phase>) -> std::unique_ptr<Engine> {
+    if (has_cells)
+      return std::make_unique<EngineOf<SubstrateWorld<Phase, PlaneCells>, CalendarQueue>>(
+          scene, initial, settings, least, settings.start);
+    return std::make_unique<EngineOf<SubstrateWorld<Phase, AllPairs>, ScanQueue>>(
+        scene, initial, settings, least, settings.start);
+  };
+  engine_ = has_plain_phases(scene, settings) ? make(std::type_identity<SubstratePhase>{})
+                                              : make(std::type_identity<DrivenPhase>{});
+}
+
+EventSolver::EventSolver(const EventSolver& other) : engine_(other.engine_->copy()) {}
+EventSolver& EventSolver::operator=(const EventSolver& other) {
+  engine_ = other.engine_->copy();
+  return *this;
+}
+EventSolver::EventSolver(EventSolver&&) noexcept = default;
+EventSolver& EventSolver::operator=(EventSolver&&) noexcept = default;
+EventSolver::~EventSolver() = default;
+
+bool EventSolver::is_exact(const Scene& scene) {
+  return scene.motion.is_still() && scene.downhill.isZero(0);
+}
+
+bool EventSolver::can_solve(const Scene& scene) {
+  return !scene.box && std::ranges::all_of(scene.substrate, [](const SubstrateContact& contact) {
+    return contact.coupled_radius == 0 &&
+           (!contact.rolling_while_sliding || contact.rolling.is_zero());
+  });
+}
+
+EventRun EventSolver::run(const RunEnd& end, FrameSink* sink) { return engine_->run(end, sink); }
+double EventSolver::first_contact(double limit) const { return engine_->first_contact(limit); }
+double EventSolver::next_collision(double limit, double slowest) const {
+  return engine_->next_collision(limit, slowest);
+}
+std::vector<BodyState> EventSolver::states() const { return engine_->states(); }
+double EventSolver::now() const { return engine_->now(); }
+
+}  // namespace slipcheck

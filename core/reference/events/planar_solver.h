@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "physics/frame.h"
+#include "reference/events/event_solver.h"
+#include "reference/events/planar_loop.h"
+#include "reference/events/planar_world.h"
+
+namespace slipcheck {
+
+struct PlanarSettings {
+  /// Fractions of the scene's speed: CollapseRule::Model::slowest_rebound for pairs, and for walls,
+  /// floor and lid, where a resting body would else bounce without end.
+  double collapse_fraction = 1e-6;
+  double landing_fraction = 1e-4;
+  /// More events for each body and simulated second [1/s], > 0, than any rule for collapse can
+  /// still be said to keep finite: the run stops with a reason.
+  double most_events = 1e7;
+  /// The loop over events that leaves out nothing, whatever the scene lacks: the same results.
+  bool general = false;
+};
+
+/// What a run in the plane came to, beside what every event-driven run tells.
+struct PlanarRun : EventRun {
+  std::size_t contacts = 0;   ///< with walls, floor and lid
+  double energy = 0;          ///< in the end, kinetic and potential [J]
+  double work = 0;            ///< of moving walls on the bodies [J]
+  double dissipated = 0;      ///< in collisions, by their laws [J]
+  double energy_error = 0;    ///< of E − E0 − work + dissipated, relative to their sum [-]
+  double momentum_error = 0;  ///< of the sum over all bodies, relative to that of |m v| passed on
+};
+
+/// Hard spheres in a plane from event to event (PlanarWorld, EventScheduler): L's vibrated box, or
+/// a gas on a plane without friction. The only errors are of rounding.
+class PlanarSolver {
+ public:
+  /// `scene` must outlive the solver; PlanarWorld::is_planar() holds.
+  PlanarSolver(const Scene& scene, std::span<const BodyState> initial,
+               const PlanarSettings& settings = {});
+
+  /// Runs from time 0 to end.time [s], or end.limit where `until` is no time, and shows `sink`,
+  /// where given, the states at 0, at every multiple of `sample_interval` [s], > 0, and at the end.
+  PlanarRun run(const RunEnd& end, FrameSink* sink, double sample_interval);
+
+  /// All bodies' states now, the end of the last run.
+  std::vector<BodyState> states() const;
+  const PlanarWorld& world() const { return world_; }
+  /// What the loop over events leaves out because the scene lacks it, in words; maybe nothing.
+  std::vector<std::string> left_out() const;
+
+ private:
+  /// A scheduler whose loop knows what its scenes have.
+  template <PlanarFeatures kHas>
+  struct Loop {
+    explicit Loop(PlanarWorld& world) : loop(world), scheduler(loop, 0) {}
+    Loop(const Loop&) = delete;  // the scheduler looks at the loop
+    Loop& operator=(const Loop&) = delete;
+
+    static constexpr PlanarFeatures kFeatures = kHas;
+    PlanarLoop<kHas> loop;
+    EventScheduler<PlanarLoop<kHas>> scheduler;
+  };
+  using General = Loop<PlanarFeatures{}>;
+  using OneRadius = Loop<PlanarFeatures{.radii = false}>;
+  using Plane = Loop<PlanarFeatures{.box = false, .radii = false}>;
+  using SmoothPlane = Loop<PlanarFeatures{.box = false, .radii = false, .spin = false}>;
+
+  template <class Scheduler>
+  PlanarRun run(Scheduler& scheduler, const RunEnd& end, FrameSink* sink, double sample_interval);
+  void choose_loop();
+  void show(double time, FrameSink* sink);
+
+  const Scene* scene_;
+  PlanarSettings settings_;
+  PlanarWorld world_;
+  std::variant<std::monostate, General, OneRadius, Plane, SmoothPlane> loop_;
+  double now_ = 0;
+  double first_energy_;
+  Vector2 first_momentum_;
+  Frame frame_;
+};
+
+/// The largest speed that bodies bring with them into a planar scene, or that its floor gives
+/// them [m/s].
+double planar_speed_scale(const Scene& scene, std::span<const BodyState> states);
+
+}  // namespace slipcheck

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "physics/contact/normal_force.h"
+#include "physics/sphere.h"
+#include "scene/scene.h"
+
+namespace slipcheck {
+
+/// What the grains of one kind have in common, beside the radius that all have; see StepBody.
+struct GrainKind {
+  double inverse_mass = 0;      ///< 1/m [1/kg]
+  double inverse_inertia = 0;   ///< 1/I [1/(kg m²)]
+  double weight = 0;            ///< m g, normal to the plane [N]
+  double share = 0;             ///< 1/(1+A): the slip that reaches the centre on sticking [-]
+  double turn = 0;              ///< A/R: |ΔΩ| for each |Δv| by friction [1/m]
+  double static_friction = 0;   ///< μ_s [-]
+  double kinetic_friction = 0;  ///< μ_k [-]
+  std::uint32_t material = 0;
+};
+
+/// The forces between two materials.
+struct GrainLaw {
+  NormalForce normal;
+  double damping = 0;    ///< c of ViscousForce [N s/m]
+  double friction = 0;   ///< ν_s of ViscousForce [-]
+  bool clamped = false;  ///< ContactEnd::zero_force
+};
+
+/// Grains in the plane, each quantity in an array of its own; velocities lie half a step before the
+/// positions, as in StepBody.
+struct GrainArrays {
+  std::vector<double> x, y;           ///< [m]
+  std::vector<double> vx, vy;         ///< [m/s]
+  std::vector<double> wx, wy, wz;     ///< Ω [rad/s]
+  std::vector<double> dvx, dvy;       ///< what the last step changed [m/s]
+  std::vector<double> dwx, dwy, dwz;  ///< [rad/s]
+  std::vector<double> sticks;         ///< to the substrate: 1, else 0
+  std::vector<std::uint32_t> kind;
+
+  std::size_t size() const { return x.size(); }
+  void resize(std::size_t n) {
+    for_each_real([n](auto& values) { values.resize(n); });
+    kind.resize(n);
+  }
+  /// All quantities but the kind.
+  template <class F>
+  void for_each_real(F f) {
+    for (auto* values : {&x, &y, &vx, &vy, &wx, &wy, &wz, &dvx, &dvy, &dwx, &dwy, &dwz, &sticks})
+      f(*values);
+  }
+  /// Grain `k` becomes grain `i` of another.
+  void take(std::size_t k, const GrainArrays& from, std::size_t i) {
+    x[k] = from.x[i], y[k] = from.y[i], vx[k] = from.vx[i], vy[k] = from.vy[i];
+    wx[k] = from.wx[i], wy[k] = from.wy[i], wz[k] = from.wz[i];
+    dvx[k] = from.dvx[i], dvy[k] = from.dvy[i];
+    dwx[k] = from.dwx[i], dwy[k] = from.dwy[i], dwz[k] = from.dwz[i];
+    sticks[k] = from.sticks[i], kind[k] = from.kind[i];
+  }
+};
+
+/// Two grains that are close enough to meet soon, or touch.
+struct GrainPair {
+  /// On the first grain, and of that the part in the plane across the line of centres [N].
+  struct Force {
+    double x = 0, y = 0, z = 0;
+    double across_x = 0, across_y = 0;
+  };
+
+  std::uint32_t a = 0, b = 0;
+  double shift_x = 0, shift_y = 0;  ///< from b's place to its image next to a [m]
+  std::uint32_t law = 0;
+  bool touching = false;
+  double normal_force = 0;  ///< F_N [N]
+  Force force;
+};
+
+}  // namespace slipcheck

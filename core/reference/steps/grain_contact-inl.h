@@ -1,0 +1,171 @@
+// Two grains in contact; included once for each instruction set.
+#if defined(SLIPCHECK_GRAIN_CONTACT_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SLIPCHECK_GRAIN_CONTACT_INL_H
+#undef SLIPCHECK_GRAIN_CONTACT_INL_H
+#else
+#define SLIPCHECK_GRAIN_CONTACT_INL_H
+#endif
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/steps/grain_kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace slipcheck {
+namespace HWY_NAMESPACE {
+
+/// StepLoop's contact of two bodies (K (1)-(6)), written out for grains whose centres stay in the
+/// plane. With the direction n to the first and t = k̂×n, the slip has the parts u_t and, where
+/// grains roll, u_z.
+template <bool kLinear, bool kRubs, bool kOnPlane>
+class GrainContact {
+ public:
+  GrainContact(GrainBatch& batch, const std::vector<GrainLaw>& laws, double radius, double step)
+      : s_(batch), g_(batch.grains), laws_(laws.data()), radius_(radius), h_(step) {}
+
+  /// Two grains that overlap; whether their contact begins.
+  HWY_ATTR bool meet(GrainPair& pair, double dx, double dy, double distance, bool begun) const {
+    const GrainLaw& law = laws_[pair.law];
+    const double nx = dx / distance, ny = dy / distance;
+    const double overlap = 2 * radius_ - distance;
+    const Motion now = motion(pair, nx, ny, 0.5);
+    const double normal = normal_force_of(law, overlap, now.closing);
+    if ((law.clamped && normal <= 0) || (overlap <= 0 && now.closing <= 0)) {
+      if (pair.touching)
+        end(pair, normal < 0 ? pair.normal_force / (pair.normal_force - normal) : 1, {}, nx, ny);
+      return false;
+    }
+    const bool begins = !pair.touching;
+    const Force force = force_of(law, normal, now, nx, ny);
+    if (begins && begun) {
+      // The contact has lasted for `part` of the step before now, and gets part h ½ (F_begin + F).
+      const Motion before = motion(pair, nx, ny, 0);
+      const bool within = before.closing * h_ >= overlap && before.closing > 0;
+      const double part = within ? overlap / (before.closing * h_) : 0;
+      const double first = normal_force_of(law, 0, before.closing);
+      const Force first_force =
+          force_of(law, law.clamped ? std::max(0.0, first) : first, now, nx, ny);
+      if (within)
+        push(pair, mix(0.5 * (1 + part), force, 0.5 * part, first_force), nx, ny);
+      else
+        push(pair, force, nx, ny);
+    } else {
+      push(pair, force, nx, ny);
+    }
+    pair.force = force;
+    pair.normal_force = normal;
+    pair.touching = true;
+    return begins;
+  }
+
+  /// Two grains that touched a step ago and overlap no more.
+  HWY_ATTR void part(GrainPair& pair, double dx, double dy, double distance) const {
+    const GrainLaw& law = laws_[pair.law];
+    const double nx = dx / distance, ny = dy / distance;
+    const Motion before = motion(pair, nx, ny, 0);
+    const double gone = before.closing < 0 ? (2 * radius_ - distance) / (before.closing * h_) : 0;
+    const double last = law.clamped ? 0 : normal_force_of(law, 0, before.closing);
+    end(pair, std::max(0.0, 1 - gone), force_of(law, last, before, nx, ny), nx, ny);
+  }
+
+ private:
+  struct Motion {
+    double closing = 0;
+    double u_t = 0, u_z = 0;  ///< slip [m/s]
+  };
+  using Force = GrainPair::Force;
+
+  HWY_ATTR static double normal_force_of(const GrainLaw& law, double overlap, double rate) {
+    if constexpr (kLinear)
+      return (*std::get_if<LinearForce>(&law.normal))(overlap, rate);
+    else
+      return normal_force(law.normal, overlap, rate);
+  }
+
+  /// Relative to each other, with `ahead` of what the last step changed added.
+  HWY_ATTR Motion motion(const GrainPair& pair, double nx, double ny, double ahead) const {
+    const std::size_t a = pair.a, b = pair.b;
+    const double dvx = (g_.vx[a] - g_.vx[b]) + ahead * (g_.dvx[a] - g_.dvx[b]);
+    const double dvy = (g_.vy[a] - g_.vy[b]) + ahead * (g_.dvy[a] - g_.dvy[b]);
+    Motion m;
+    m.closing = -(nx * dvx + ny * dvy);
+    if constexpr (kRubs) {
+      const double turning = (g_.wz[a] + g_.wz[b]) + ahead * (g_.dwz[a] + g_.dwz[b]);
+      m.u_t = dvy * nx - dvx * ny - radius_ * turning;
+      if constexpr (kOnPlane) {
+        const double wx = (g_.wx[a] + g_.wx[b]) + ahead * (g_.dwx[a] + g_.dwx[b]);
+        const double wy = (g_.wy[a] + g_.wy[b]) + ahead * (g_.dwy[a] + g_.dwy[b]);
+        m.u_z = radius_ * (wy * nx - wx * ny);
+      }
+    }
+    return m;
+  }
+
+  HWY_ATTR static Force force_of(const GrainLaw& law, double normal, const Motion& m, double nx,
+                                 double ny) {
+    if constexpr (!kRubs) return {normal * nx, normal * ny, 0, 0, 0};
+    const double cap = law.friction * std::abs(normal);
+    const double slip2 = m.u_t * m.u_t + m.u_z * m.u_z;
+    const bool is_capped = law.damping * law.damping * slip2 > cap * cap;
+    const double per_slip = is_capped ? -cap / std::sqrt(slip2) : -law.damping;
+    const double ft = per_slip * m.u_t;
+    const double tx = -ft * ny, ty = ft * nx;
+    return {normal * nx + tx, normal * ny + ty, per_slip * m.u_z, tx, ty};
+  }
+
+  HWY_ATTR static Force mix(double p, const Force& f, double q, const Force& g) {
+    return {p * f.x + q * g.x, p * f.y + q * g.y, p * f.z + q * g.z,
+            p * f.across_x + q * g.across_x, p * f.across_y + q * g.across_y};
+  }
+
+  HWY_ATTR void push(const GrainPair& pair, const Force& f, double nx, double ny) const {
+    const std::size_t a = pair.a, b = pair.b;
+    s_.fx[a] += f.x;
+    s_.fy[a] += f.y;
+    s_.fx[b] -= f.x;
+    s_.fy[b] -= f.y;
+    if constexpr (kRubs) {
+      const double lever_z = radius_ * (f.across_x * ny - f.across_y * nx);  // R F×n
+      s_.tz[a] += lever_z;
+      s_.tz[b] += lever_z;
+      if constexpr (kOnPlane) {
+        const double lever_x = -radius_ * f.z * ny, lever_y = radius_ * f.z * nx;
+        s_.fz[a] += f.z;
+        s_.fz[b] -= f.z;
+        s_.tx[a] += lever_x;
+        s_.tx[b] += lever_x;
+        s_.ty[a] += lever_y;
+        s_.ty[b] += lever_y;
+      }
+    }
+  }
+
+  /// The contact lasted for `part` of the step before now and should have had part h ½ (F + F_end)
+  /// there; it had h/2 F. What is taken back from a grain that the other pressed down was borne by
+  /// the substrate and must not lift it.
+  HWY_ATTR void end(GrainPair& pair, double part, const Force& last, double nx, double ny) const {
+    const double before_a = s_.fz[pair.a], before_b = s_.fz[pair.b];
+    push(pair, mix(0.5 * (part - 1), pair.force, 0.5 * part, last), nx, ny);
+    if constexpr (kOnPlane) {
+      keep_down(pair.a, before_a);
+      keep_down(pair.b, before_b);
+    }
+    pair.touching = false;
+  }
+
+  HWY_ATTR void keep_down(std::uint32_t i, double before) const {
+    s_.fz[i] = before + std::min(s_.fz[i] - before, s_.weight[i]);
+  }
+
+  GrainBatch& s_;
+  const GrainArrays& g_;
+  const GrainLaw* laws_;
+  double radius_, h_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace slipcheck
+HWY_AFTER_NAMESPACE();
+
+#endif

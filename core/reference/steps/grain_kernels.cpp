@@ -1,0 +1,66 @@
+// Compiled once for each instruction set by Google Highway. The loops over grains are plain, for
+// the compiler to vectorise; without contraction and reductions, so that every set gives the same
+// bits.
+#include "reference/steps/grain_kernels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "reference/steps/grain_kernels.cpp"
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "reference/steps/grain_loops-inl.h"
+
+#if HWY_ONCE
+namespace slipcheck {
+
+HWY_EXPORT(FindNear);
+HWY_EXPORT(Glide);
+HWY_EXPORT(Run);
+HWY_EXPORT(Target);
+
+void GrainBatch::resize(std::size_t n) {
+  grains.resize(n);
+  for (auto* values : {&fx, &fy, &fz, &tx, &ty, &tz, &load, &fastest, &inverse_mass,
+                       &inverse_inertia, &weight, &share, &turn, &mu_s, &mu_k})
+    values->assign(n, 0);
+}
+
+void GrainBatch::take(std::size_t k, const GrainArrays& from, std::size_t i,
+                      const std::vector<GrainKind>& kinds) {
+  grains.take(k, from, i);
+  const GrainKind& kind = kinds[from.kind[i]];
+  inverse_mass[k] = kind.inverse_mass;
+  inverse_inertia[k] = kind.inverse_inertia;
+  weight[k] = kind.weight;
+  share[k] = kind.share;
+  turn[k] = kind.turn;
+  mu_s[k] = kind.static_friction;
+  mu_k[k] = kind.kinetic_friction;
+}
+
+std::string GrainKernels::instruction_set() {
+  return hwy::TargetName(HWY_DYNAMIC_DISPATCH(Target)());
+}
+
+void GrainKernels::find_near(const GrainArrays& grains, std::span<const std::uint32_t> first,
+                             std::span<const std::uint32_t> second, double margin,
+                             std::vector<std::uint32_t>& near) const {
+  HWY_DYNAMIC_DISPATCH(FindNear)(grains, plane_, first, second, margin, near);
+}
+
+double GrainKernels::glide(GrainArrays& grains, double step, std::size_t count) const {
+  return HWY_DYNAMIC_DISPATCH(Glide)(features_, grains, kinds_, plane_.radius, step, count);
+}
+
+std::size_t GrainKernels::run(GrainBatch& batch, const GrainGroup& group,
+                              const GrainSteps& steps) const {
+  return HWY_DYNAMIC_DISPATCH(Run)(features_, batch, laws_, plane_.radius, group, steps);
+}
+
+}  // namespace slipcheck
+#endif

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reference/steps/grain_bodies.h"
+
+namespace slipcheck {
+
+/// What a scene of grains has; what it lacks does not exist in the loop chosen by these.
+struct GrainFeatures {
+  bool rubs = false;        ///< grains exert tangential forces, so that they spin
+  bool on_plane = false;    ///< Coulomb friction of a level, still substrate; grains roll
+  bool any_normal = false;  ///< other normal forces than the linear one
+};
+
+/// Grains that may meet within a few steps, in groups that do not meet each other: each group's
+/// steps can be done at once, while it lies in the nearest cache.
+struct GrainBatch {
+  GrainArrays grains;
+  std::vector<GrainPair> pairs;  ///< by index into `grains`
+  /// Forces [N] and torques [N m] by other grains, load |N| dt of the substrate [N s], squares of
+  /// the largest speeds [m²/s²], and the constants of GrainKind, for each grain.
+  std::vector<double> fx, fy, fz, tx, ty, tz, load, fastest;
+  std::vector<double> inverse_mass, inverse_inertia, weight, share, turn, mu_s, mu_k;
+
+  void resize(std::size_t n);
+  /// Takes grain `i` of `from` as grain `k`.
+  void take(std::size_t k, const GrainArrays& from, std::size_t i,
+            const std::vector<GrainKind>& kinds);
+};
+
+/// The ranges of a batch that one group of islands takes.
+struct GrainGroup {
+  std::size_t first_grain = 0, last_grain = 0;
+  std::size_t first_pair = 0, last_pair = 0;
+};
+
+struct GrainSteps {
+  double step = 0;        ///< h [s]
+  double first_kick = 0;  ///< from the velocities' time to that of the first step's end [s]
+  std::size_t count = 0;
+  bool drift = true;   ///< else the grains get their kicks and stay
+  bool begun = false;  ///< there was a step before the first one
+};
+
+/// What all grains share.
+struct GrainPlane {
+  double radius = 0;                  ///< R [m]
+  double length_x = 0, length_y = 0;  ///< of the periodic cell [m]; 0: none
+};
+
+/// Calls for the loop of these features on the best instruction set that the machine has. All give
+/// the same bits.
+class GrainKernels {
+ public:
+  GrainKernels(const GrainFeatures& features, std::vector<GrainLaw> laws,
+               std::vector<GrainKind> kinds, const GrainPlane& plane)
+      : features_(features), laws_(std::move(laws)), kinds_(std::move(kinds)), plane_(plane) {}
+
+  static std::string instruction_set();  ///< that is called for: "AVX3"
+  const GrainFeatures& features() const { return features_; }
+  const std::vector<GrainKind>& kinds() const { return kinds_; }
+  const GrainPlane& plane() const { return plane_; }
+
+  /// Appends those k for which grains first[k] and second[k] are nearer than `margin` [m] to each
+  /// other's surface.
+  void find_near(const GrainArrays& grains, std::span<const std::uint32_t> first,
+                 std::span<const std::uint32_t> second, double margin,
+                 std::vector<std::uint32_t>& near) const;
+  /// Steps of grains that meet none: in one go, to rounding what single steps do. Returns the
+  /// square of the largest speed [m²/s²].
+  double glide(GrainArrays& grains, double step, std::size_t count) const;
+  /// Steps of one group. Returns how many contacts began.
+  std::size_t run(GrainBatch& batch, const GrainGroup& group, const GrainSteps& steps) const;
+
+ private:
+  GrainFeatures features_;
+  std::vector<GrainLaw> laws_;  ///< by material × material
+  std::vector<GrainKind> kinds_;
+  GrainPlane plane_;
+};
+
+}  // namespace slipcheck

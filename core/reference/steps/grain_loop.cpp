@@ -1,0 +1,48 @@
+#include "reference/steps/grain_loop.h"
+
+#include "reference/steps/grain_scene.h"
+
+namespace slipcheck {
+
+void GrainLoop::find_forces(StepWorld& world) {
+  if (!solver_) {
+    std::vector<BodyState> states;
+    states.reserve(world.bodies.size());
+    for (const StepBody& body : world.bodies)
+      states.push_back({body.position, body.velocity, body.angular_velocity});
+    solver_.emplace(*scene_, states, world.step);
+  }
+  world.touching = solver_->touching();
+}
+
+void GrainLoop::advance(StepWorld& world, std::size_t steps, StepStop stop) {
+  find_forces(world);
+  const std::size_t before = solver_->steps();
+  if (stop == StepStop::never) {
+    solver_->advance(steps);
+  } else {
+    for (std::size_t k = 0; k < steps && !is_met(world, stop); ++k) solver_->advance(1);
+  }
+  world.n += solver_->steps() - before;
+  world.collisions = solver_->collisions();
+  world.touching = solver_->touching();
+}
+
+bool GrainLoop::is_met(const StepWorld&, StepStop stop) const {
+  return solver_->touching() == 0 && solver_->all_stick(stop == StepStop::rest);
+}
+
+void GrainLoop::show(const StepWorld&, Frame& frame) { solver_->show(frame); }
+
+std::vector<std::string> GrainLoop::features() const {
+  const GrainFeatures has = grain_features(*scene_, scene_->hard.initial);
+  return {
+      has.any_normal ? "any normal force" : "linear normal force",
+      has.rubs ? "viscous tangential force with Coulomb's cap" : "no tangential force, no torque",
+      has.on_plane ? "level, still substrate with Coulomb friction, no lift-off"
+                   : "level, still substrate without friction or lift-off",
+      "one radius, centres in a plane: no z",
+      "many bodies: neighbours, islands, " + GrainSolver::instruction_set()};
+}
+
+}  // namespace slipcheck

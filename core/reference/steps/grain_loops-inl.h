@@ -1,0 +1,289 @@
+// The loops of grain_kernels.cpp; included once for each instruction set.
+#if defined(SLIPCHECK_GRAIN_LOOPS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SLIPCHECK_GRAIN_LOOPS_INL_H
+#undef SLIPCHECK_GRAIN_LOOPS_INL_H
+#else
+#define SLIPCHECK_GRAIN_LOOPS_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "reference/steps/grain_contact-inl.h"
+#include "reference/steps/grain_kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace slipcheck {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// --- which grains are near -----------------------------------------------------------------------
+
+HWY_ATTR void FindNear(const GrainArrays& grains, const GrainPlane& plane,
+                       std::span<const std::uint32_t> first, std::span<const std::uint32_t> second,
+                       double margin, std::vector<std::uint32_t>& near) {
+  const hn::ScalableTag<double> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  const hn::Rebind<std::uint32_t, decltype(d)> du;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto length_x = hn::Set(d, plane.length_x), length_y = hn::Set(d, plane.length_y);
+  const auto per_x = hn::Set(d, plane.length_x > 0 ? 1 / plane.length_x : 0);
+  const auto per_y = hn::Set(d, plane.length_y > 0 ? 1 / plane.length_y : 0);
+  const double reach = 2 * plane.radius + margin;
+  const auto reach2 = hn::Set(d, reach * reach);
+  std::size_t k = 0;
+  for (; k + lanes <= first.size(); k += lanes) {
+    const auto i = hn::BitCast(
+        di, hn::PromoteTo(hn::RebindToUnsigned<decltype(di)>(), hn::LoadU(du, first.data() + k)));
+    const auto j = hn::BitCast(
+        di, hn::PromoteTo(hn::RebindToUnsigned<decltype(di)>(), hn::LoadU(du, second.data() + k)));
+    auto dx =
+        hn::Sub(hn::GatherIndex(d, grains.x.data(), i), hn::GatherIndex(d, grains.x.data(), j));
+    auto dy =
+        hn::Sub(hn::GatherIndex(d, grains.y.data(), i), hn::GatherIndex(d, grains.y.data(), j));
+    dx = hn::Sub(dx, hn::Mul(length_x, hn::Round(hn::Mul(dx, per_x))));
+    dy = hn::Sub(dy, hn::Mul(length_y, hn::Round(hn::Mul(dy, per_y))));
+    const auto distance2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
+    const auto is_near = hn::Le(distance2, reach2);
+    if (hn::AllFalse(d, is_near)) continue;
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, is_near, bytes);
+    for (unsigned bits = bytes[0]; bits != 0; bits &= bits - 1)
+      near.push_back(static_cast<std::uint32_t>(k) +
+                     static_cast<std::uint32_t>(std::countr_zero(bits)));
+  }
+  for (; k < first.size(); ++k) {
+    const std::uint32_t i = first[k], j = second[k];
+    double dx = grains.x[i] - grains.x[j], dy = grains.y[i] - grains.y[j];
+    if (plane.length_x > 0) dx -= plane.length_x * std::nearbyint(dx * (1 / plane.length_x));
+    if (plane.length_y > 0) dy -= plane.length_y * std::nearbyint(dy * (1 / plane.length_y));
+    if (dx * dx + dy * dy <= reach * reach) near.push_back(static_cast<std::uint32_t>(k));
+  }
+}
+
+// --- grains that meet none -----------------------------------------------------------------------
+
+/// Without friction: straight on.
+HWY_ATTR inline void GlideFreely(GrainArrays& grains, double time) {
+  double* HWY_RESTRICT x = grains.x.data();
+  double* HWY_RESTRICT y = grains.y.data();
+  const double* HWY_RESTRICT vx = grains.vx.data();
+  const double* HWY_RESTRICT vy = grains.vy.data();
+  for (std::size_t i = 0, n = grains.size(); i < n; ++i) {
+    x[i] += time * vx[i];
+    y[i] += time * vy[i];
+  }
+}
+
+/// Steps against a constant friction μ_k g, m of them until one stops the slip, then straight on:
+/// the sums over the steps that StepBody's kick and drift make one by one.
+HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, const std::vector<GrainKind>& kinds,
+                                       double R, double h, double count) {
+  double* HWY_RESTRICT x = grains.x.data();
+  double* HWY_RESTRICT y = grains.y.data();
+  double* HWY_RESTRICT vx = grains.vx.data();
+  double* HWY_RESTRICT vy = grains.vy.data();
+  double* HWY_RESTRICT wx = grains.wx.data();
+  double* HWY_RESTRICT wy = grains.wy.data();
+  double* HWY_RESTRICT dvx = grains.dvx.data();
+  double* HWY_RESTRICT dvy = grains.dvy.data();
+  double* HWY_RESTRICT dwx = grains.dwx.data();
+  double* HWY_RESTRICT dwy = grains.dwy.data();
+  double* HWY_RESTRICT sticks = grains.sticks.data();
+  const std::uint32_t* HWY_RESTRICT kind = grains.kind.data();
+  const GrainKind* HWY_RESTRICT table = kinds.data();
+  for (std::size_t i = 0, n = grains.size(); i < n; ++i) {
+    const GrainKind& k = table[kind[i]];
+    const double lost = k.kinetic_friction * k.weight * k.inverse_mass * h;  // of |v| in a step
+    const double ux = vx[i] - R * wy[i], uy = vy[i] + R * wx[i];
+    const double slip = std::sqrt(ux * ux + uy * uy);
+    const double until = slip * k.share / lost - 1;
+    // A comparison that is false for 0/0, where there is neither slip nor friction.
+    const double whole = std::ceil(until > 0 ? until : 0);
+    const double m = whole < count ? whole : count;
+    const double per_slip = slip > 0 ? lost / slip : 0;
+    const double ax = per_slip * ux, ay = per_slip * uy;  // taken from v in a step of sliding
+    const double drift = 0.5 * m * (m + 1);
+    const double sx = vx[i] - m * ax, sy = vy[i] - m * ay;  // velocity after sliding
+    const double rx = wx[i] - m * k.turn * ay, ry = wy[i] + m * k.turn * ax;
+    const bool stops = m < count;
+    const double gx = stops ? k.share * (sx - R * ry) : 0, gy = stops ? k.share * (sy + R * rx) : 0;
+    const double ex = sx - gx, ey = sy - gy;  // velocity in the end
+    const double fx = stops ? -ey / R : rx, fy = stops ? ex / R : ry;
+    const double rest = count - m;
+    x[i] += h * (m * vx[i] - drift * ax + rest * ex);
+    y[i] += h * (m * vy[i] - drift * ay + rest * ey);
+    dvx[i] = stops ? (rest > 1 ? 0 : -gx) : -ax;
+    dvy[i] = stops ? (rest > 1 ? 0 : -gy) : -ay;
+    dwx[i] = stops ? (rest > 1 ? 0 : fx - rx) : -k.turn * ay;
+    dwy[i] = stops ? (rest > 1 ? 0 : fy - ry) : k.turn * ax;
+    vx[i] = ex;
+    vy[i] = ey;
+    wx[i] = fx;
+    wy[i] = fy;
+    sticks[i] = stops ? 1 : 0;
+  }
+}
+
+HWY_ATTR double LargestSquare(const std::vector<double>& x, const std::vector<double>& y) {
+  const hn::ScalableTag<double> d;
+  const std::size_t lanes = hn::Lanes(d);
+  auto largest = hn::Zero(d);
+  std::size_t i = 0;
+  for (; i + lanes <= x.size(); i += lanes) {
+    const auto a = hn::LoadU(d, x.data() + i), b = hn::LoadU(d, y.data() + i);
+    largest = hn::Max(largest, hn::Add(hn::Mul(a, a), hn::Mul(b, b)));
+  }
+  double found = hn::GetLane(hn::MaxOfLanes(d, largest));
+  for (; i < x.size(); ++i) found = std::max(found, x[i] * x[i] + y[i] * y[i]);
+  return found;
+}
+
+HWY_ATTR double Glide(const GrainFeatures& features, GrainArrays& grains,
+                      const std::vector<GrainKind>& kinds, double radius, double step,
+                      std::size_t count) {
+  if (features.on_plane)
+    GlideWithFriction(grains, kinds, radius, step, static_cast<double>(count));
+  else
+    GlideFreely(grains, step * static_cast<double>(count));
+  return LargestSquare(grains.vx, grains.vy);
+}
+
+// --- grains that may meet ------------------------------------------------------------------------
+
+/// Velocities after a kick of dt, and positions after a drift of h; StepBody's kick without lift.
+template <bool kRubs, bool kOnPlane>
+HWY_ATTR void KickAndDrift(GrainBatch& batch, const GrainGroup& group, double R, double dt,
+                           double h) {
+  const std::size_t n = group.last_grain - group.first_grain, o = group.first_grain;
+  GrainArrays& g = batch.grains;
+  double* HWY_RESTRICT x = g.x.data() + o;
+  double* HWY_RESTRICT y = g.y.data() + o;
+  double* HWY_RESTRICT vx = g.vx.data() + o;
+  double* HWY_RESTRICT vy = g.vy.data() + o;
+  double* HWY_RESTRICT wx = g.wx.data() + o;
+  double* HWY_RESTRICT wy = g.wy.data() + o;
+  double* HWY_RESTRICT wz = g.wz.data() + o;
+  double* HWY_RESTRICT dvx = g.dvx.data() + o;
+  double* HWY_RESTRICT dvy = g.dvy.data() + o;
+  double* HWY_RESTRICT dwx = g.dwx.data() + o;
+  double* HWY_RESTRICT dwy = g.dwy.data() + o;
+  double* HWY_RESTRICT dwz = g.dwz.data() + o;
+  double* HWY_RESTRICT sticks = g.sticks.data() + o;
+  double* HWY_RESTRICT fx = batch.fx.data() + o;
+  double* HWY_RESTRICT fy = batch.fy.data() + o;
+  double* HWY_RESTRICT fz = batch.fz.data() + o;
+  double* HWY_RESTRICT tx = batch.tx.data() + o;
+  double* HWY_RESTRICT ty = batch.ty.data() + o;
+  double* HWY_RESTRICT tz = batch.tz.data() + o;
+  double* HWY_RESTRICT load_of = batch.load.data() + o;
+  double* HWY_RESTRICT fastest = batch.fastest.data() + o;
+  const double* HWY_RESTRICT inverse_mass = batch.inverse_mass.data() + o;
+  const double* HWY_RESTRICT inverse_inertia = batch.inverse_inertia.data() + o;
+  const double* HWY_RESTRICT weight = batch.weight.data() + o;
+  const double* HWY_RESTRICT share = batch.share.data() + o;
+  const double* HWY_RESTRICT turn = batch.turn.data() + o;
+  const double* HWY_RESTRICT mu_s = batch.mu_s.data() + o;
+  const double* HWY_RESTRICT mu_k = batch.mu_k.data() + o;
+  for (std::size_t i = 0; i < n; ++i) {
+    double ax = vx[i] + (dt * inverse_mass[i]) * fx[i];
+    double ay = vy[i] + (dt * inverse_mass[i]) * fy[i];
+    fx[i] = fy[i] = 0;
+    if constexpr (kRubs) {
+      const double az = wz[i] + (dt * inverse_inertia[i]) * tz[i];
+      dwz[i] = az - wz[i];
+      wz[i] = az;
+      tz[i] = 0;
+    }
+    if constexpr (kOnPlane) {
+      double bx = wx[i] + (dt * inverse_inertia[i]) * tx[i];
+      double by = wy[i] + (dt * inverse_inertia[i]) * ty[i];
+      const double load = std::abs(weight[i] - fz[i]) * dt;
+      tx[i] = ty[i] = fz[i] = 0;
+      load_of[i] = load;
+      const double ux = ax - R * by, uy = ay + R * bx;
+      const double slip2 = ux * ux + uy * uy;
+      const double per_slip = load * inverse_mass[i];
+      const double cap = (sticks[i] > 0 ? mu_s[i] : mu_k[i]) * per_slip;
+      const bool held = slip2 * share[i] * share[i] <= cap * cap;
+      // The slip expected in the middle of the step; see rub() of StepBody.
+      const double px = vx[i] + 0.5 * dvx[i] - R * (wy[i] + 0.5 * dwy[i]);
+      const double py = vy[i] + 0.5 * dvy[i] + R * (wx[i] + 0.5 * dwx[i]);
+      const bool turns = !(px * ux + py * uy > 0);
+      const double sx = turns ? ux : px, sy = turns ? uy : py;
+      const double size2 = sx * sx + sy * sy;
+      const double change = mu_k[i] * per_slip * (1 / std::sqrt(size2 > 0 ? size2 : 1));
+      const double rolling_x = ax - share[i] * ux, rolling_y = ay - share[i] * uy;
+      const double turned_x = bx - change * turn[i] * sy, turned_y = by + change * turn[i] * sx;
+      ax = held ? rolling_x : ax - change * sx;
+      ay = held ? rolling_y : ay - change * sy;
+      bx = held ? -rolling_y / R : turned_x;
+      by = held ? rolling_x / R : turned_y;
+      sticks[i] = held ? 1 : 0;
+      dwx[i] = bx - wx[i];
+      dwy[i] = by - wy[i];
+      wx[i] = bx;
+      wy[i] = by;
+    }
+    dvx[i] = ax - vx[i];
+    dvy[i] = ay - vy[i];
+    vx[i] = ax;
+    vy[i] = ay;
+    x[i] += h * ax;
+    y[i] += h * ay;
+    const double speed2 = ax * ax + ay * ay;
+    fastest[i] = speed2 > fastest[i] ? speed2 : fastest[i];
+  }
+}
+
+template <class Contact, bool kRubs, bool kOnPlane>
+HWY_ATTR std::size_t RunOf(GrainBatch& batch, const std::vector<GrainLaw>& laws, double R,
+                           const GrainGroup& group, const GrainSteps& steps) {
+  const Contact contact(batch, laws, R, steps.step);
+  const double reach = 2 * R;
+  const double* HWY_RESTRICT x = batch.grains.x.data();
+  const double* HWY_RESTRICT y = batch.grains.y.data();
+  std::size_t begun = 0;
+  for (std::size_t s = 0; s < steps.count; ++s) {
+    for (std::size_t k = group.first_pair; k < group.last_pair; ++k) {
+      GrainPair& pair = batch.pairs[k];
+      const double dx = x[pair.a] - x[pair.b] - pair.shift_x;
+      const double dy = y[pair.a] - y[pair.b] - pair.shift_y;
+      const double distance2 = dx * dx + dy * dy;
+      if (distance2 <= reach * reach)
+        begun += contact.meet(pair, dx, dy, std::sqrt(distance2), steps.begun || s > 0);
+      else if (pair.touching)
+        contact.part(pair, dx, dy, std::sqrt(distance2));
+    }
+    KickAndDrift<kRubs, kOnPlane>(batch, group, R, s == 0 ? steps.first_kick : steps.step,
+                                  steps.drift ? steps.step : 0);
+  }
+  return begun;
+}
+
+template <bool kRubs, bool kOnPlane>
+HWY_ATTR std::size_t RunWith(const GrainFeatures& features, GrainBatch& batch,
+                             const std::vector<GrainLaw>& laws, double R, const GrainGroup& group,
+                             const GrainSteps& steps) {
+  if (features.any_normal)
+    return RunOf<GrainContact<false, kRubs, kOnPlane>, kRubs, kOnPlane>(batch, laws, R, group,
+                                                                        steps);
+  return RunOf<GrainContact<true, kRubs, kOnPlane>, kRubs, kOnPlane>(batch, laws, R, group, steps);
+}
+
+HWY_ATTR std::size_t Run(const GrainFeatures& features, GrainBatch& batch,
+                         const std::vector<GrainLaw>& laws, double R, const GrainGroup& group,
+                         const GrainSteps& steps) {
+  if (features.on_plane)
+    return features.rubs ? RunWith<true, true>(features, batch, laws, R, group, steps)
+                         : RunWith<false, true>(features, batch, laws, R, group, steps);
+  return features.rubs ? RunWith<true, false>(features, batch, laws, R, group, steps)
+                       : RunWith<false, false>(features, batch, laws, R, group, steps);
+}
+
+std::int64_t Target() { return HWY_TARGET; }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace slipcheck
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,99 @@
+#include "reference/steps/grain_neighbours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace slipcheck {
+namespace {
+
+/// Cells of at least `width` along one axis.
+struct Axis {
+  double low = 0, per_cell = 1;
+  std::uint32_t cells = 1;
+
+  Axis(const std::vector<double>& places, double length, double width) {
+    double extent = length;
+    if (length <= 0 && !places.empty()) {
+      const auto [least, largest] = std::minmax_element(places.begin(), places.end());
+      low = *least;
+      extent = *largest - low;
+    }
+    // More cells than grains are of no use where these lie far apart.
+    const double most = std::max(1.0, 2 * std::sqrt(static_cast<double>(places.size())) + 4);
+    cells = static_cast<std::uint32_t>(std::clamp(std::floor(extent / width), 1.0, most));
+    per_cell = extent > 0 ? cells / extent : 0;
+  }
+  std::uint32_t cell_of(double place) const {
+    const double cell = (place - low) * per_cell;
+    return cell > 0 ? std::min(static_cast<std::uint32_t>(cell), cells - 1) : 0;
+  }
+};
+
+double to_nearest_image(double distance, double length) {
+  return length > 0 ? distance - length * std::nearbyint(distance / length) : distance;
+}
+
+}  // namespace
+
+const std::vector<std::uint32_t>& GrainNeighbours::sort(const GrainArrays& grains,
+                                                        const GrainPlane& plane, double width) {
+  const Axis x(grains.x, plane.length_x, width), y(grains.y, plane.length_y, width);
+  columns_ = x.cells;
+  rows_ = y.cells;
+  const std::size_t n = grains.size();
+  cell_.resize(n);
+  start_.assign(std::size_t{columns_} * rows_ + 1, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    cell_[i] = y.cell_of(grains.y[i]) * columns_ + x.cell_of(grains.x[i]);
+    ++start_[cell_[i] + 1];
+  }
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  order_.resize(n);
+  std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+  for (std::uint32_t i = 0; i < n; ++i) order_[next[cell_[i]]++] = i;
+  return order_;
+}
+
+void GrainNeighbours::take(const GrainArrays& grains, const GrainPlane& plane, double skin,
+                           std::uint32_t i, std::uint32_t begin, std::uint32_t end) {
+  const double reach = 2 * plane.radius + skin;
+  for (std::uint32_t j = begin; j < end; ++j) {
+    const double dx = to_nearest_image(grains.x[i] - grains.x[j], plane.length_x);
+    const double dy = to_nearest_image(grains.y[i] - grains.y[j], plane.length_y);
+    if (dx * dx + dy * dy <= reach * reach) found_.push_back(j);
+  }
+}
+
+void GrainNeighbours::find(const GrainArrays& grains, const GrainPlane& plane, double skin) {
+  first_.clear();
+  second_.clear();
+  const auto columns = static_cast<std::int64_t>(columns_), rows = static_cast<std::int64_t>(rows_);
+  // A cell of few columns or rows would meet itself around the plane.
+  const bool round_x = plane.length_x > 0 && columns > 2;
+  const bool round_y = plane.length_y > 0 && rows > 2;
+  const bool all_x = columns <= 2, all_y = rows <= 2;
+  for (std::int64_t row = 0; row < rows; ++row)
+    for (std::int64_t column = 0; column < columns; ++column) {
+      const std::size_t cell = static_cast<std::size_t>(row * columns + column);
+      for (std::uint32_t i = start_[cell]; i < start_[cell + 1]; ++i) {
+        found_.clear();
+        for (std::int64_t r = all_y ? 0 : row - 1; r <= (all_y ? rows - 1 : row + 1); ++r) {
+          if (!round_y && (r < 0 || r >= rows)) continue;
+          const std::int64_t beside = (r + rows) % rows * columns;
+          for (std::int64_t c = all_x ? 0 : column - 1; c <= (all_x ? columns - 1 : column + 1);
+               ++c) {
+            if (!round_x && (c < 0 || c >= columns)) continue;
+            const auto other = static_cast<std::size_t>(beside + (c + columns) % columns);
+            if (other < cell) continue;
+            take(grains, plane, skin, i, other == cell ? i + 1 : start_[other], start_[other + 1]);
+          }
+        }
+        std::sort(found_.begin(), found_.end());
+        first_.insert(first_.end(), found_.size(), i);
+        second_.insert(second_.end(), found_.begin(), found_.end());
+      }
+    }
+}
+
+}  // namespace slipcheck

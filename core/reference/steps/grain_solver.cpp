@@ -1,0 +1,351 @@
+#include "reference/steps/grain_solver.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <type_traits>
+#include <utility>
+
+#include "base/stop_scope.h"
+#include "physics/numbers.h"
+#include "reference/steps/grain_islands.h"
+#include "reference/steps/grain_kernels.h"
+#include "reference/steps/grain_neighbours.h"
+#include "reference/steps/grain_scene.h"
+#include "reference/steps/step_solver.h"
+
+namespace slipcheck {
+namespace {
+
+/// Costs in units of one grain gliding through a block, about 1 ns. They only tell how long blocks
+/// and how thick skins are.
+namespace cost {
+constexpr double kLook = 1.5;        // at a pair of Verlet's list
+constexpr double kSteps = 6;         // of a grain in an island, each step
+constexpr double kIsland = 40;       // to sort a grain into one
+constexpr double kNeighbours = 150;  // of a grain, to find them
+}  // namespace cost
+/// How much faster than the fastest now a grain may get in a block before it is done again.
+constexpr double kFaster = 1.25;
+constexpr std::size_t kLongestBlock = 64;
+
+double folded(double x, double length, std::int64_t& image) {
+  if (!(length > 0)) return x;
+  const double turns = std::floor(x / length);
+  image += static_cast<std::int64_t>(turns);
+  return x - turns * length;
+}
+
+}  // namespace
+
+class GrainSolver::Impl {
+ public:
+  Impl(const ContactScene& scene, std::span<const BodyState> initial, double step)
+      : scene_(&scene), step_(step), kernels_(grain_kernels(scene, initial, grains_.kind)) {
+    assert(step > 0 && initial.size() == scene.hard.bodies.size());
+    const std::size_t n = initial.size();
+    std::vector<std::uint32_t> kind = std::move(grains_.kind);
+    grains_.resize(n);
+    grains_.kind = std::move(kind);
+    image_x_.assign(n, 0);
+    image_y_.assign(n, 0);
+    double fastest2 = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const BodyState& state = initial[i];
+      body_.push_back(static_cast<std::uint32_t>(i));
+      grains_.x[i] = state.position.x();
+      grains_.y[i] = state.position.y();
+      grains_.vx[i] = state.velocity.x();
+      grains_.vy[i] = state.velocity.y();
+      grains_.wx[i] = state.angular_velocity.x();
+      grains_.wy[i] = state.angular_velocity.y();
+      grains_.wz[i] = state.angular_velocity.z();
+      const double R = radius();
+      const double slip = slip_velocity(state, R).head<2>().norm();
+      const double round_off =
+          16 * kEpsilon * (state.velocity.norm() + R * state.angular_velocity.norm());
+      grains_.sticks[i] = slip <= round_off ? 1 : 0;
+      fastest2 = std::max(fastest2, state.velocity.head<2>().squaredNorm());
+    }
+    fastest_ = std::sqrt(fastest2);
+    find_neighbours(1);
+  }
+
+  void advance(std::size_t steps) {
+    while (steps > 0) {
+      heed_stop();
+      if (!(fastest_ * step_ <= 0.5 * radius()))
+        throw StepTooLong("bodies move by more than half a radius in a step");
+      const std::size_t length = next_block(steps);
+      if (length == 0) {
+        find_neighbours(std::min(steps, kLongestBlock));
+        continue;
+      }
+      if (run_block(length)) {
+        steps -= length;
+        n_ += length;
+      }
+    }
+  }
+
+  double now() const { return static_cast<double>(n_) * step_; }
+  std::size_t steps() const { return n_; }
+  std::size_t collisions() const { return collisions_; }
+  std::size_t touching() const { return touching_.size(); }
+  const GrainFeatures& features() const { return kernels_.features(); }
+
+  bool all_stick(bool rests) const {
+    for (std::size_t i = 0; i < grains_.size(); ++i) {
+      const double wx = grains_.wx[i], wy = grains_.wy[i];
+      const bool sticks = features().on_plane
+                              ? grains_.sticks[i] > 0
+                              : grains_.vx[i] == radius() * wy && grains_.vy[i] == -radius() * wx;
+      if (!sticks) return false;
+      if (rests && (grains_.vx[i] != 0 || grains_.vy[i] != 0 || grains_.wz[i] != 0)) return false;
+    }
+    return true;
+  }
+
+  void show(Frame& frame) {
+    if (2 * moved_ + margin(1) > skin_) find_neighbours(1);
+    // All grains in one batch get the half kick from their velocities' time to that of positions.
+    GrainBatch batch;
+    batch.resize(grains_.size());
+    for (std::size_t i = 0; i < grains_.size(); ++i) batch.take(i, grains_, i, kernels_.kinds());
+    std::vector<std::uint32_t> near;
+    kernels_.find_near(grains_, neighbours_.first(), neighbours_.second(), margin(1), near);
+    batch.pairs = pairs_of(near);
+    const GrainGroup all = {0, grains_.size(), 0, batch.pairs.size()};
+    kernels_.run(batch, all, {step_, n_ > 0 ? 0.5 * step_ : 0, 1, false, n_ > 0});
+    frame.bodies.resize(grains_.size());
+    frame.touches.clear();
+    const GrainArrays& g = batch.grains;
+    for (std::size_t i = 0; i < grains_.size(); ++i) {
+      const double x = grains_.x[i] + static_cast<double>(image_x_[i]) * kernels_.plane().length_x;
+      const double y = grains_.y[i] + static_cast<double>(image_y_[i]) * kernels_.plane().length_y;
+      frame.bodies[body_[i]] = {
+          {x, y, radius()}, {g.vx[i], g.vy[i], 0}, {g.wx[i], g.wy[i], g.wz[i]}};
+      const double impulse = features().on_plane ? 2 * batch.load[i]
+                             : n_ > 0            ? kernels_.kinds()[g.kind[i]].weight * step_
+                                                 : 0;
+      if (impulse > 0) frame.touches.push_back({static_cast<int>(body_[i]), kSubstrate, impulse});
+    }
+    for (const GrainPair& pair : batch.pairs) {
+      const double impulse = std::abs(pair.normal_force) * step_;
+      if (!pair.touching || !(impulse > 0)) continue;
+      const auto [i, j] = std::minmax(body_[pair.a], body_[pair.b]);
+      frame.touches.push_back({static_cast<int>(i), static_cast<int>(j), impulse});
+    }
+  }
+
+ private:
+  /// A pair in contact at the end of a block.
+  struct Contact {
+    std::uint32_t i = 0, j = 0;
+    GrainPair pair;
+  };
+
+  double radius() const { return kernels_.plane().radius; }
+
+  /// A bound on speeds within `length` steps [m/s]; run_block sees to it.
+  double bound(std::size_t length) const {
+    double friction = 0;
+    if (features().on_plane)
+      for (const GrainKind& kind : kernels_.kinds())
+        friction = std::max(friction, kind.kinetic_friction * kind.weight * kind.inverse_mass);
+    return kFaster * fastest_ + friction * step_ * static_cast<double>(length);
+  }
+  /// How near grains must be to meet within `length` steps [m].
+  double margin(std::size_t length) const {
+    return 2 * bound(length) * step_ * static_cast<double>(length);
+  }
+
+  /// The length that costs least a step, as the last block lets expect; 0 where the list of
+  /// neighbours no longer covers one step.
+  std::size_t next_block(std::size_t steps) const {
+    if (n_ == 0) return 1;  // its kick is half as long
+    const double all = static_cast<double>(grains_.size()) +
+                       cost::kLook * static_cast<double>(neighbours_.first().size()) +
+                       cost::kIsland * 2 * static_cast<double>(touching_.size());
+    const double best = std::sqrt(all / (cost::kSteps * std::max(joining_, 1e-6)));
+    auto length = static_cast<std::size_t>(
+        std::clamp(best, 1.0, static_cast<double>(std::min(steps, kLongestBlock))));
+    while (length > 0 && 2 * moved_ + margin(length) > skin_) length /= 2;
+    return length;
+  }
+
+  void find_neighbours(std::size_t length) {
+    // A grain has about π ρ d s neighbours in a skin s, looked at once in a block; s lasts for
+    // s over twice the speed.
+    const double d = 2 * radius(), speed = 2 * bound(length);
+    const double looks = cost::kLook * std::numbers::pi * density() * d /
+                         (static_cast<double>(last_length_) * step_);
+    const double best = std::sqrt(cost::kNeighbours * speed / looks);
+    skin_ = std::max(std::clamp(best, 0.1 * d, 0.6 * d), 1.01 * margin(1));
+    GrainArrays& g = grains_;
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      g.x[i] = folded(g.x[i], kernels_.plane().length_x, image_x_[i]);
+      g.y[i] = folded(g.y[i], kernels_.plane().length_y, image_y_[i]);
+    }
+    const std::vector<std::uint32_t>& order =
+        neighbours_.sort(g, kernels_.plane(), 2 * radius() + skin_);
+    reorder(order);
+    neighbours_.find(g, kernels_.plane(), skin_);
+    moved_ = 0;
+  }
+
+  /// ρ [1/m²] of a periodic plane, else that of grains side by side.
+  double density() const {
+    const GrainPlane& plane = kernels_.plane();
+    const double area = plane.length_x * plane.length_y, d = 2 * radius();
+    return area > 0 ? static_cast<double>(grains_.size()) / area : 1 / (d * d);
+  }
+
+  void reorder(const std::vector<std::uint32_t>& order) {
+    const auto apply = [&](auto& values) {
+      std::remove_reference_t<decltype(values)> moved(values.size());
+      for (std::size_t k = 0; k < order.size(); ++k) moved[k] = values[order[k]];
+      values.swap(moved);
+    };
+    grains_.for_each_real(apply);
+    apply(grains_.kind);
+    apply(image_x_);
+    apply(image_y_);
+    apply(body_);
+    std::vector<std::uint32_t> place(order.size());
+    for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+    for (Contact& c : touching_) {
+      c.i = place[c.i];
+      c.j = place[c.j];
+      if (c.i < c.j) continue;
+      std::swap(c.i, c.j);
+      const GrainPair::Force& f = c.pair.force;
+      c.pair.force = {-f.x, -f.y, -f.z, -f.across_x, -f.across_y};
+    }
+    std::sort(touching_.begin(), touching_.end(), [](const Contact& a, const Contact& b) {
+      return std::pair(a.i, a.j) < std::pair(b.i, b.j);
+    });
+  }
+
+  /// The near pairs, by index of grain, with what those in contact remember.
+  std::vector<GrainPair> pairs_of(const std::vector<std::uint32_t>& near) const {
+    const GrainPlane& plane = kernels_.plane();
+    const std::size_t materials = scene_->hard.substrate.size();
+    const auto shift = [](double distance, double length) {
+      return length > 0 ? length * std::nearbyint(distance / length) : 0;
+    };
+    std::vector<GrainPair> pairs(near.size());
+    auto contact = touching_.begin();
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      const std::uint32_t i = neighbours_.first()[near[k]], j = neighbours_.second()[near[k]];
+      GrainPair& pair = pairs[k];
+      while (contact != touching_.end() && std::pair(contact->i, contact->j) < std::pair(i, j))
+        ++contact;
+      if (contact != touching_.end() && contact->i == i && contact->j == j) pair = contact->pair;
+      pair.a = i;
+      pair.b = j;
+      pair.shift_x = shift(grains_.x[i] - grains_.x[j], plane.length_x);
+      pair.shift_y = shift(grains_.y[i] - grains_.y[j], plane.length_y);
+      pair.law = static_cast<std::uint32_t>(kernels_.kinds()[grains_.kind[i]].material * materials +
+                                            kernels_.kinds()[grains_.kind[j]].material);
+    }
+    return pairs;
+  }
+
+  /// So many steps, or none where a grain got faster than foreseen.
+  bool run_block(std::size_t length) {
+    near_.clear();
+    kernels_.find_near(grains_, neighbours_.first(), neighbours_.second(), margin(length), near_);
+    islands_.find(grains_.size(), neighbours_.first(), neighbours_.second(), near_);
+    const std::vector<std::uint32_t>& active = islands_.grains();
+    batch_.resize(active.size());
+    for (std::size_t k = 0; k < active.size(); ++k)
+      batch_.take(k, grains_, active[k], kernels_.kinds());
+    const std::vector<GrainPair> pairs = pairs_of(near_);
+    batch_.pairs.resize(pairs.size());
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      GrainPair& pair = batch_.pairs[k] = pairs[islands_.pairs()[k]];
+      pair.a = islands_.place(pair.a);
+      pair.b = islands_.place(pair.b);
+    }
+    std::size_t begun = 0;
+    for (const GrainGroup& group : islands_.groups())
+      begun +=
+          kernels_.run(batch_, group, {step_, n_ == 0 ? 0.5 * step_ : step_, length, true, n_ > 0});
+    double fastest2 = 0;
+    for (const double each : batch_.fastest) fastest2 = std::max(fastest2, each);
+    if (std::sqrt(fastest2) > bound(length)) {
+      fastest_ = std::sqrt(fastest2);
+      return false;
+    }
+    moved_ += bound(length) * step_ * static_cast<double>(length);
+    // Grains at rest stay; the first kick is half as long, and without friction there is none.
+    const double still2 =
+        n_ == 0 && features().on_plane ? begin_gliding() : kernels_.glide(grains_, step_, length);
+    for (std::size_t k = 0; k < active.size(); ++k) grains_.take(active[k], batch_.grains, k);
+    keep_contacts(pairs.size());
+    collisions_ += begun;
+    fastest_ = std::sqrt(std::max(fastest2, still2));
+    joining_ = std::max(0.0, static_cast<double>(active.size()) -
+                                 2 * static_cast<double>(touching_.size())) /
+               static_cast<double>(length);
+    last_length_ = length;
+    return true;
+  }
+
+  /// The first step with its half kick.
+  double begin_gliding() {
+    GrainBatch batch;
+    batch.resize(grains_.size());
+    for (std::size_t i = 0; i < grains_.size(); ++i) batch.take(i, grains_, i, kernels_.kinds());
+    kernels_.run(batch, {0, grains_.size(), 0, 0}, {step_, 0.5 * step_, 1, true, false});
+    grains_ = std::move(batch.grains);
+    return *std::max_element(batch.fastest.begin(), batch.fastest.end());
+  }
+
+  void keep_contacts(std::size_t pairs) {
+    place_of_.resize(pairs);
+    for (std::uint32_t k = 0; k < pairs; ++k) place_of_[islands_.pairs()[k]] = k;
+    touching_.clear();
+    for (std::size_t p = 0; p < pairs; ++p) {
+      const GrainPair& pair = batch_.pairs[place_of_[p]];
+      if (pair.touching)
+        touching_.push_back({neighbours_.first()[near_[p]], neighbours_.second()[near_[p]], pair});
+    }
+  }
+
+  const ContactScene* scene_;
+  double step_;
+  GrainArrays grains_;
+  GrainKernels kernels_;
+  std::vector<std::int64_t> image_x_, image_y_;  ///< cells between a grain's path and its place
+  std::vector<std::uint32_t> body_;              ///< of the scene
+  std::size_t n_ = 0, collisions_ = 0;
+  double fastest_ = 0;  ///< speed [m/s]
+  double skin_ = 0;     ///< of the list [m]
+  double moved_ = 0;    ///< at most, by any grain since the list was made [m]
+  double joining_ = 1;  ///< grains that a further step in a block adds to islands
+  std::size_t last_length_ = 8;
+  GrainNeighbours neighbours_;
+  GrainIslands islands_;
+  std::vector<std::uint32_t> near_, place_of_;
+  GrainBatch batch_;
+  std::vector<Contact> touching_;  ///< in the order of the list
+};
+
+GrainSolver::GrainSolver(const ContactScene& scene, std::span<const BodyState> initial, double step)
+    : impl_(std::make_unique<Impl>(scene, initial, step)) {}
+GrainSolver::~GrainSolver() = default;
+GrainSolver::GrainSolver(GrainSolver&&) noexcept = default;
+
+void GrainSolver::advance(std::size_t steps) { impl_->advance(steps); }
+double GrainSolver::now() const { return impl_->now(); }
+std::size_t GrainSolver::steps() const { return impl_->steps(); }
+std::size_t GrainSolver::collisions() const { return impl_->collisions(); }
+std::size_t GrainSolver::touching() const { return impl_->touching(); }
+bool GrainSolver::all_stick(bool rests) const { return impl_->all_stick(rests); }
+std::string GrainSolver::instruction_set() { return GrainKernels::instruction_set(); }
+void GrainSolver::show(Frame& frame) { impl_->show(frame); }
+
+}  // namespace slipcheck

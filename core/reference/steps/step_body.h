@@ -1,0 +1,234 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "physics/contact/coupled_friction.h"
+#include "physics/contact/hard_contact.h"
+#include "physics/motion/substrate_phase.h"
+#include "physics/sphere.h"
+
+namespace slipcheck {
+
+/// One sphere in the fixed-step solver. Velocities lie half a step before the positions.
+struct StepBody {
+  Vector3 position = Vector3::Zero();          ///< x_n [m]
+  Vector3 velocity = Vector3::Zero();          ///< v_{n−1/2} [m/s]
+  Vector3 angular_velocity = Vector3::Zero();  ///< Ω_{n−1/2} [rad/s]
+  /// What the last step changed: half of it more is the velocity predicted for the positions' time.
+  Vector3 velocity_change = Vector3::Zero();
+  Vector3 angular_velocity_change = Vector3::Zero();
+  Vector3 force = Vector3::Zero();   ///< by other bodies [N]
+  Vector3 torque = Vector3::Zero();  ///< by other bodies [N m]
+
+  double radius = 0;           ///< R [m]
+  double inverse_mass = 0;     ///< 1/m [1/kg]
+  double inverse_inertia = 0;  ///< 1/I [1/(kg m²)]
+  double weight = 0;           ///< m g along −z [N]
+  double inverse_radius = 0;   ///< [1/m]
+  double share = 0;            ///< 1/(1+A): the slip that reaches the centre when a body sticks [-]
+  double turn = 0;             ///< A/R: |ΔΩ| for each |Δv| by friction [1/m]
+  const Sphere* sphere = nullptr;
+  const SubstrateContact* contact = nullptr;
+
+  bool supported = false;     ///< on the substrate
+  bool sticks = false;        ///< to it: no slip
+  double normal_impulse = 0;  ///< of the substrate in the last step [N s]
+};
+
+/// What acts on all bodies alike.
+struct StepSurroundings {
+  double gravity = 0;                         ///< along −z [m/s²]
+  Vector2 downhill = Vector2::Zero();         ///< along the plane [m/s²]
+  Vector2 velocity_before = Vector2::Zero();  ///< v_S where the velocities come from [m/s]
+  Vector2 velocity = Vector2::Zero();         ///< v_S where they go to [m/s]
+  bool confined = false;
+};
+
+/// A level, still substrate without friction that no body leaves.
+struct BareSubstrate {};
+/// A level, still substrate with Coulomb friction alone.
+struct PlainSubstrate {};
+/// Everything: tilt, motion, rolling and drilling friction.
+struct FullSubstrate {};
+
+/// Rolling friction of a body that sticks, K (16): it takes μ_r |N|/m dt from the velocity relative
+/// to the substrate, and all of it at most. The couple (1+q) μ_r |N| R and the static friction it
+/// calls for do the same to the centre. Returns the change [m/s].
+inline Vector2 rolling_change(const StepBody& b, const Vector2& relative, double load) {
+  if (b.contact->rolling.is_zero()) return Vector2::Zero();
+  const double speed = relative.norm();
+  if (!(speed > 0)) return Vector2::Zero();
+  const double lost = std::min(speed, b.contact->rolling(speed) * load * b.inverse_mass);
+  return (-lost / speed) * relative;
+}
+
+/// Takes |lost| from a rate at most down to zero.
+inline double towards_zero(double rate, double lost) {
+  return std::copysign(std::max(0.0, std::abs(rate) - lost), rate);
+}
+
+/// The friction of the substrate over dt on a body with the velocities `v`, `w` that all other
+/// forces gave it, K (11)-(19), (22)-(27). load = |N| dt [N s]. With the slip u that the other
+/// forces leave, the impulse −m u/(1+A) makes the body stick; it does if the impulse is within
+/// μ_s |N| dt (μ_k for a body that slides), else μ_k |N| dt acts against the slip: friction may
+/// stop the slip within a step but not reverse it.
+[[gnu::always_inline]] inline void rub(StepBody& b, const StepSurroundings&, PlainSubstrate,
+                                       double load, Vector3& v, Vector3& w) {
+  const SubstrateContact& c = *b.contact;
+  const Vector2 u(v.x() - b.radius * w.y(), v.y() + b.radius * w.x());
+  const Vector2 stop = b.share * u;
+  const double per_slip = load * b.inverse_mass;  // (1+A) times this is taken from the slip
+  const double cap = (b.sticks ? c.static_friction : c.kinetic_friction) * per_slip;
+  b.sticks = stop.squaredNorm() <= cap * cap;
+  if (b.sticks) {
+    v.head<2>() -= stop;
+    w.head<2>() = Vector2(-v.y(), v.x()) * b.inverse_radius;
+    return;
+  }
+  // Friction acts against the slip that the last step lets expect in the middle of this one, so
+  // that a turning slip is followed to second order; where that says nothing, against the one at
+  // hand. (It does not wait for the forces of now, and the square root is off the critical path.)
+  const Vector3 velocity = b.velocity + 0.5 * b.velocity_change;
+  const Vector3 spin = b.angular_velocity + 0.5 * b.angular_velocity_change;
+  Vector2 direction(velocity.x() - b.radius * spin.y(), velocity.y() + b.radius * spin.x());
+  if (!(direction.dot(u) > 0)) [[unlikely]]
+    direction = u;
+  const double change = c.kinetic_friction * per_slip * (1 / direction.norm());
+  v.head<2>() -= change * direction;
+  w.head<2>() += (change * b.turn) * Vector2(-direction.y(), direction.x());
+}
+
+inline void rub(StepBody& b, const StepSurroundings& s, FullSubstrate, double load, Vector3& v,
+                Vector3& w) {
+  const SubstrateContact& c = *b.contact;
+  const double R = b.radius;
+  const auto slip = [R](const Vector3& velocity, const Vector3& spin,
+                        const Vector2& substrate) -> Vector2 {
+    return Vector2(velocity.x() - R * spin.y(), velocity.y() + R * spin.x()) - substrate;
+  };
+  const double spin = std::abs(b.angular_velocity.z() + 0.5 * b.angular_velocity_change.z());
+  const bool shares_friction = c.coupled_radius > 0 && spin > 0;
+  const double per_slip = load * b.inverse_mass;
+  Vector2 u = slip(v, w, s.velocity);
+  double drilling = c.drilling_length * load;
+
+  // A disc that spins has no static friction: it creeps.
+  const double held_by = shares_friction ? 0 : b.sticks ? c.static_friction : c.kinetic_friction;
+  const Vector2 sticking = -b.share * u;
+  const Vector2 held = v.head<2>() + sticking - s.velocity;
+  const Vector2 rolling = rolling_change(b, held, load);
+  // Rolling friction that ends where the body slips cannot break it loose.
+  const Vector2 load_on_stick = c.rolling_while_sliding ? Vector2(sticking + rolling) : sticking;
+  const double cap = held_by * per_slip;
+  b.sticks = load_on_stick.squaredNorm() <= cap * cap;
+  if (b.sticks) {
+    const Vector2 relative = held + rolling;
+    v.head<2>() = s.velocity + relative;
+    w.x() = -relative.y() * b.inverse_radius;
+    w.y() = relative.x() * b.inverse_radius;
+  } else {
+    if (c.rolling_while_sliding) {
+      // The couple (1+q) μ_r |N| R against the rolling rate; 1+q = 1/(1 − 1/(1+A)).
+      const double rate = w.head<2>().norm();
+      if (rate > 0) {
+        const double couple = c.rolling(R * rate) * load * R / (1 - b.share);
+        w.head<2>() *= std::max(0.0, 1 - couple * b.inverse_inertia / rate);
+        u = slip(v, w, s.velocity);
+      }
+    }
+    Vector2 direction = slip(b.velocity + 0.5 * b.velocity_change,
+                             b.angular_velocity + 0.5 * b.angular_velocity_change,
+                             0.5 * (s.velocity_before + s.velocity));
+    if (!(direction.dot(u) > 0)) direction = u;
+    const double size = direction.norm();
+    double friction = c.kinetic_friction * per_slip;
+    if (shares_friction) {
+      const CoupledFriction shared =
+          coupled_friction(c.hertzian_pressure ? DiscPressure::hertzian : DiscPressure::uniform,
+                           size, c.coupled_radius * spin);
+      friction *= shared.force;
+      drilling = c.kinetic_friction * load * c.coupled_radius * shared.torque;
+    }
+    // As much along `direction` as PlainSubstrate takes, with the same roundings.
+    double change = 0;
+    if (friction * friction >= (b.share * u).squaredNorm()) {
+      direction = u;
+      change = b.share;
+      b.sticks = !shares_friction;
+    } else if (size > 0) {
+      change = friction * (1 / size);
+    }
+    const double turn = change * b.turn;
+    v.head<2>() -= change * direction;
+    w.x() -= turn * direction.y();
+    w.y() += turn * direction.x();
+  }
+  w.z() = towards_zero(w.z(), drilling * b.inverse_inertia);
+}
+
+[[gnu::always_inline]] inline void kick_freely(StepBody& b, double dt) {
+  const Vector3 w = b.angular_velocity + (dt * b.inverse_inertia) * b.torque;
+  const double vx = b.velocity.x() + (dt * b.inverse_mass) * b.force.x();
+  const double vy = b.velocity.y() + (dt * b.inverse_mass) * b.force.y();
+  b.normal_impulse = std::abs(b.weight - b.force.z()) * dt;
+  b.velocity_change = Vector3(vx, vy, 0) - b.velocity;
+  b.angular_velocity_change = w - b.angular_velocity;
+  b.velocity = {vx, vy, 0};
+  b.angular_velocity = w;
+  b.sticks = vx == b.radius * w.y() && vy == -b.radius * w.x();
+}
+
+template <class Substrate>
+[[gnu::always_inline]] inline void kick_and_rub(StepBody& b, const StepSurroundings& s, double dt) {
+  Vector3 v = b.velocity + (dt * b.inverse_mass) * b.force;
+  Vector3 w = b.angular_velocity + (dt * b.inverse_inertia) * b.torque;
+  if constexpr (std::is_same_v<Substrate, FullSubstrate>) v.head<2>() += dt * s.downhill;
+  b.normal_impulse = 0;
+  if (b.supported) {
+    const double normal = b.weight - b.force.z();
+    if (normal >= 0 || s.confined) {
+      v.z() = 0;
+      b.normal_impulse = std::abs(normal) * dt;
+      rub(b, s, Substrate{}, b.normal_impulse, v, w);
+    } else {
+      b.supported = b.sticks = false;
+      v.z() -= dt * s.gravity;
+    }
+  } else {
+    v.z() -= dt * s.gravity;
+  }
+  b.velocity_change = v - b.velocity;
+  b.angular_velocity_change = w - b.angular_velocity;
+  b.velocity = v;
+  b.angular_velocity = w;
+}
+
+/// The velocities of a body dt later, under the forces of now.
+template <class Substrate>
+[[gnu::always_inline]] inline void kick(StepBody& b, const StepSurroundings& s, double dt) {
+  if constexpr (std::is_same_v<Substrate, BareSubstrate>)
+    kick_freely(b, dt);
+  else
+    kick_and_rub<Substrate>(b, s, dt);
+}
+
+/// A body that came down on the substrate within the last step lands, in the substrate's frame.
+inline void land_after_drift(StepBody& b, const StepSurroundings& s, double slowest_rebound) {
+  const Vector3 substrate(s.velocity.x(), s.velocity.y(), 0);
+  const double late = std::min((b.radius - b.position.z()) / -b.velocity.z(), 1.0);
+  BodyState state{b.position, b.velocity - substrate, b.angular_velocity};
+  land(*b.sphere, *b.contact, slowest_rebound, state);
+  b.velocity = state.velocity + substrate;
+  b.angular_velocity = state.angular_velocity;
+  b.velocity_change.setZero();
+  b.angular_velocity_change.setZero();
+  b.supported = !(b.velocity.z() > 0);
+  b.position.z() = b.radius + (b.supported ? 0 : b.velocity.z() * late);
+  const double slip = slip_velocity(state, b.radius).head<2>().norm();
+  b.sticks = b.supported &&
+             slip <= 1e-14 * (state.velocity.norm() + b.radius * state.angular_velocity.norm());
+}
+
+}  // namespace slipcheck

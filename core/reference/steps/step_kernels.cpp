@@ -1,0 +1,167 @@
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "reference/steps/grain_loop.h"
+#include "reference/steps/grain_scene.h"
+#include "reference/steps/step_kernel.h"
+#include "reference/steps/step_loop.h"
+
+namespace slipcheck {
+namespace {
+
+using Tangential = std::variant<SmoothPair, ViscousPair, PrintedAsperityPair, PassiveAsperityPair>;
+
+Tangential tangential_of(const SoftContact& contact) {
+  return std::visit(
+      [](const auto& law) -> Tangential {
+        using Law = std::decay_t<decltype(law)>;
+        if constexpr (std::is_same_v<Law, ViscousForce>)
+          return ViscousPair{law};
+        else if constexpr (std::is_same_v<Law, AsperityForce>) {
+          if (law.form == AsperityForce::Form::passive) return PassiveAsperityPair{law};
+          return PrintedAsperityPair{law};
+        } else {
+          return SmoothPair{};
+        }
+      },
+      contact.tangential);
+}
+
+/// Whether there are two bodies of these materials, which could meet.
+bool can_meet(const Scene& scene, std::size_t m, std::size_t n) {
+  std::size_t in_m = 0, in_n = 0;
+  for (std::size_t material : scene.material) {
+    in_m += material == m;
+    in_n += material == n;
+  }
+  return m == n ? in_m > 1 : in_m > 0 && in_n > 0;
+}
+
+bool is_plain(const Scene& scene) {
+  if (!scene.motion.is_still() || !scene.downhill.isZero(0)) return false;
+  for (std::size_t material : scene.material) {
+    const SubstrateContact& c = scene.substrate[material];
+    if (!c.rolling.is_zero() || c.drilling_length > 0 || c.coupled_radius > 0) return false;
+  }
+  return true;
+}
+
+/// Without friction, and so that no body leaves the plane: it may not, or nothing pushes it up.
+bool is_bare(const ContactScene& contacts, std::span<const BodyState> initial) {
+  const Scene& scene = contacts.hard;
+  if (!is_plain(scene)) return false;
+  for (std::size_t material : scene.material)
+    if (scene.substrate[material].kinetic_friction > 0) return false;
+  if (scene.confined) return true;
+  for (const auto& contact : contacts.soft)
+    if (contact && !std::holds_alternative<NoTangentialForce>(contact->tangential)) return false;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (scene.bodies[i].radius != scene.bodies[0].radius ||
+        initial[i].position.z() != scene.bodies[i].radius || initial[i].velocity.z() != 0)
+      return false;
+  return true;
+}
+
+const char* name_of(const NormalForce& force) {
+  static constexpr const char* kNames[] = {"linear normal force", "Hertz's normal force",
+                                           "power law as normal force", "viscoelastic normal force",
+                                           "compact viscoelastic normal force"};
+  return kNames[force.index()];
+}
+const char* name_of(const Tangential& law) {
+  static constexpr const char* kNames[] = {"no tangential force, no torque",
+                                           "viscous tangential force with Coulomb's cap",
+                                           "printed asperities", "passive asperities"};
+  return kNames[law.index()];
+}
+
+/// More are GrainLoop's.
+constexpr std::size_t kMostInAllPairs = 24;
+
+template <class Normal, class Tangential_>
+std::unique_ptr<StepKernel> make(std::vector<StepLaw<Normal, Tangential_>> laws,
+                                 const ContactScene& contacts, std::span<const BodyState> initial,
+                                 bool general, std::vector<std::string> features) {
+  const Scene& scene = contacts.hard;
+  const auto loop = [&](auto substrate, const char* name) -> std::unique_ptr<StepKernel> {
+    features.emplace_back(name);
+    return std::make_unique<StepLoop<Normal, Tangential_, decltype(substrate)>>(
+        std::move(laws), scene.material, scene.substrate.size(), std::move(features));
+  };
+  if (general) return loop(FullSubstrate{}, "any substrate");
+  if (is_bare(contacts, initial))
+    return loop(BareSubstrate{}, "level, still substrate without friction or lift-off");
+  if (is_plain(scene))
+    return loop(PlainSubstrate{}, "level, still substrate with Coulomb friction");
+  return loop(FullSubstrate{}, "any substrate");
+}
+
+}  // namespace
+
+std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
+                                             std::span<const BodyState> initial, bool general) {
+  const Scene& hard = scene.hard;
+  const std::size_t materials = hard.substrate.size();
+  const SoftContact* some = nullptr;
+  bool mixed = false;
+  for (std::size_t m = 0; m < materials; ++m)
+    for (std::size_t n = 0; n <= m; ++n) {
+      if (!can_meet(hard, m, n)) continue;
+      const std::optional<SoftContact>& contact = scene.soft[m * materials + n];
+      if (!contact)
+        throw Unsupported(
+            "steps of fixed length need soft contacts between all bodies that can "
+            "meet; a hard one happens at an instant");
+      mixed |= some && (some->normal.index() != contact->normal.index() ||
+                        tangential_of(*some).index() != tangential_of(*contact).index());
+      some = &*contact;
+    }
+  const std::string not_grains = grain_refusal(scene, initial);
+  const bool periodic = !hard.periodic.isZero(0);
+  if (not_grains.empty() && !general && (periodic || hard.bodies.size() > kMostInAllPairs))
+    return std::make_unique<GrainLoop>(scene);
+  if (periodic)
+    throw Unsupported("a periodic plane has no steps of fixed length" +
+                      (general ? std::string(" in the general loop") : ": " + not_grains));
+  // One body alone: any law will do.
+  const SoftContact none{LinearForce{}, ContactEnd::zero_overlap, NoTangentialForce{}};
+  if (!some) some = &none;
+
+  const auto laws = [&](auto example, const auto& law_of) {
+    std::vector<decltype(example)> table(materials * materials, example);
+    for (std::size_t k = 0; k < table.size() && k < scene.soft.size(); ++k)
+      if (const std::optional<SoftContact>& contact = scene.soft[k];
+          contact && can_meet(hard, k / materials, k % materials)) {
+        table[k] = law_of(*contact);
+        table[k].clamped = contact->end == ContactEnd::zero_force;
+      }
+    return table;
+  };
+  if (mixed || general) {
+    using Law = StepLaw<AnyNormalForce, AnyPair>;
+    return make(laws(Law{},
+                     [](const SoftContact& contact) {
+                       return Law{{contact.normal}, {tangential_of(contact)}, false};
+                     }),
+                scene, initial, general, {"any normal force", "any tangential force"});
+  }
+  return std::visit(
+      [&](const auto& normal, const auto& tangential) {
+        using Normal = std::decay_t<decltype(normal)>;
+        using Surface = std::decay_t<decltype(tangential)>;
+        using Law = StepLaw<Normal, Surface>;
+        return make(laws(Law{normal, tangential, false},
+                         [](const SoftContact& contact) {
+                           return Law{std::get<Normal>(contact.normal),
+                                      std::get<Surface>(tangential_of(contact)), false};
+                         }),
+                    scene, initial, false, {name_of(some->normal), name_of(tangential_of(*some))});
+      },
+      some->normal, tangential_of(*some));
+}
+
+}  // namespace slipcheck

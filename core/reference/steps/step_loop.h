@@ -1,0 +1,295 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/stop_scope.h"
+#include "reference/steps/step_kernel.h"
+#include "reference/steps/step_pair.h"
+
+namespace slipcheck {
+
+/// The forces between two materials.
+template <class Normal, class Tangential>
+struct StepLaw {
+  Normal normal;
+  Tangential tangential;
+  bool clamped = false;  ///< ContactEnd::zero_force
+};
+
+/// The steps x_{n+1} = x_n + h v_{n+1/2}, v_{n+1/2} = v_{n−1/2} + (h/m) F(x_n, ṽ_n) (velocity
+/// Verlet with its two half kicks in one) with ṽ_n = v_{n−1/2} + ½ (v_{n−1/2} − v_{n−3/2}), which
+/// makes damped motion second order too.
+///
+/// A contact that begins or ends within a step gets the impulse of the part of the step that it
+/// had, by the trapezoidal rule; a force that starts or ends with a jump would else leave an error
+/// of first order.
+template <class Normal, class Tangential, class Substrate>
+class StepLoop final : public StepKernel {
+ public:
+  using Law = StepLaw<Normal, Tangential>;
+
+  /// laws: by material × material; material: of each body.
+  StepLoop(std::vector<Law> laws, std::vector<std::size_t> material, std::size_t materials,
+           std::vector<std::string> features)
+      : features_(std::move(features)),
+        laws_(std::move(laws)),
+        material_(std::move(material)),
+        materials_(materials),
+        pairs_(material_.size() * (material_.size() - 1) / 2) {}
+
+  void find_forces(StepWorld& world) override {
+    if (!world.forces_known) forces(world);
+    world.forces_known = true;
+  }
+
+  void advance(StepWorld& world, std::size_t steps, StepStop stop) override {
+    const std::size_t batch = 1 + kBodySteps / world.bodies.size();
+    for (std::size_t begin = 0; begin < steps; begin += batch) {
+      heed_stop();
+      const std::size_t end = std::min(steps, begin + batch);
+      for (std::size_t k = begin; k < end; ++k) {
+        find_forces(world);
+        if (stop != StepStop::never && is_met(world, stop)) return;
+        move(world);
+        ++world.n;
+        world.forces_known = false;
+      }
+    }
+  }
+
+  std::vector<std::string> features() const override { return features_; }
+
+  void show(const StepWorld& world, Frame& frame) override {
+    frame.bodies.resize(world.bodies.size());
+    frame.touches.clear();
+    StepSurroundings around = world.around;
+    around.velocity = velocity_of_substrate(world, world.time());
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      StepBody body = world.bodies[i];
+      if (world.n > 0) kick<Substrate>(body, around, 0.5 * world.step);
+      frame.bodies[i] = {body.position, body.velocity, body.angular_velocity};
+      const double impulse = world.n > 0 ? 2 * body.normal_impulse : 0;
+      if (impulse > 0) frame.touches.push_back({static_cast<int>(i), kSubstrate, impulse});
+    }
+    for_each_pair(world, [&](std::size_t i, std::size_t j, const Pair& pair) {
+      const double impulse = std::abs(pair.normal_force) * world.step;
+      if (pair.touching && impulse > 0)
+        frame.touches.push_back({static_cast<int>(i), static_cast<int>(j), impulse});
+    });
+  }
+
+  bool is_met(const StepWorld& world, StepStop stop) const override {
+    if (world.touching > 0) return false;
+    for (const StepBody& b : world.bodies) {
+      if (!b.sticks) return false;
+      if (stop == StepStop::rest &&
+          (b.velocity.head<2>() != world.around.velocity || b.angular_velocity.z() != 0))
+        return false;
+    }
+    return true;
+  }
+
+ private:
+  /// Steps, times the bodies, between two looks at whether to stop.
+  static constexpr std::size_t kBodySteps = 4096;
+
+  /// On the first of two bodies, and of that the part across the line of centres, which alone turns
+  /// them [N].
+  struct Force {
+    Vector3 all = Vector3::Zero(), across = Vector3::Zero();
+
+    Force operator+(const Force& other) const { return {all + other.all, across + other.across}; }
+    Force operator-(const Force& other) const { return {all - other.all, across - other.across}; }
+    friend Force operator*(double factor, const Force& force) {
+      return {factor * force.all, factor * force.across};
+    }
+  };
+  struct Pair {
+    bool touching = false;
+    double normal_force = 0;  ///< F_N [N]
+    Force force;
+    [[no_unique_address]] typename Tangential::History history;
+  };
+
+  template <class Visit>
+  void for_each_pair(const StepWorld& world, const Visit& visit) const {
+    std::size_t k = 0;
+    for (std::size_t j = 1; j < world.bodies.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i) visit(i, j, pairs_[k++]);
+  }
+
+  static Vector2 velocity_of_substrate(const StepWorld& world, double t) {
+    if constexpr (std::is_same_v<Substrate, FullSubstrate>)
+      return world.motion->velocity(t).template head<2>();
+    else
+      return Vector2::Zero();
+  }
+
+  void forces(StepWorld& world) {
+    world.touching = 0;
+    for (StepBody& b : world.bodies) {
+      b.force.setZero();
+      b.torque.setZero();
+    }
+    std::size_t k = 0;
+    for (std::size_t j = 1; j < world.bodies.size(); ++j) {
+      StepBody& b = world.bodies[j];
+      for (std::size_t i = 0; i < j; ++i, ++k) {
+        StepBody& a = world.bodies[i];
+        const double reach = a.radius + b.radius;
+        const Vector3 between = a.position - b.position;
+        const double distance2 = between.squaredNorm();
+        if (distance2 <= reach * reach)
+          meet(world, a, b, pairs_[k], laws_[material_[i] * materials_ + material_[j]], between,
+               reach, std::sqrt(distance2));
+        else if (pairs_[k].touching)
+          part(world, a, b, pairs_[k], laws_[material_[i] * materials_ + material_[j]], between,
+               reach, std::sqrt(distance2));
+      }
+    }
+  }
+
+  /// u_t [m/s] with the velocities relative to each other `dv` and the surfaces' `turning`
+  /// R_iΩ_i + R_jΩ_j.
+  static Vector3 slip(const Vector3& dv, double closing, const Vector3& turning, const Vector3& n) {
+    return dv + closing * n - turning.cross(n);
+  }
+
+  static void push(StepBody& a, StepBody& b, const Force& force, const Vector3& n) {
+    a.force += force.all;
+    b.force -= force.all;
+    if constexpr (Tangential::kRubs) {
+      const Vector3 lever = force.across.cross(n);
+      a.torque += a.radius * lever;
+      b.torque += b.radius * lever;
+    }
+  }
+
+  Force force_of(const Law& law, const Pair& pair, double normal, const Vector3& slip,
+                 const Vector3& n) const {
+    if constexpr (Tangential::kRubs) {
+      const Vector3 across = law.tangential.force(pair.history, normal, slip);
+      return {normal * n + across, across};
+    } else {
+      return {normal * n, Vector3::Zero()};
+    }
+  }
+
+  /// Two bodies that overlap.
+  [[gnu::always_inline]] void meet(StepWorld& world, StepBody& a, StepBody& b, Pair& pair,
+                                   const Law& law, const Vector3& between, double reach,
+                                   double distance) {
+    // Products first that need not wait for the root and the division.
+    const Vector3 dv = (a.velocity - b.velocity) + 0.5 * (a.velocity_change - b.velocity_change);
+    const double parting = between.dot(dv), inverse = 1 / distance;
+    const double overlap = reach - distance, closing = -parting * inverse;
+    const Vector3 n = between * inverse;
+    const double normal = law.normal(overlap, closing);
+    if ((law.clamped && normal <= 0) || (overlap <= 0 && closing <= 0)) [[unlikely]] {
+      if (pair.touching) {
+        const double left = normal < 0 ? pair.normal_force / (pair.normal_force - normal) : 1;
+        end(a, b, pair, left, {}, n);
+      }
+      return;
+    }
+    Vector3 slip_now = Vector3::Zero();
+    if constexpr (Tangential::kRubs) {
+      const Vector3 turning = a.radius * (a.angular_velocity + 0.5 * a.angular_velocity_change) +
+                              b.radius * (b.angular_velocity + 0.5 * b.angular_velocity_change);
+      slip_now = slip(dv, closing, turning, n);
+    }
+    ++world.touching;
+    if (!pair.touching) [[unlikely]] {
+      begin(world, a, b, pair, law, overlap, normal, slip_now, n);
+    } else {
+      if constexpr (Tangential::kRubs)
+        law.tangential.advance(pair.history, 0.5 * world.step, normal, slip_now, n);
+      pair.force = force_of(law, pair, normal, slip_now, n);
+      push(a, b, pair.force, n);
+    }
+    pair.normal_force = normal;
+  }
+
+  /// The contact has lasted for `part` of the step before now, and gets part h ½ (F_begin + F) for
+  /// it.
+  void begin(StepWorld& world, StepBody& a, StepBody& b, Pair& pair, const Law& law, double overlap,
+             double normal, const Vector3& slip_now, const Vector3& n) {
+    const double h = world.step;
+    const double closing = -n.dot(a.velocity - b.velocity);
+    const bool began_within = world.n > 0 && closing * h >= overlap && closing > 0;
+    const double part = began_within ? overlap / (closing * h) : 0;
+    const double first =
+        law.clamped ? std::max(0.0, law.normal(0, closing)) : law.normal(0, closing);
+    if constexpr (Tangential::kRubs)
+      law.tangential.begin(pair.history, 0.5 * h, part * h, slip_now, n);
+    const Force first_force = force_of(law, pair, first, slip_now, n);
+    if constexpr (Tangential::kRubs)
+      law.tangential.advance(pair.history, 0.5 * h, normal, slip_now, n);
+    pair.force = force_of(law, pair, normal, slip_now, n);
+    if (began_within)
+      push(a, b, 0.5 * ((1 + part) * pair.force + part * first_force), n);
+    else
+      push(a, b, pair.force, n);
+    pair.touching = true;
+    ++world.collisions;
+  }
+
+  /// Two bodies that touched a step ago and overlap no more.
+  void part(StepWorld& world, StepBody& a, StepBody& b, Pair& pair, const Law& law,
+            const Vector3& between, double reach, double distance) {
+    const Vector3 n = between / distance;
+    const Vector3 dv = a.velocity - b.velocity;
+    const double closing = -n.dot(dv);
+    const double gone = closing < 0 ? (reach - distance) / (closing * world.step) : 0;
+    const double last = law.clamped ? 0 : law.normal(0, closing);
+    Vector3 slip_now = Vector3::Zero();
+    if constexpr (Tangential::kRubs)
+      slip_now =
+          slip(dv, closing, a.radius * a.angular_velocity + b.radius * b.angular_velocity, n);
+    end(a, b, pair, std::max(0.0, 1 - gone), force_of(law, pair, last, slip_now, n), n);
+  }
+
+  /// The contact lasted for `part` of the step before now and should have had part h ½ (F + F_end)
+  /// there; it had h/2 F. What is taken back from a body that the other pressed down was borne by
+  /// the substrate and must not lift it.
+  void end(StepBody& a, StepBody& b, Pair& pair, double part, const Force& last_force,
+           const Vector3& n) {
+    const double before_a = a.force.z(), before_b = b.force.z();
+    push(a, b, 0.5 * (part * (pair.force + last_force) - pair.force), n);
+    const auto keep_down = [](StepBody& body, double before) {
+      if (body.supported) body.force.z() = before + std::min(body.force.z() - before, body.weight);
+    };
+    keep_down(a, before_a);
+    keep_down(b, before_b);
+    pair.touching = false;
+  }
+
+  void move(StepWorld& world) {
+    StepSurroundings& s = world.around;
+    const double h = world.step, dt = world.kick_length();
+    if constexpr (std::is_same_v<Substrate, FullSubstrate>) {
+      s.velocity_before = s.velocity;
+      s.velocity = velocity_of_substrate(world, world.time() + 0.5 * h);
+    }
+    for (StepBody& b : world.bodies) {
+      kick<Substrate>(b, s, dt);
+      b.position += h * b.velocity;
+      if constexpr (std::is_same_v<Substrate, BareSubstrate>) continue;
+      if (!b.supported && b.position.z() < b.radius && b.velocity.z() < 0) [[unlikely]]
+        land_after_drift(b, s, world.slowest_rebound);
+    }
+  }
+
+  std::vector<std::string> features_;
+  std::vector<Law> laws_;
+  std::vector<std::size_t> material_;
+  std::size_t materials_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace slipcheck

@@ -1,0 +1,189 @@
+#include "reference/steps/step_solver.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "physics/numbers.h"
+#include "reference/events/path_collision.h"
+#include "reference/steps/step_kernel.h"
+
+namespace slipcheck {
+namespace {
+
+StepBody make_body(const Scene& scene, std::size_t i, const BodyState& state,
+                   double slowest_rebound) {
+  const Sphere& sphere = scene.bodies[i];
+  StepBody b;
+  b.sphere = &sphere;
+  b.contact = &scene.on_substrate(i);
+  b.radius = sphere.radius;
+  b.inverse_mass = 1 / sphere.mass;
+  b.inverse_inertia = 1 / sphere.moment_of_inertia();
+  b.weight = sphere.mass * scene.gravity;
+  b.inverse_radius = 1 / sphere.radius;
+  b.share = 1 / (1 + sphere.inverse_shape_factor());
+  b.turn = sphere.inverse_shape_factor() / sphere.radius;
+
+  const Vector3 substrate = scene.motion.velocity(0);
+  BodyState relative = state;
+  relative.velocity -= substrate;
+  const bool on_plane = state.position.z() <= sphere.radius * (1 + 4 * kEpsilon);
+  if (on_plane && relative.velocity.z() < 0 && !scene.confined)
+    land(sphere, scene.on_substrate(i), slowest_rebound, relative);
+  b.supported = scene.confined || (on_plane && !(relative.velocity.z() > 0));
+  if (b.supported) {
+    relative.position.z() = sphere.radius;
+    relative.velocity.z() = 0;
+    const double slip = slip_velocity(relative, sphere.radius).head<2>().norm();
+    const double round_off =
+        16 * kEpsilon *
+        (state.velocity.norm() + substrate.norm() + sphere.radius * state.angular_velocity.norm());
+    b.sticks = slip <= round_off;
+  }
+  b.position = relative.position;
+  b.velocity = relative.velocity + substrate;
+  b.angular_velocity = relative.angular_velocity;
+  return b;
+}
+
+}  // namespace
+
+class StepSolver::Impl {
+ public:
+  Impl(const ContactScene& scene, std::span<const BodyState> initial, const StepSettings& settings)
+      : scene_(&scene), kernel_(make_step_kernel(scene, initial, settings.general)) {
+    assert(settings.step > 0 && initial.size() == scene.hard.bodies.size());
+    const Scene& hard = scene.hard;
+    world_.step = settings.step;
+    world_.motion = &hard.motion;
+    world_.around.gravity = hard.gravity;
+    world_.around.downhill = hard.downhill;
+    world_.around.confined = hard.confined;
+    world_.around.velocity = hard.motion.velocity(0).head<2>();
+    world_.slowest_rebound = std::max(settings.landing_fraction * speed_scale(hard, initial),
+                                      hard.gravity * settings.step);
+    for (std::size_t i = 0; i < initial.size(); ++i)
+      world_.bodies.push_back(make_body(hard, i, initial[i], world_.slowest_rebound));
+  }
+
+  StepRun run(const RunEnd& end, FrameSink* sink) {
+    const bool to_a_time = end.until == Run::Until::time;
+    const auto last = static_cast<std::size_t>(
+        std::ceil((to_a_time ? end.time : end.limit) / world_.step * (1 - 4 * kEpsilon)));
+    const StepStop wanted = to_a_time                          ? StepStop::never
+                            : end.until == Run::Until::rolling ? StepStop::rolling
+                                                               : StepStop::rest;
+    bool reached = false;
+    std::size_t quiet_from = world_.n;  // before that, bodies are known to collide yet
+    while (true) {
+      kernel_->find_forces(world_);
+      if (sink) {
+        kernel_->show(world_, frame_);
+        sink->take(world_.time(), frame_);
+      }
+      if (wanted != StepStop::never && world_.n >= quiet_from && kernel_->is_met(world_, wanted)) {
+        const double meeting = next_collision(end.limit - world_.time());
+        reached = meeting == kNever;
+        if (reached) break;
+        quiet_from = world_.n + 1 + static_cast<std::size_t>(meeting / world_.step);
+      }
+      if (world_.n >= last) break;
+      const bool is_watched = world_.n >= quiet_from;
+      std::size_t steps = sink ? 1 : last - world_.n;
+      if (!is_watched) steps = std::min(steps, quiet_from - world_.n);
+      kernel_->advance(world_, steps, is_watched ? wanted : StepStop::never);
+    }
+    StepRun run;
+    run.end_time = world_.time();
+    run.reached = to_a_time || reached;
+    if (!run.reached)
+      run.reason = end.until == Run::Until::rolling
+                       ? "a body still slides or flies, or collides again, at the limit"
+                       : "a body still moves at the limit";
+    run.steps = world_.n;
+    run.collisions = world_.collisions;
+    return run;
+  }
+
+  std::vector<BodyState> states() {
+    kernel_->find_forces(world_);
+    kernel_->show(world_, frame_);
+    return frame_.bodies;
+  }
+
+  double now() const { return world_.time(); }
+  std::vector<std::string> features() const { return kernel_->features(); }
+
+  double energy() {
+    const Scene& hard = scene_->hard;
+    const std::vector<BodyState> all = states();
+    double energy = 0;
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      const BodyState& s = all[j];
+      const Sphere& sphere = hard.bodies[j];
+      energy +=
+          0.5 * sphere.mass * s.velocity.squaredNorm() +
+          0.5 * sphere.moment_of_inertia() * s.angular_velocity.squaredNorm() +
+          sphere.mass * (hard.gravity * s.position.z() - hard.downhill.dot(s.position.head<2>()));
+      for (std::size_t i = 0; i < j; ++i) {
+        const double overlap =
+            hard.bodies[i].radius + sphere.radius - (all[i].position - s.position).norm();
+        const std::optional<SoftContact>& contact = scene_->between(i, j);
+        if (overlap > 0 && contact)
+          energy +=
+              std::visit([&](const auto& law) { return law.energy(overlap); }, contact->normal);
+      }
+    }
+    return energy;
+  }
+
+ private:
+  /// In what time bodies that all roll collide again, or infinity: exact on a level substrate at
+  /// rest. Elsewhere straight on, half the time to that collision: all that roll are accelerated
+  /// alike, if their shape factors are.
+  double next_collision(double limit) {
+    const Scene& hard = scene_->hard;
+    const std::vector<BodyState> all = states();
+    if (hard.motion.is_still() && hard.downhill.isZero(0)) {
+      EventSolver ahead(hard, all);
+      return ahead.next_collision(limit);
+    }
+    double first = kNever;
+    for (std::size_t j = 1; j < all.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i) {
+        const Vector3 dx = all[i].position - all[j].position;
+        const Vector3 dv = all[i].velocity - all[j].velocity;
+        const double reach = hard.bodies[i].radius + hard.bodies[j].radius;
+        const double t = time_to_touch(dx, dv, Vector3::Zero(), reach, limit);
+        if (t <= limit) first = std::min(first, 0.5 * t);
+      }
+    return first;
+  }
+
+  const ContactScene* scene_;
+  std::unique_ptr<StepKernel> kernel_;
+  StepWorld world_;
+  Frame frame_;
+};
+
+StepSolver::StepSolver(const ContactScene& scene, std::span<const BodyState> initial,
+                       const StepSettings& settings)
+    : impl_(std::make_unique<Impl>(scene, initial, settings)) {}
+StepSolver::~StepSolver() = default;
+StepSolver::StepSolver(StepSolver&&) noexcept = default;
+
+StepRun StepSolver::run(const RunEnd& end, FrameSink* sink) { return impl_->run(end, sink); }
+std::vector<BodyState> StepSolver::states() { return impl_->states(); }
+double StepSolver::now() const { return impl_->now(); }
+double StepSolver::energy() { return impl_->energy(); }
+std::vector<std::string> StepSolver::features() const { return impl_->features(); }
+
+double step_limit(double omega0, double gamma) {
+  // √(1 + ε²) − ε without the difference of like numbers.
+  const double damping_ratio = gamma / omega0;
+  return 2 / (omega0 * (std::hypot(1, damping_ratio) + damping_ratio));
+}
+
+}  // namespace slipcheck

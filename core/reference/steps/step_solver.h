@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "physics/frame.h"
+#include "reference/run_end.h"
+#include "scene/contact_scene.h"
+
+namespace slipcheck {
+
+struct StepSettings {
+  double step = 0;  ///< h [s], > 0
+  /// A landing that would rebound slower than this fraction of the scene's speed does not; nor does
+  /// one slower than what gravity adds in a step.
+  double landing_fraction = 1e-10;
+  /// Takes the loop that leaves out nothing. Between all pairs the results are the same to the last
+  /// bit; GrainLoop adds in another order.
+  bool general = false;
+};
+
+/// The steps are too long for what the bodies do.
+class StepTooLong : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct StepRun {
+  double end_time = 0;         ///< [s], a whole number of steps
+  bool reached = false;        ///< what RunEnd::until asks for
+  std::string reason;          ///< why not
+  std::size_t steps = 0;       ///< since time 0
+  std::size_t collisions = 0;  ///< contacts of two bodies that began since then
+};
+
+/// The forces of ContactSolver by steps of fixed length h: velocity Verlet, symplectic without
+/// dissipation and of second order for smooth motion, collisions from begin to end included (order
+/// 3/2 for B (24), whose force begins like √t). An asperity that breaks, and Coulomb's cap where
+/// it jumps, leave errors of first order.
+///
+/// The substrate's friction acts by impulses that may stop the slip within a step but never reverse
+/// it, so that a body sticks exactly; when it begins or ends to stick is known to a step.
+///
+/// The normal and tangential law and whether the substrate is one without friction, a level plane
+/// at rest with Coulomb friction or more are chosen once, into a loop that has no trace of what the
+/// scene lacks; many bodies in a plane go to GrainLoop.
+class StepSolver {
+ public:
+  /// The scene must outlive the solver. Throws Unsupported where bodies could meet whose contact is
+  /// hard, or on a periodic plane with what GrainLoop has not.
+  StepSolver(const ContactScene& scene, std::span<const BodyState> initial,
+             const StepSettings& settings);
+  ~StepSolver();
+  StepSolver(StepSolver&&) noexcept;
+
+  /// Throws StepTooLong where many bodies move so far in a step that neighbours cannot be told.
+  ///
+  /// Runs from time 0, or from now when called again, to the first step at or after the end. Shows
+  /// `sink`, where given, a frame a step.
+  StepRun run(const RunEnd& end, FrameSink* sink);
+
+  /// All bodies' states now.
+  std::vector<BodyState> states();
+  double now() const;
+  /// Kinetic energy and that of gravity and of elastic contacts, now [J].
+  double energy();
+  /// What the loop was made for: "linear normal force", ...
+  std::vector<std::string> features() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The largest step [s] with which StepSolver integrates the linear contact ξ̈ + γ ξ̇ + ω0² ξ = 0
+/// without growth, 2 (√(1 + ε²) − ε)/ω0 with ε = γ/ω0; omega0 [1/s], > 0, gamma [1/s], >= 0.
+///
+/// With Ω = ω0 h and G = γ h the scheme's modes ξ_n ∝ z^n obey
+///   2z (z − 1)² + 2 Ω² z² + G (z − 1)(3z − 1) = 0:
+/// the force is a = −ω0² ξ − γ (w + h a'/2), where w = h a/(z − 1) is the velocity half a step
+/// before, ξ = h z w/(z − 1), and a' = a/z the acceleration a step before. Jury's conditions hold
+/// until z = −1, where Ω² + 4G = 4.
+double step_limit(double omega0, double gamma);
+
+}  // namespace slipcheck

@@ -1,0 +1,112 @@
+#include "report/files/files.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <system_error>
+
+namespace slipcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, int error) {
+  throw WriteFailure(
+      fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(error)));
+}
+
+/// An open file that is closed, and removed where it has a name, unless it was kept.
+class OpenFile {
+ public:
+  /// Throws WriteFailure about `target`, the file that the user knows.
+  OpenFile(const fs::path& path, int flags, const fs::path& target, fs::path remove_later = {})
+      : target_(target),
+        remove_later_(std::move(remove_later)),
+        descriptor_(::open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666)) {
+    if (descriptor_ < 0) fail(target_, errno);
+  }
+  ~OpenFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!remove_later_.empty()) ::unlink(remove_later_.c_str());
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  void write(std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t written = ::write(descriptor_, text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(target_, errno);
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+
+  /// Gives the new file the permissions of the one that it replaces.
+  void set_mode(mode_t mode) {
+    if (::fchmod(descriptor_, mode & 07777) != 0) fail(target_, errno);
+  }
+
+  /// Errors of a full disk or a lost server may show only now.
+  void close(bool synchronise) {
+    if (synchronise && ::fsync(descriptor_) != 0) fail(target_, errno);
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0) fail(target_, errno);
+  }
+
+  void keep() { remove_later_.clear(); }
+
+ private:
+  fs::path target_;
+  fs::path remove_later_;
+  int descriptor_;
+};
+
+/// A name in the same directory that no other process or thread uses. It is short, since the
+/// target's own name may already be as long as a name can be.
+fs::path temporary_name(const fs::path& directory) {
+  static std::atomic<unsigned> count = 0;
+  return directory / fmt::format(".slipcheck-{}-{}.tmp", ::getpid(), count++);
+}
+
+/// After a power cut the directory must know the new name; not every file system can promise that.
+void synchronise_directory(const fs::path& directory) {
+  const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+void write_file_atomically(const fs::path& path, std::string_view text) {
+  struct stat old {};
+  const bool exists = ::stat(path.c_str(), &old) == 0;
+  if (exists && !S_ISREG(old.st_mode)) {
+    OpenFile file(path, 0, path);
+    file.write(text);
+    file.close(false);
+    return;
+  }
+
+  // A symbolic link stays one: what it points at is replaced.
+  std::error_code error;
+  const fs::path target = exists ? fs::canonical(path, error) : path;
+  if (error) fail(path, error.value());
+  const fs::path directory = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const fs::path temporary = temporary_name(directory);
+
+  OpenFile file(temporary, O_CREAT | O_EXCL, path, temporary);
+  file.write(text);
+  if (exists) file.set_mode(old.st_mode);
+  file.close(true);
+  if (::rename(temporary.c_str(), target.c_str()) != 0) fail(path, errno);
+  file.keep();
+  synchronise_directory(directory);
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,185 @@
+#include "report/files/markdown.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include "report/rows/expectation_rows.h"
+#include "report/rows/findings.h"
+#include "report/rows/selection.h"
+#include "report/rows/verdict_look.h"
+#include "report/terminal/text.h"
+
+namespace slipcheck {
+namespace {
+
+constexpr std::size_t kWorst = 5;
+constexpr std::size_t kMostRows = 8;  // of one run
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80) != 0; }
+
+/// What begins a list, a heading or a rule where it is the first of a line.
+bool begins_block(std::string_view text, std::size_t at) {
+  const char next = at + 1 < text.size() ? text[at + 1] : ' ';
+  if (at == 0)
+    return text[at] == '=' ||
+           ((text[at] == '-' || text[at] == '+') && (next == ' ' || next == text[at]));
+  return (text[at] == '.' || text[at] == ')') && next == ' ' &&
+         text.find_first_not_of("0123456789") == at;
+}
+
+std::string plural(std::size_t count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string head_of(const std::vector<SceneRecord>& scenes) {
+  const AllVerdicts all = count_verdicts(scenes);
+  const std::size_t bad = all.scenes.of(Verdict::undecided) + all.scenes.of(Verdict::deviates) +
+                          all.scenes.of(Verdict::failed);
+  const std::size_t good = all.scenes.of(Verdict::within);
+  const std::string verdict =
+      bad > 0    ? fmt::format("{} of {} not within tolerance", bad, plural(scenes.size(), "scene"))
+      : good > 0 ? "all within tolerance"
+                 : "nothing was judged";
+  std::string text = fmt::format("## {} Slipcheck: {}\n\n{}: {}",
+                                 bad > 0    ? "✗"
+                                 : good > 0 ? "✓"
+                                            : "–",
+                                 verdict, plural(scenes.size(), "scene"), all.scenes.list());
+  if (all.scenes_alone > 0) text += fmt::format(", {} of the reference alone", all.scenes_alone);
+  return text + fmt::format("  \n{}: {}\n", plural(all.run_count, "engine run"), all.runs.list());
+}
+
+std::string worst_part(const std::vector<SceneRecord>& scenes) {
+  const std::vector<Finding> findings = worst_findings(scenes, kWorst);
+  if (findings.empty()) return {};
+  std::vector<std::vector<std::string>> rows;
+  for (const Finding& finding : findings)
+    rows.push_back({finding.scene->scenario.name, run_label(*finding.run), finding.row.name,
+                    finding.row.reference, finding.row.median, finding.row.spread,
+                    finding.row.worst, finding.row.tolerance});
+  return "\n### Worst deviations\n\n" +
+         markdown_table({"scene", "run", "observable", "reference", "median", "min … max",
+                         "max error", "tolerance"},
+                        rows, {3, 4, 5, 6, 7});
+}
+
+/// A run that is not within, as rows of its scene's table; the worst of its observables.
+void add_rows(const SceneRecord& scene, const EngineRecord& run,
+              std::vector<std::vector<std::string>>& rows) {
+  const std::string label = run_label(run);
+  const auto mark = [](Verdict verdict) { return std::string(symbol_of(verdict)) + " "; };
+  const bool ok = run.status == RunStatus::ok;
+  if (!ok || (run.expect && run.expect->status)) {
+    rows.push_back({mark(run.verdict()) + label, finding_text(scene, run), "", "", "", "", ""});
+    return;
+  }
+  for (const ExpectationRow& row : expectation_rows(run))
+    if (!row.met)
+      rows.push_back({"✗ " + label, row.name + " " + row.statistic, "expected " + row.limits,
+                      row.value, "", "", ""});
+  std::vector<ComparisonRow> bad = comparison_rows(scene, run, shown_observables(scene, false));
+  std::erase_if(bad, [](const ComparisonRow& row) {
+    return row.verdict != Verdict::deviates && row.verdict != Verdict::undecided;
+  });
+  const std::size_t count = bad.size();
+  bad = most_severe(std::move(bad), kMostRows);
+  for (const ComparisonRow& row : bad)
+    rows.push_back({mark(row.verdict) + label,
+                    row.note.empty() ? row.name : row.name + " (" + row.note + ")", row.reference,
+                    row.median, row.spread, row.worst, row.tolerance});
+  if (bad.size() < count)
+    rows.push_back({"✗ " + label, fmt::format("{} more", count - bad.size()), "", "", "", "", ""});
+}
+
+std::string scene_part(const SceneRecord& scene) {
+  std::vector<std::vector<std::string>> rows;
+  VerdictCounts counts;
+  for (const EngineRecord& run : scene.runs) {
+    counts.add(run.verdict());
+    if (run.verdict() > Verdict::within) add_rows(scene, run, rows);
+  }
+  std::string text = fmt::format("\n### {} {}\n\n", symbol_of(scene.verdict()),
+                                 markdown_escaped(scene.scenario.name));
+  if (!scene.scenario.title.empty())
+    text += fmt::format("{}. ", markdown_escaped(scene.scenario.title));
+  if (!scene.reference.run.reached)
+    text += fmt::format("The reference did not end: {}. ",
+                        markdown_escaped(scene.reference.run.reason));
+  if (rows.empty()) return text + "\n";
+  return text + fmt::format("{}: {}.\n\n", plural(scene.runs.size(), "run"), counts.list()) +
+         markdown_table(
+             {"run", "observable", "reference", "median", "min … max", "max error", "tolerance"},
+             rows, {2, 3, 4, 5, 6});
+}
+
+/// The names of those scenes of which there is nothing more to say.
+std::string good_part(const std::vector<SceneRecord>& scenes) {
+  std::string names;
+  std::size_t count = 0;
+  for (const SceneRecord& scene : scenes) {
+    if (scene.verdict() != Verdict::within) continue;
+    names += (count++ > 0 ? ", " : "") + markdown_escaped(scene.scenario.name);
+  }
+  return count == 0 ? "" : fmt::format("\n**✓ {} within tolerance**: {}\n", count, names);
+}
+
+}  // namespace
+
+std::string markdown_escaped(const std::string& text) {
+  const std::string line = printable(text);
+  const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
+  const std::string_view rest = std::string_view(line).substr(first);
+  std::string result;
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    const char c = rest[k];
+    // Inside a word an underscore is one: i.sliding_time stays readable as plain text, too.
+    const bool inside =
+        k > 0 && k + 1 < rest.size() && is_word(rest[k - 1]) && is_word(rest[k + 1]);
+    if (std::string_view("\\`*[]<>#|~&$").find(c) != std::string_view::npos ||
+        (c == '_' && !inside) || begins_block(rest, k))
+      result += '\\';
+    result += c;
+    // Calls nobody.
+    if (c == '@') result += "<!-- -->";
+  }
+  return result;
+}
+
+std::string markdown_table(const std::vector<std::string>& headers,
+                           const std::vector<std::vector<std::string>>& rows,
+                           const std::vector<std::size_t>& right) {
+  const auto line = [](const std::vector<std::string>& cells) {
+    std::string text = "|";
+    for (const std::string& cell : cells) text += " " + markdown_escaped(cell) + " |";
+    return text + "\n";
+  };
+  std::string text = line(headers) + "|";
+  for (std::size_t k = 0; k < headers.size(); ++k)
+    text += std::find(right.begin(), right.end(), k) == right.end() ? " --- |" : " ---: |";
+  text += "\n";
+  for (const std::vector<std::string>& row : rows) text += line(row);
+  return text;
+}
+
+std::string markdown_of(const std::vector<SceneRecord>& scenes, std::size_t most) {
+  constexpr std::size_t kRoom = 120;  // for what is said about what is left out
+  std::string text = head_of(scenes) + worst_part(scenes);
+  std::vector<std::string> parts;
+  for (const SceneRecord& scene : scenes)
+    if (scene.verdict() > Verdict::within) parts.push_back(scene_part(scene));
+  // Bytes are counted, of which there are never fewer than characters.
+  std::size_t shown = 0;
+  while (shown < parts.size() && text.size() + parts[shown].size() + kRoom <= most)
+    text += parts[shown++];
+  if (shown < parts.size())
+    text += fmt::format(
+        "\n… and {} that deviate, are undecided or failed; there is no room for them here.\n",
+        plural(parts.size() - shown, "more scene"));
+  const std::string good = good_part(scenes);
+  return text.size() + good.size() <= most ? text + good : text;
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/compare/record.h"
+
+namespace slipcheck {
+
+/// Text as Markdown shows it literally, inside a table too.
+std::string markdown_escaped(const std::string& text);
+
+/// A table of GitHub-flavoured Markdown; cells are escaped. Columns in `right` are set to the
+/// right.
+std::string markdown_table(const std::vector<std::string>& headers,
+                           const std::vector<std::vector<std::string>>& rows,
+                           const std::vector<std::size_t>& right = {});
+
+/// What a pull request's comment or a job's summary says of a run: verdicts, the worst deviations,
+/// then what failed or deviates, scene by scene, within `most` characters (GitHub's limit of a
+/// comment); what does not fit is counted.
+std::string markdown_of(const std::vector<SceneRecord>& scenes, std::size_t most = 60000);
+
+}  // namespace slipcheck

@@ -1,0 +1,106 @@
+#include "report/html/html_scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <exception>
+
+#include "harness/compare/scene_features.h"
+#include "report/charts/phase_charts.h"
+#include "report/charts/scene_drawing.h"
+#include "report/html/html_run.h"
+#include "report/html/html_summary.h"
+#include "report/html/html_text.h"
+#include "report/rows/comparison_rows.h"
+#include "report/rows/selection.h"
+#include "report/rows/verdict_look.h"
+
+namespace slipcheck {
+namespace {
+
+// Keeps the page of a scene of many bodies readable; the result file has everything.
+constexpr std::size_t kMostRows = 20;
+
+std::string reference_part(const SceneRecord& scene, const std::vector<std::string>& names) {
+  const ReferenceResult& reference = scene.reference;
+  const auto absent = absent_observables(scene);
+  std::vector<std::vector<HtmlCell>> rows;
+  for (const std::string& name : names) {
+    if (rows.size() == kMostRows) break;
+    const QuantityFormat format = format_for(scene, name, nullptr);
+    const auto reason = absent.find(name);
+    rows.push_back(
+        {{name, ""},
+         {reference_text(scene, name, format), ""},
+         {reason != absent.end() ? reason->second : closed_form_text(reference, name, format),
+          "faint"}});
+  }
+  std::string html = "<div class=\"reference\"><h3>The reference</h3>\n" +
+                     html_paragraph("faint", "", reference_summary(reference));
+  html += html_table("Reference values",
+                     {{"observable", ""},
+                      {"value", "n"},
+                      {reference.closed_form.empty() && absent.empty() ? "" : "closed form", ""}},
+                     rows);
+  if (names.size() > rows.size())
+    html += html_paragraph("faint", "",
+                           fmt::format("… {} observables more", names.size() - rows.size()));
+  return html + html_list("warnings", "Warnings", reference.warnings) + "</div>\n";
+}
+
+/// The features of the reference that the scene does without, as `slipcheck explain` tells them.
+std::string left_out_part(const SceneRecord& scene) {
+  std::vector<Feature> features;
+  try {
+    ContactScene solved = make_contact_scene(scene.scenario);
+    if (scene.reference.solver != "contact") solved = with_hard_contacts(std::move(solved.hard));
+    features = scene_features(solved);
+  } catch (const std::exception&) {
+    return {};  // no solver knows the scene
+  }
+  std::vector<std::string> left_out;
+  for (const Feature& feature : features)
+    if (!feature.needed) left_out.push_back(fmt::format("{}: {}", feature.name, feature.detail));
+  if (left_out.empty()) return {};
+  return html_details(fmt::format("Left out: {} of {} features", left_out.size(), features.size()),
+                      html_paragraph("faint", "", fmt::format("{}.", fmt::join(left_out, "; "))));
+}
+
+/// What the charts show in words, for readers without a script; with one they are beneath the
+/// charts.
+std::string words_part(const SceneRecord& scene) {
+  std::string items;
+  for (const PhaseChart& chart : phase_charts(scene))
+    items += "<li>" + escaped(chart.caption) + "</li>\n";
+  return items.empty() ? "" : "<noscript><ul>\n" + items + "</ul></noscript>\n";
+}
+
+}  // namespace
+
+std::string verdict_label(const SceneRecord& scene) {
+  const Verdict verdict = scene.verdict();
+  return fmt::format("<span class=\"verdict {}\">{} {}</span>", class_of(verdict),
+                     symbol_of(verdict), verdict_name(scene));
+}
+
+std::string html_scene(const SceneRecord& scene, std::size_t k, const SharedSettings& shared) {
+  const Scenario& scenario = scene.scenario;
+  const std::vector<std::string> names = shown_observables(scene, false);
+  std::string html = fmt::format(
+      "<section class=\"scene {0}\" id=\"{1}\" data-scene=\"{2}\" data-name=\"{3}\" "
+      "data-verdict=\"{0}\">\n<h2>{3} {4}</h2>\n",
+      class_of(scene.verdict()), scene_id(k), k, escaped(scenario.name), verdict_label(scene));
+  html += html_paragraph("title", "", scenario.title);
+  html += html_paragraph("faint", "", scenario.source);
+  html += "<div class=\"setting\">\n" + scene_drawing(scenario) + reference_part(scene, names) +
+          "</div>\n";
+  html += left_out_part(scene);
+  html += fmt::format("<div class=\"plots\" data-scene=\"{}\"></div>\n", k) + words_part(scene);
+  if (!scene.runs.empty()) html += "<h3>Engine by engine</h3>\n";
+  html += html_settings("Settings of all runs [SI]:", shared.of_scene(scene));
+  for (std::size_t run = 0; run < scene.runs.size(); ++run)
+    html += html_run(scene, run, names, shared);
+  return html + "</section>\n";
+}
+
+}  // namespace slipcheck

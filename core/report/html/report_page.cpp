@@ -1,0 +1,118 @@
+#include "report/html/report_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include "report/html/html_engines.h"
+#include "report/html/html_page.h"
+#include "report/html/html_precision.h"
+#include "report/html/html_scene.h"
+#include "report/html/html_stability.h"
+#include "report/html/html_summary.h"
+#include "report/html/html_text.h"
+#include "report/html/packed_text.h"
+#include "report/html/page_data.h"
+#include "report/html/page_script.h"
+
+namespace slipcheck {
+namespace {
+
+/// "bullet 3.24", of all results.
+std::vector<std::string> engines_of(const ReportContent& content) {
+  std::set<std::string> engines;
+  const auto add = [&](const std::string& engine, const std::string& version) {
+    if (!version.empty()) engines.insert(fmt::format("{} {}", engine, version));
+  };
+  for (const SceneRecord& scene : content.scenes)
+    for (const EngineRecord& run : scene.runs) add(run.engine, run.version);
+  for (const PrecisionScene& scene : content.precision)
+    for (const MethodCurve& curve : scene.curves) add(curve.engine, curve.version);
+  for (const StabilityCase& scene : content.cases)
+    for (const StabilityRun& run : scene.runs) add(run.record.engine, run.record.version);
+  return {engines.begin(), engines.end()};
+}
+
+/// Links to the parts of a page that has several.
+std::string parts_nav(bool scenes, bool precision, bool stability) {
+  if (int{scenes} + int{precision} + int{stability} < 2) return {};
+  std::string html = "<nav class=\"parts\" aria-label=\"Parts\">";
+  if (scenes) html += "<a href=\"#scenes\">Scenes</a> ";
+  if (precision) html += "<a href=\"#precision\">Error against run time</a> ";
+  if (stability) html += "<a href=\"#stability\">Where it gets stiff</a> ";
+  return html + "</nav>\n";
+}
+
+/// The toolbar is the script's.
+constexpr const char* kToolbar = "<div id=\"toolbar\"></div>\n";
+
+std::string scenes_part(const std::vector<SceneRecord>& scenes) {
+  if (scenes.empty()) return kToolbar;
+  const SharedSettings shared(scenes);
+  std::string html = html_lacks(scenes) + shared.html() + kToolbar;
+  html += "<h2 id=\"scenes\">Scenes</h2>\n" + html_contents(scenes);
+  for (std::size_t k = 0; k < scenes.size(); ++k) html += html_scene(scenes[k], k, shared);
+  return html;
+}
+
+std::string escaped_lines(std::string_view text) {
+  std::string html;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1);
+    html += escaped(text.substr(0, text[end] == '\n' ? end : end + 1)) + "\n";
+    text.remove_prefix(end + 1);
+  }
+  return html;
+}
+
+/// Unpacks the page's script, which is three times as long, and runs it.
+constexpr std::string_view kLoader = R"((async () => {
+  const packed = atob(document.getElementById("slipcheck-script").textContent);
+  const bytes = Uint8Array.from(packed, (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const script = document.createElement("script");
+  script.textContent = await new Response(stream).text();
+  document.body.append(script);
+})();
+)";
+
+std::string packed_part(std::string_view id, std::string_view base64) {
+  return fmt::format("<script type=\"application/octet-stream\" id=\"{}\">{}</script>\n", id,
+                     base64);
+}
+
+/// What the script draws, the script, and the terms of what is in it.
+std::string script_part(const ReportContent& content) {
+  std::string html = "<footer>\n";
+  html += html_details("Licences of the libraries in this page",
+                       fmt::format("<pre tabindex=\"0\">{}</pre>\n", escaped_lines(kPageLicences)));
+  html += "</footer>\n" + packed_part("slipcheck-data", packed_page_data(content)) +
+          packed_part("slipcheck-script", base64_of(deflated(kPageScript))) + "<script>";
+  html += kLoader;
+  return html + "</script>\n";
+}
+
+}  // namespace
+
+std::string report_page(const ReportContent& content, PageScript script) {
+  const bool has_script = script == PageScript::included && !kPageScript.empty();
+  const std::string precision = html_precision(content.precision);
+  const std::string stability = html_stability(content);
+  std::string html =
+      html_head("Slipcheck report", stability.empty() ? "" : outcome_css(),
+                has_script ? std::vector{kLoader, kPageScript} : std::vector<std::string_view>());
+  html += "<header>\n<h1>Slipcheck</h1>\n";
+  html += html_paragraph(
+      "title", "",
+      "Physics engines beside an exact reference of spheres that collide, slide and roll");
+  html += html_summary(content.scenes) +
+          html_context(content.context, content.commands, engines_of(content)) +
+          parts_nav(!content.scenes.empty(), !precision.empty(), !stability.empty());
+  html += "</header>\n<main>\n" + scenes_part(content.scenes) + precision + stability + "</main>\n";
+  if (has_script) html += script_part(content);
+  return html + kHtmlEnd;
+}
+
+}  // namespace slipcheck

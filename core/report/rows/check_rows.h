@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "studies/baseline/check.h"
+
+namespace slipcheck {
+
+/// Scenes held against their baselines.
+struct CheckReport {
+  std::string baselines;   ///< folder, as the user named it
+  std::size_t phases = 0;  ///< of each ensemble
+  std::vector<SceneCheck> scenes;
+  std::string advice = {};  ///< how to make baselines where there are none; else empty
+};
+
+/// All scenes in numbers.
+struct CheckTotals {
+  std::size_t moved_scenes = 0;
+  std::size_t runs = 0;                                  ///< of engines
+  std::size_t better = 0, worse = 0, neither = 0;        ///< changes that gate
+  std::size_t verdicts = 0;                              ///< that have changed and do not gate
+  std::size_t compared = 0, drifted = 0, uncertain = 0;  ///< as in SceneCheck
+  std::vector<std::string> versions;  ///< of engines that are not those of the baselines
+  /// Geometric means over the scenes of CPU time now over that of the baseline; NaN without any.
+  double reference_time_ratio = 0, engine_time_ratio = 0;
+
+  std::size_t gating() const { return better + worse + neither; }
+};
+
+CheckTotals totals_of(const CheckReport& report);
+
+/// A change as text for people.
+struct ChangeRow {
+  std::string part;         ///< "bullet double default 240 Hz"
+  std::string observable;   ///< "i-j.effective_restitution"; empty where the whole part has changed
+  std::string statistic;    ///< "median"
+  std::string before, now;  ///< "27.65", "28.10 ms"; all digits where fewer show no difference
+  std::string allowed;      ///< "± 0.28 ms"; may be empty
+  std::string direction;    ///< "worse"; empty where there is neither better nor worse
+  std::string note;         ///< may be empty
+  bool gates = true;
+  std::size_t others = 0;  ///< more changes of this part that have no row
+};
+
+/// Whether a change says more than another: it gates and the other does not, or it is farther
+/// beyond what is allowed.
+bool is_more_severe(const Change& one, const Change& other);
+
+/// A scene's changes; unless `all` only the most severe of the reference and of each run, and none
+/// that neither gates nor changes a verdict.
+std::vector<ChangeRow> change_rows(const SceneCheck& scene, bool all);
+
+/// A change in one line with all digits: "symmetric-30cms, bullet double default 240 Hz:
+/// i-j.effective_restitution median was 0.4283, is 0.4451, allowed 0.005: worse".
+std::string change_message(const Change& change);
+
+/// "✓ nothing has moved", "✗ 2 of 77 scenes have moved", without the symbol.
+std::string check_verdict(const CheckReport& report);
+
+/// What is told and does not gate, a line each: other versions, changed verdicts, moves within
+/// what is allowed, CPU times.
+std::vector<std::string> check_remarks(const CheckReport& report);
+
+/// "1 scene", "3 scenes"
+std::string counted(std::size_t count, const std::string& noun);
+
+}  // namespace slipcheck

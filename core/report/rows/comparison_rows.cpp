@@ -1,0 +1,184 @@
+#include "report/rows/comparison_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "report/rows/selection.h"
+#include "report/terminal/text.h"
+
+namespace slipcheck {
+namespace {
+
+template <typename Value>
+const Value* find(const std::map<std::string, Value>& map, const std::string& name) {
+  const auto found = map.find(name);
+  return found == map.end() ? nullptr : &found->second;
+}
+
+std::string spread_text(const EnsembleValue& ensemble, const QuantityFormat& format) {
+  const std::string low = format.number(ensemble.min), high = format.number(ensemble.max);
+  return low == high ? low : low + " … " + high;
+}
+
+/// `counts`: the tolerance judges the run.
+void add_error(const Deviation& deviation, const Dimension& dimension, bool counts,
+               ComparisonRow& row) {
+  row.worst = error_text(deviation.max, deviation.absolute, dimension);
+  row.note = printable(deviation.reason);
+  if (!deviation.tolerance || !counts) return;
+  const double tolerance = *deviation.tolerance;
+  row.tolerance = tolerance_text(tolerance, deviation.absolute, dimension);
+  row.verdict = deviation.verdict;
+  if (row.verdict == Verdict::undecided) return;
+  const bool exact = deviation.max == 0 && tolerance == 0;
+  row.severity = exact ? 0 : deviation.max / tolerance;
+  // What is not shown at all is worse than any number.
+  if (row.verdict == Verdict::deviates && (std::isnan(row.severity) || row.severity <= 1))
+    row.severity = std::numeric_limits<double>::infinity();
+}
+
+/// "0.03", "4", "400": one significant digit, without a power of ten while it stays readable.
+std::string one_digit(double value) {
+  if (value < 9.5 || value >= 1e6) return fmt::format("{:.1g}", value);
+  const double unit = std::pow(10, std::floor(std::log10(value)));
+  return fmt::format("{:.0f}", std::round(value / unit) * unit);
+}
+
+}  // namespace
+
+QuantityFormat format_for(const SceneRecord& scene, const std::string& name,
+                          const EnsembleValue* ensemble) {
+  double magnitude = 0;
+  if (ensemble) magnitude = std::max(std::abs(ensemble->min), std::abs(ensemble->max));
+  if (const UncertainValue* value = find(scene.reference.observables, name)) {
+    // A zero with its rounding errors has no magnitude of its own; an uncertain mean has.
+    const double factor = scene.reference.box ? 1 : 10;
+    const bool is_zero = std::abs(value->value) <= factor * value->uncertainty;
+    if (!ensemble || (!is_zero && std::abs(value->value) > 1e-4 * magnitude))
+      magnitude = is_zero && std::isfinite(value->uncertainty) ? 0 : std::abs(value->value);
+  }
+  return QuantityFormat(magnitude, dimension_of(name));
+}
+
+std::string error_text(double error, bool absolute, const Dimension& dimension) {
+  if (!absolute) return percent(error);
+  return dimension.si[0] == '\0' ? plain_number(error) : quantity(error, dimension);
+}
+
+std::string tolerance_text(double tolerance, bool absolute, const Dimension& dimension) {
+  if (!absolute) return plain_number(100 * tolerance) + " %";
+  const QuantityFormat format(tolerance, dimension);
+  const std::string number = plain_number(tolerance / format.factor());
+  return format.unit().empty() ? number : number + " " + format.unit();
+}
+
+std::string closed_form_text(const ReferenceResult& reference, const std::string& name,
+                             const QuantityFormat& format) {
+  const double* exact = find(reference.closed_form, name);
+  const UncertainValue* value = find(reference.observables, name);
+  if (!exact || !value) return {};
+  std::string text = fmt::format("{:.10g}", *exact / format.factor());
+  if (!format.unit().empty()) text += " " + format.unit();
+  const double difference = std::abs(value->value - *exact);
+  if (difference == 0) return text + ", the same to the last bit";
+  if (*exact == 0) return text + fmt::format(", agrees to {:.0e} absolutely", difference);
+  return text + fmt::format(", agrees to {:.0e}", difference / std::abs(*exact));
+}
+
+std::string reference_text(const SceneRecord& scene, const std::string& name,
+                           const QuantityFormat& format) {
+  const UncertainValue* value = find(scene.reference.observables, name);
+  if (!value) return "–";
+  std::string text = format.number(value->value);
+  const bool is_zero = std::abs(value->value) <= 1e-9 * format.factor();
+  if (!is_zero && value->uncertainty > 1e-9 * std::abs(value->value))
+    text +=
+        " ± " + (std::isfinite(value->uncertainty) ? one_digit(value->uncertainty / format.factor())
+                                                   : std::string("∞"));
+  return format.unit().empty() ? text : text + " " + format.unit();
+}
+
+std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const EngineRecord& run,
+                                           const std::vector<std::string>& names) {
+  std::vector<ComparisonRow> rows;
+  for (const std::string& name : names) {
+    const EnsembleValue* ensemble = find(run.observables, name);
+    const bool in_reference = scene.reference.observables.count(name) > 0;
+    const Deviation* deviation = find(run.errors, name);
+    if (!ensemble && !in_reference && !deviation) continue;
+    const QuantityFormat format = format_for(scene, name, ensemble);
+    ComparisonRow row;
+    row.name = name;
+    row.reference = reference_text(scene, name, format);
+    row.median = !ensemble      ? "–"
+                 : in_reference ? format.number(ensemble->median)
+                                : format.text(ensemble->median);
+    row.spread = ensemble ? spread_text(*ensemble, format) : "–";
+    row.worst = row.tolerance = "–";
+    row.severity = std::numeric_limits<double>::quiet_NaN();
+    if (deviation) {
+      add_error(*deviation, dimension_of(name), !run.expect, row);
+    } else if (!in_reference) {
+      row.note = "the reference does not show it";
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<ComparisonRow> most_severe(std::vector<ComparisonRow> rows, std::size_t count) {
+  if (rows.size() <= count) return rows;
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto severity = [&](std::size_t k) {
+    return std::isnan(rows[k].severity) ? -1 : rows[k].severity;
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return severity(a) > severity(b); });
+  order.resize(count);
+  std::sort(order.begin(), order.end());
+  std::vector<ComparisonRow> result;
+  for (std::size_t k : order) result.push_back(std::move(rows[k]));
+  return result;
+}
+
+std::string run_name(const EngineRecord& run) {
+  const std::string version = run.version.empty() ? "" : " " + run.version;
+  return printable(fmt::format("{}{} {}, profile {}, {:g} Hz", run.engine, version, run.precision,
+                               run.profile, run.rate));
+}
+
+std::string reference_summary(const ReferenceResult& reference) {
+  const SolvedRun& run = reference.run;
+  std::string text =
+      fmt::format("{} solver, {} collision{}, ends at {}, {} of CPU time", reference.solver,
+                  run.collisions, run.collisions == 1 ? "" : "s", quantity(run.end_time, kTime),
+                  quantity(reference.cpu_seconds, kTime, 2));
+  if (reference.box) text += "; " + sampling_summary(*reference.box);
+  return text;
+}
+
+std::string sampling_summary(const BoxReference& box) {
+  std::string text =
+      fmt::format("means over {} sample{}", box.samples, box.samples == 1 ? "" : "s");
+  if (box.discarded > 0)
+    text += fmt::format(" after {} period{}", box.discarded, box.discarded == 1 ? "" : "s");
+  return text + (box.steady ? ", steady" : ", NOT steady") + "; ± holds the true mean with 95 %";
+}
+
+std::string step_cost(const EngineRecord& run) {
+  if (run.steps == 0) return {};
+  return quantity(run.cpu_seconds / static_cast<double>(run.steps), kTime, 2) + "/step";
+}
+
+std::string status_text(EngineRecord::Status status) {
+  std::string text = name_of(status);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+}  // namespace slipcheck

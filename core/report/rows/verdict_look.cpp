@@ -1,0 +1,110 @@
+#include "report/rows/verdict_look.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/rows/expectation_rows.h"
+
+namespace slipcheck {
+
+const char* symbol_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unjudged:
+      return "–";
+    case Verdict::within:
+      return "✓";
+    case Verdict::undecided:
+      return "?";
+    case Verdict::deviates:
+      return "✗";
+    case Verdict::failed:
+      return "⚠";
+  }
+  return "";
+}
+
+const char* word_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unjudged:
+      return "";
+    case Verdict::within:
+      return "within";
+    case Verdict::undecided:
+      return "UNDECIDED";
+    case Verdict::deviates:
+      return "DEVIATES";
+    case Verdict::failed:
+      return "FAILED";
+  }
+  return "";
+}
+
+Tone tone_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unjudged:
+      return Tone::faint;
+    case Verdict::within:
+      return Tone::good;
+    case Verdict::undecided:
+      return Tone::doubtful;
+    case Verdict::deviates:
+    case Verdict::failed:
+      break;
+  }
+  return Tone::bad;
+}
+
+std::string class_of(Verdict verdict) {
+  std::string name = name_of(verdict);
+  std::ranges::replace(name, ' ', '-');
+  return name;
+}
+
+std::string VerdictCounts::text_of(Verdict verdict) const {
+  const std::size_t count = of(verdict);
+  const bool are_many = verdict == Verdict::deviates && count != 1;
+  return fmt::format("{} {}", count, are_many ? "deviate" : name_of(verdict));
+}
+
+std::string VerdictCounts::list(const std::function<std::string(Verdict)>& text) const {
+  std::string result;
+  for (const Verdict verdict :
+       {Verdict::within, Verdict::deviates, Verdict::undecided, Verdict::failed, Verdict::unjudged})
+    if (verdict != Verdict::unjudged || of(verdict) > 0)
+      result += (result.empty() ? "" : ", ") + text(verdict);
+  return result;
+}
+
+std::string VerdictCounts::list() const {
+  return list([this](Verdict verdict) { return text_of(verdict); });
+}
+
+AllVerdicts count_verdicts(const std::vector<SceneRecord>& scenes) {
+  AllVerdicts counts;
+  counts.scene_count = scenes.size();
+  for (const SceneRecord& scene : scenes) {
+    if (is_reference_alone(scene))
+      ++counts.scenes_alone;
+    else
+      counts.scenes.add(scene.verdict());
+    counts.run_count += scene.runs.size();
+    for (const EngineRecord& run : scene.runs) counts.runs.add(run.verdict());
+  }
+  return counts;
+}
+
+bool is_reference_alone(const SceneRecord& scene) {
+  return scene.runs.empty() && scene.verdict() == Verdict::unjudged;
+}
+
+std::string verdict_name(const SceneRecord& scene) {
+  const Verdict verdict = scene.verdict();
+  if (is_reference_alone(scene)) return "reference alone";
+  if (is_judged_by_expectations(scene) &&
+      (verdict == Verdict::within || verdict == Verdict::deviates))
+    return expectation_word(verdict == Verdict::within);
+  return name_of(verdict);
+}
+
+}  // namespace slipcheck

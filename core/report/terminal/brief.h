@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/compare/record.h"
+#include "report/rows/table_style.h"
+
+namespace slipcheck {
+
+/// One line for each scene: its verdict, how many of its runs are within tolerance, and the worst
+/// deviation.
+std::string brief_of(const std::vector<SceneRecord>& scenes, const TableStyle& style);
+
+}  // namespace slipcheck

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "scenario/owned_names.h"
+#include "scenario/rules/spanning_rules.h"
+
+namespace slipcheck {
+namespace {
+
+/// A body's place in the order of the scene: that of its entry, and within a fill.
+using Place = std::pair<std::size_t, std::int64_t>;
+
+std::optional<Place> place_in(const Fill& fill, const std::string& name, std::size_t entry) {
+  if (!fill.complete || !name.starts_with(fill.prefix)) return std::nullopt;
+  const std::string digits = name.substr(fill.prefix.size());
+  std::int64_t number = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (std::to_string(number) != digits || number < 1 || number > fill.count) return std::nullopt;
+  return Place(entry, number);
+}
+
+std::optional<Place> place_of(const WrittenScene& written, const std::string& name) {
+  std::size_t entry = 0;
+  for (const auto& each : written.bodies) {
+    ++entry;
+    if (const auto* body = std::get_if<WrittenBody>(&each)) {
+      if (body->name == name) return Place(entry, 0);
+    } else if (const auto place = place_in(std::get<Fill>(each), name, entry)) {
+      return place;
+    }
+  }
+  for (const Fill& fill : written.fill)
+    if (const auto place = place_in(fill, name, ++entry)) return place;
+  return std::nullopt;
+}
+
+/// Why the scene has no such pair, "" if it has.
+std::string fault_of_pair(const WrittenScene& written, const std::string& pair) {
+  for (std::size_t at = pair.find('-'); at != std::string::npos; at = pair.find('-', at + 1)) {
+    const std::string left = pair.substr(0, at), right = pair.substr(at + 1);
+    const auto first = place_of(written, left);
+    if (first && right == "substrate") return "";
+    const auto second = place_of(written, right);
+    if (!first || !second || *first == *second) continue;
+    return *first < *second
+               ? ""
+               : fmt::format("must have the pair in the order of the bodies, {}-{}", right, left);
+  }
+  return fmt::format(
+      "must be of a pair of this scene's bodies, or of one and the substrate, but "
+      "{} is none",
+      pair);
+}
+
+/// Whether one of the bodies has a name that a pattern stands for.
+bool any_body_matches(const WrittenScene& written, const std::string& pattern) {
+  if (pattern.find('*') == std::string::npos) return place_of(written, pattern).has_value();
+  const auto any_of_fill = [&](const Fill& fill) {
+    for (std::int64_t k = 1; fill.complete && k <= fill.count; ++k)
+      if (matches(pattern, fill.prefix + std::to_string(k))) return true;
+    return false;
+  };
+  const auto any = [&](const std::variant<WrittenBody, Fill>& each) {
+    const auto* body = std::get_if<WrittenBody>(&each);
+    return body ? matches(pattern, body->name) : any_of_fill(std::get<Fill>(each));
+  };
+  return std::ranges::any_of(written.bodies, any) || std::ranges::any_of(written.fill, any_of_fill);
+}
+
+/// Whether a pattern with wildcards may stand for a pair of the bodies, or one and the substrate.
+bool any_pair_matches(const WrittenScene& written, const std::string& pattern) {
+  if (pattern == "*") return true;
+  for (std::size_t at = pattern.find('-'); at != std::string::npos; at = pattern.find('-', at + 1))
+    if (const std::string left = pattern.substr(0, at), right = pattern.substr(at + 1);
+        any_body_matches(written, left) &&
+        (matches(right, "substrate") || any_body_matches(written, right)))
+      return true;
+  return false;
+}
+
+/// Why nothing of this name is seen of an engine in this scene, "" if it may be. The owner may have
+/// wildcards.
+std::string fault_of_owner(const WrittenScene& written, const std::string& name) {
+  const std::string owner(owned_name(name).owner);
+  const ObservableScope scope = find_observable(owned_name(name).observable)->scope;
+  if (written.container.has_value() != (scope == ObservableScope::all))
+    return written.container ? "must be of all, as nothing else is seen in a container"
+                             : "must be of a body or a pair: all is only for a container";
+  if (scope == ObservableScope::body && !any_body_matches(written, owner))
+    return fmt::format("must be of one of the bodies, but {} is none", owner);
+  if (scope == ObservableScope::pair && owner.find('*') != std::string::npos)
+    return any_pair_matches(written, owner)
+               ? ""
+               : fmt::format("must match a pair of this scene's bodies, but {} matches none",
+                             owner);
+  return scope == ObservableScope::pair ? fault_of_pair(written, owner) : "";
+}
+
+}  // namespace
+
+void check_expectations(const WrittenScene& written, Reading& reading) {
+  const auto& engines = written.compare.engines;
+  for (std::size_t k = 0; k < engines.size(); ++k) {
+    if (!engines[k].expect) continue;
+    for (const auto& [name, expected] : engines[k].expect->observables) {
+      std::string rule = fault_of_owner(written, name);
+      if (!rule.empty())
+        reading.fault_at(fmt::format("compare.engines[{}].expect.{}", k, name), std::move(rule));
+    }
+  }
+}
+
+void check_tolerances(const WrittenScene& written, Reading& reading) {
+  for (const auto& [name, tolerance] : written.compare.tolerance) {
+    if (owned_name(name).owner.empty()) continue;
+    std::string rule = fault_of_owner(written, name);
+    if (!rule.empty()) reading.fault_at("compare.tolerance." + name, std::move(rule));
+  }
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,125 @@
+#include "scene/contact_scene.h"
+
+#include <algorithm>
+#include <list>
+#include <set>
+
+#include "scenario/contact_models.h"
+#include "scene/contact_maker.h"
+#include "scene/contact_warnings.h"
+#include "scene/obstacles.h"
+#include "scene/scene_outline.h"
+
+namespace slipcheck {
+namespace {
+
+/// A restitution `viscoelastic` takes a dissipation time of both materials.
+void look_at(const Scenario& scenario, const ContactMaker& maker, Obstacles& obstacles) {
+  if (!maker.is_viscoelastic_restitution()) return;
+  const BodyContact& contact = maker.contact();
+  for (const std::string& name : std::set{contact.first, contact.second}) {
+    const auto material = scenario.materials.find(name);
+    if (material == scenario.materials.end() || material->second.dissipation_time) continue;
+    obstacles.add(contact.path + ".normal.restitution",
+                  "can only be solved with materials." + name + ".dissipation_time",
+                  "viscoelastic");
+  }
+}
+
+struct MadeContact {
+  PairContact hard;
+  std::optional<SoftContact> soft;
+};
+
+MadeContact make_contact(ContactMaker& maker, const ClassPair& pair) {
+  if (!maker.is_soft()) return {maker.hard(pair), std::nullopt};
+  const SoftContact soft = maker.soft(pair);
+  return {maker.hard_equivalent(soft, pair), soft};
+}
+
+/// One maker for each contact of the file.
+class Makers {
+ public:
+  explicit Makers(const Scenario& scenario) : scenario_(scenario) {
+    for (const BodyContact& contact : scenario.contacts) makers_.emplace_back(scenario, contact);
+  }
+
+  std::list<ContactMaker>& all() { return makers_; }
+  /// Of two materials, or one and a surface of the box; null where the file has none.
+  ContactMaker* find(const std::string& first, const std::string& second) {
+    const BodyContact* contact = find_contact(scenario_, first, second);
+    if (!contact) return nullptr;
+    return &*std::ranges::find(makers_, contact,
+                               [](const ContactMaker& each) { return &each.contact(); });
+  }
+
+ private:
+  const Scenario& scenario_;
+  std::list<ContactMaker> makers_;
+};
+
+/// Of one surface of the box with each class.
+void make_surface(const Scenario& scenario, const std::vector<BodyClass>& classes,
+                  const std::string& surface, Makers& makers, std::vector<PairContact>& hard,
+                  std::vector<std::optional<SoftContact>>& soft) {
+  soft.resize(classes.size());
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    ContactMaker* maker = makers.find(classes[i].material, surface);
+    if (!maker) continue;
+    MadeContact made = make_contact(*maker, surface_pair(scenario, classes[i]));
+    hard[i] = std::move(made.hard);
+    soft[i] = std::move(made.soft);
+  }
+}
+
+}  // namespace
+
+bool ContactScene::is_hard() const {
+  const auto all_hard = [](const std::vector<std::optional<SoftContact>>& contacts) {
+    return std::ranges::none_of(contacts, [](const auto& each) { return each.has_value(); });
+  };
+  return all_hard(soft) && all_hard(soft_box.on_floor) && all_hard(soft_box.on_wall) &&
+         all_hard(soft_box.on_lid);
+}
+
+ContactScene make_contact_scene(const Scenario& scenario) {
+  Makers makers(scenario);
+  Obstacles obstacles(scenario);
+  for (const ContactMaker& maker : makers.all()) look_at(scenario, maker, obstacles);
+  obstacles.throw_any();
+
+  SceneOutline outline = make_outline(scenario);
+  const std::size_t size = outline.classes.size();
+  ContactScene made;
+  made.soft.resize(size * size);
+  for (std::size_t a = 0; a < size; ++a) {
+    for (std::size_t b = a; b < size; ++b) {
+      const BodyClass& first = outline.classes[a];
+      const BodyClass& second = outline.classes[b];
+      ContactMaker* maker = makers.find(first.material, second.material);
+      if (!maker) continue;
+      const MadeContact contact = make_contact(*maker, class_pair(scenario, first, second));
+      for (const std::size_t at : {a * size + b, b * size + a}) {
+        outline.scene.pairs[at] = contact.hard;
+        made.soft[at] = contact.soft;
+      }
+    }
+  }
+  if (outline.scene.box) {
+    Box& box = *outline.scene.box;
+    const auto make = [&](const char* surface, auto& hard, auto& soft) {
+      make_surface(scenario, outline.classes, surface, makers, hard, soft);
+    };
+    make("floor", box.on_floor, made.soft_box.on_floor);
+    make("wall", box.on_wall, made.soft_box.on_wall);
+    make("lid", box.on_lid, made.soft_box.on_lid);
+  }
+  for (ContactMaker& maker : makers.all()) {
+    for (std::string& warning : contact_warnings(scenario, outline, maker))
+      made.warnings.push_back(std::move(warning));
+  }
+  made.hard = std::move(outline.scene);
+  return made;
+}
+
+}  // namespace slipcheck

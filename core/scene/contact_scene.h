@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "physics/contact/normal_force.h"
+#include "physics/contact/tangential_force.h"
+#include "scene/scene.h"
+
+namespace slipcheck {
+
+struct Scenario;
+
+/// A contact of two bodies that lasts: forces over overlap and slip.
+struct SoftContact {
+  NormalForce normal;
+  ContactEnd end = ContactEnd::zero_overlap;
+  TangentialForce tangential;
+  /// Bodies that meet exchange the impulse of their hard contact first; these forces only hold what
+  /// that leaves together.
+  bool after_impact = false;
+};
+
+/// What a box's surfaces do to bodies where those contacts last; by material.
+struct SoftBox {
+  std::vector<std::optional<SoftContact>> on_floor, on_wall, on_lid;
+};
+
+/// A scene in numbers alone with each pair's forces, as the contact solver needs it.
+struct ContactScene {
+  /// The bodies and the substrate; for a soft pair also the hard contact that comes closest to it,
+  /// which is what engines are given.
+  Scene hard;
+  /// By material × material of `hard`, symmetric; none: that pair's contact is hard.
+  std::vector<std::optional<SoftContact>> soft;
+  /// Overlaps at the start up to this part of the sum of two radii are none: such a pair is only
+  /// in contact where it is pushed together.
+  double touching = 0;
+  SoftBox soft_box;                   ///< sized by material where `hard` has a box, else empty
+  std::vector<std::string> warnings;  ///< where a law leaves the range in which it holds
+
+  const std::optional<SoftContact>& between(std::size_t i, std::size_t j) const {
+    return soft[hard.material[i] * hard.substrate.size() + hard.material[j]];
+  }
+  bool is_hard() const;
+};
+
+/// The scene with no contact that lasts.
+inline ContactScene with_hard_contacts(Scene scene) {
+  ContactScene made;
+  made.soft.resize(scene.pairs.size());
+  made.hard = std::move(scene);
+  return made;
+}
+
+/// Throws Unsupported, naming place and model, for what no solver knows, and BadScenario for a
+/// restitution that a law cannot reach.
+ContactScene make_contact_scene(const Scenario& scenario);
+
+}  // namespace slipcheck

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "physics/contact/hard_contact.h"
+#include "physics/motion/shaken_floor.h"
+#include "physics/motion/substrate_motion.h"
+#include "physics/sphere.h"
+
+namespace slipcheck {
+
+/// L's vertical two-dimensional box around spheres in the plane y = 0: side walls x = 0 and
+/// x = width, a vibrating floor z = z_f(t), and a lid where it has one. The contacts are by
+/// material (Scene::material).
+struct Box {
+  double width = 0;  ///< [m], > 0
+  ShakenFloor floor;
+  /// The walls go up and down with the floor, and the lid with them.
+  bool moving_walls = false;
+  std::optional<double> lid;  ///< its (mean) height over the floor's mean height [m], > 0
+  std::vector<PairContact> on_floor, on_wall, on_lid;
+};
+
+/// What keeps an endless cascade of ever weaker collisions (inelastic collapse) finite.
+struct CollapseRule {
+  enum class Model {
+    /// A pair parts at least with a small fraction of its bodies' hardest impact (box: scene's
+    /// speed).
+    slowest_rebound,
+    /// TC model, Luding and McNamara 1998: a collision does not dissipate if one of the two had its
+    /// last one less than `contact_time` ago.
+    contact_time,
+    /// Bodies that collide again within `contact_time` form a cluster, in which the pair that
+    /// approaches fastest goes first until none approaches (largest relative velocity); below
+    /// that, and against walls, as slowest_rebound.
+    largest_velocity,
+  };
+  Model model = Model::slowest_rebound;
+  double contact_time = 0;  ///< t_c [s], > 0 for the last two
+};
+
+/// A scene in numbers alone, with every contact hard: what the event-driven reference solves and
+/// what engines are given. Spheres on a plane z = 0 or in a box; all values SI.
+struct Scene {
+  std::vector<Sphere> bodies;
+  std::vector<BodyState> initial;  ///< one for each body
+  /// Of each body, an index below `substrate.size()`. Bodies of one material that a contact tells
+  /// apart by their size count as several (scene_outline.h).
+  std::vector<std::size_t> material;
+  std::vector<SubstrateContact> substrate;  ///< by material
+  std::vector<PairContact> pairs;           ///< by material × material, symmetric
+  double gravity = 0;                       ///< along −z, normal to the plane [m/s²], >= 0
+  Vector2 downhill = Vector2::Zero();       ///< gravity along the tilted plane [m/s²]
+  SubstrateMotion motion;                   ///< of the plane
+  bool confined = false;                    ///< bodies never leave the plane
+  /// Lengths of the cell in which the plane repeats itself [m], 0 in a direction in which it does
+  /// not. Positions are not folded into the cell.
+  Vector2 periodic = Vector2::Zero();
+  std::optional<Box> box;  ///< in place of the substrate
+  CollapseRule collapse;
+
+  const SubstrateContact& on_substrate(std::size_t body) const { return substrate[material[body]]; }
+  const PairContact& between(std::size_t i, std::size_t j) const {
+    return pairs[material[i] * substrate.size() + material[j]];
+  }
+};
+
+/// A model that is valid but that nothing here can solve; the message names it and its place.
+class Unsupported : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace slipcheck

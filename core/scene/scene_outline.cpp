@@ -1,0 +1,166 @@
+#include "scene/scene_outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "scenario/contact_models.h"
+
+namespace slipcheck {
+namespace {
+
+bool is_hertzian(const Drilling& drilling) {
+  return drilling.model != Drilling::Model::none && !drilling.contact_radius;
+}
+
+bool is_zero(const RollingLaw& law) {
+  return std::ranges::all_of(law.table, [](const auto& point) { return point.second == 0; });
+}
+
+/// a_c [m]: as given, or the Hertzian one under the body's weight on a rigid plane,
+/// a_c³ = 3 F R (1 − ν²)/(4 Y).
+double contact_radius(const Drilling& drilling, const Material& material, const Sphere& sphere,
+                      double gravity) {
+  if (drilling.contact_radius) return *drilling.contact_radius;
+  const double nu = material.poisson_ratio.value();
+  const double force = sphere.mass * gravity;
+  return std::cbrt(3 * force * sphere.radius * (1 - nu * nu) /
+                   (4 * material.young_modulus.value()));
+}
+
+SubstrateContact substrate_contact(const MaterialOnSubstrate& from, const Material& material,
+                                   const Sphere& sphere, double gravity) {
+  SubstrateContact contact;
+  contact.static_friction = from.friction.static_;
+  contact.kinetic_friction = from.friction.kinetic;
+  std::vector<RollingFriction::Point> points;
+  for (const auto& [speed, coefficient] : from.rolling.table)
+    points.push_back({speed, coefficient});
+  contact.rolling = RollingFriction(std::move(points));
+  contact.rolling_while_sliding = from.rolling.while_sliding && !is_zero(from.rolling);
+  contact.restitution = from.restitution;
+  if (from.drilling.model == Drilling::Model::none) return contact;
+  const double radius = contact_radius(from.drilling, material, sphere, gravity);
+  contact.hertzian_pressure = is_hertzian(from.drilling);
+  // Torque per normal force of pure drilling: (2/3) μ_k a_c over a disc of uniform pressure,
+  // (3π/16) μ_k a_c over a Hertzian one.
+  const double share = contact.hertzian_pressure ? 3 * std::numbers::pi / 16 : 2.0 / 3;
+  contact.drilling_length = share * contact.kinetic_friction * radius;
+  if (from.drilling.model == Drilling::Model::coupled) contact.coupled_radius = radius;
+  return contact;
+}
+
+SubstrateMotion substrate_motion(const Motion& motion) {
+  if (const auto* constant = std::get_if<ConstantMotion>(&motion))
+    return SubstrateMotion::constant(constant->velocity);
+  if (const auto* wave = std::get_if<OscillatingMotion>(&motion))
+    return SubstrateMotion::oscillation(wave->amplitude, wave->frequency, wave->phase);
+  if (const auto* table = std::get_if<TableMotion>(&motion)) {
+    std::vector<SubstrateMotion::Point> points;
+    for (const TableMotion::Point& point : table->table)
+      points.push_back({point.time, point.position});
+    return SubstrateMotion::table(std::move(points));
+  }
+  return {};
+}
+
+Box box_of(const Container& container) {
+  Box box;
+  box.width = container.width;
+  box.floor = {container.floor_amplitude, container.floor_frequency};
+  box.moving_walls = container.walls == Container::Walls::moving;
+  box.lid = container.height;
+  return box;
+}
+
+CollapseRule collapse_rule(const CollapseModel& model) {
+  using Model = CollapseRule::Model;
+  if (const auto* tc = std::get_if<ContactTimeModel>(&model))
+    return {Model::contact_time, tc->contact_time};
+  if (const auto* largest = std::get_if<LargestVelocityModel>(&model))
+    return {Model::largest_velocity, largest->contact_time};
+  return {};
+}
+
+/// Materials of which each size, mass and shape is a class by itself.
+std::set<std::string> divided_materials(const Scenario& scenario) {
+  std::set<std::string> divided;
+  for (const MaterialOnSubstrate& contact : scenario.substrate_contacts) {
+    if (is_hertzian(contact.drilling)) divided.insert(contact.material);
+  }
+  for (const BodyContact& contact : scenario.contacts) {
+    if (depends_on_bodies(contact)) divided.insert({contact.first, contact.second});
+  }
+  return divided;
+}
+
+}  // namespace
+
+PairContact hard_pair(const BodyContact& contact) {
+  PairContact pair;
+  const auto& restitution = std::get<HardNormal>(contact.normal).restitution;
+  if (const auto* law = std::get_if<BridgesRestitution>(&restitution)) {
+    pair.restitution = PowerLawRestitution{law->coefficient, law->exponent, law->speed};
+  } else if (const auto* number = std::get_if<double>(&restitution)) {
+    pair.restitution = *number;
+  }
+  if (const auto* tangential = std::get_if<HardTangential>(&contact.tangential)) {
+    pair.friction = tangential->friction;
+    pair.tangential_restitution = tangential->tangential_restitution;
+  }
+  return pair;
+}
+
+SceneOutline make_outline(const Scenario& scenario) {
+  SceneOutline outline;
+  Scene& scene = outline.scene;
+  scene.gravity = -scenario.gravity.z();
+  scene.downhill = scenario.gravity.head<2>();
+  scene.collapse = collapse_rule(scenario.run.collapse);
+  if (const auto* substrate = std::get_if<Substrate>(&scenario.surroundings)) {
+    scene.motion = substrate_motion(substrate->motion);
+    scene.confined = substrate->confined;
+    scene.periodic = substrate->periodic.value_or(Vector2::Zero());
+  } else {
+    scene.box = box_of(std::get<Container>(scenario.surroundings));
+  }
+
+  std::map<std::string, const MaterialOnSubstrate*> on_substrate;
+  for (const MaterialOnSubstrate& contact : scenario.substrate_contacts) {
+    on_substrate.emplace(contact.material, &contact);
+  }
+  const std::set<std::string> divided = divided_materials(scenario);
+  std::map<std::tuple<std::string, double, double, double>, std::size_t> index;
+  for (const Body& body : scenario.bodies) {
+    const Sphere& sphere = body.sphere;
+    const bool alone = divided.contains(body.material);
+    const auto [entry, is_new] =
+        index.try_emplace({body.material, alone ? sphere.radius : 0, alone ? sphere.mass : 0,
+                           alone ? sphere.shape_factor : 0},
+                          outline.classes.size());
+    if (is_new) {
+      outline.classes.push_back({body.material, sphere});
+      const auto contact = on_substrate.find(body.material);
+      const auto material = scenario.materials.find(body.material);
+      scene.substrate.push_back(substrate_contact(
+          contact == on_substrate.end() ? MaterialOnSubstrate{} : *contact->second,
+          material == scenario.materials.end() ? Material{} : material->second, sphere,
+          scene.gravity));
+    }
+    scene.bodies.push_back(sphere);
+    scene.initial.push_back(body.initial);
+    scene.material.push_back(entry->second);
+  }
+  scene.pairs.resize(outline.classes.size() * outline.classes.size());
+  if (scene.box) {
+    for (auto* contacts : {&scene.box->on_floor, &scene.box->on_wall, &scene.box->on_lid})
+      contacts->resize(outline.classes.size());
+  }
+  return outline;
+}
+
+}  // namespace slipcheck
