@@ -10,6 +10,7 @@
 #include "physics/numbers.h"
 #include "reference/events/event_scheduler.h"
 #include "reference/events/indexed_heap.h"
+#include "reference/events/rate_limit.h"
 #include "reference/events/scan_queue.h"
 #include "reference/events/substrate_world.h"
 #include "reference/lasting_contacts.h"
@@ -24,27 +25,10 @@ LeastSpeeds least_speeds(const Scene& scene, std::span<const BodyState> states,
           .landing = settings.landing_fraction * speed_scale(scene, states)};
 }
 
-/// Tells when events have come too fast for too long.
-class RateLimit {
- public:
-  RateLimit(const EventSettings& settings, std::size_t bodies, double now)
-      : most_(settings.most_events * static_cast<double>(bodies)),
-        window_(settings.burst + 1000 * (bodies > settings.most_without_cells ? bodies : 0)),
-        start_(now) {}
-
-  /// After one event more, at `now` [s].
-  bool is_exceeded(double now) {
-    if (++count_ % window_ != 0) return false;
-    const double passed = now - start_;
-    start_ = now;
-    return static_cast<double>(window_) > most_ * passed;
-  }
-
- private:
-  double most_;
-  std::size_t window_, count_ = 0;
-  double start_;
-};
+RateLimit rate_limit(const EventSettings& settings, std::size_t bodies, double now) {
+  const std::size_t of_many = bodies > settings.most_without_cells ? 1000 * bodies : 0;
+  return {settings.most_events, bodies, settings.burst + of_many, now};
+}
 
 }  // namespace
 
@@ -122,7 +106,7 @@ class EventSolver::EngineOf final : public Engine {
     const double last = end.last();
     const std::size_t events = world_.events(), collisions = world_.collisions();
     const std::size_t collapses = world_.collapses();
-    RateLimit rate(settings_, world_.size(), now_);
+    RateLimit rate = rate_limit(settings_, world_.size(), now_);
     const std::size_t of_many =
         world_.size() > settings_.most_without_cells ? 1000 * world_.size() : 0;
     // What nothing presses together comes to an end, however long a cascade it is.
@@ -149,10 +133,7 @@ class EventSolver::EngineOf final : public Engine {
       now_ = scheduler_.now();
       if (rate.is_exceeded(now_)) {
         world_.show(now_);
-        run.reason = fmt::format(
-            "more than {:g} events for each body and second at {:.9g} s: inelastic collapse; "
-            "run.collapse or run.most_events decides what then happens",
-            settings_.most_events, now_);
+        run.reason = rate.reason(now_);
         break;
       }
       if (world_.collapses() - collapses > most_collapses) {
@@ -178,7 +159,7 @@ class EventSolver::EngineOf final : public Engine {
   template <class HasCome>
   double time_of(double limit, HasCome has_come) const {
     EngineOf ahead = *this;
-    RateLimit rate(settings_, world_.size(), now_);
+    RateLimit rate = rate_limit(settings_, world_.size(), now_);
     while (ahead.scheduler_.next_time() <= limit) {
       ahead.scheduler_.step();
       if (has_come(ahead.world_)) return ahead.scheduler_.now();

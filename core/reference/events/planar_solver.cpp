@@ -1,11 +1,11 @@
 #include "reference/events/planar_solver.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <type_traits>
+
+#include "reference/events/rate_limit.h"
 
 namespace slipcheck {
 
@@ -82,11 +82,9 @@ PlanarRun PlanarSolver::run(Scheduler& scheduler, const RunEnd& end, FrameSink* 
                             double sample_interval) {
   PlanarRun run;
   const double last = end.last();
-  const auto bodies = static_cast<double>(world_.size());
   // Looked at over so many events that no harmless burst of collisions counts.
-  const std::size_t window = 1000 * world_.size() + 1'000'000;
+  RateLimit rate(settings_.most_events, world_.size(), 1000 * world_.size() + 1'000'000, now_);
   std::size_t samples = 0;
-  double window_start = now_;
   double next_sample = 0;
   run.reached = true;
   while (true) {
@@ -98,17 +96,11 @@ PlanarRun PlanarSolver::run(Scheduler& scheduler, const RunEnd& end, FrameSink* 
     if (!(next <= last)) break;
     scheduler.step();
     now_ = scheduler.now();
-    if (++run.events % window == 0) {
-      const double passed = now_ - window_start;
-      if (static_cast<double>(window) > settings_.most_events * bodies * passed) {
-        run.reached = false;
-        run.reason = fmt::format(
-            "more than {:g} events for each body and second at {:.9g} s: inelastic collapse; "
-            "run.collapse or run.most_events decides what then happens",
-            settings_.most_events, now_);
-        break;
-      }
-      window_start = now_;
+    ++run.events;
+    if (rate.is_exceeded(now_)) {
+      run.reached = false;
+      run.reason = rate.reason(now_);
+      break;
     }
   }
   if (run.reached && std::isfinite(last)) now_ = last;

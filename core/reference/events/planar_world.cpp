@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "reference/events/cluster.h"
 #include "reference/events/planar_cells.h"
 #include "reference/events/planar_loop.h"
 #include "reference/forces/floor_flight.h"
@@ -170,8 +171,7 @@ void PlanarWorld::meet(std::uint32_t i, const Surface& surface, double now) {
   dissipated_ += impulse.dissipated;
 }
 
-/// Bodies that would touch each other within the contact time collide at once, always the pair that
-/// approaches fastest, until none approaches faster than a pair is made to part.
+/// Bodies that would touch each other within the contact time collide at once.
 void PlanarWorld::resolve_cluster(double now) {
   constexpr PlanarFeatures kAll;
   const double soon = now + scene_->collapse.contact_time;
@@ -185,21 +185,15 @@ void PlanarWorld::resolve_cluster(double now) {
       pairs.push_back({std::min(a, b), std::max(a, b)});
     });
   }
-  std::ranges::sort(pairs);
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   const auto approach = [&](const std::array<std::uint32_t, 2>& pair) {
     const Body &a = bodies_[pair[0]], &b = bodies_[pair[1]];
     const CellGrid::Shift shift = nearest_image(a, b);
     const double dx = a.x - b.x - shift.x, dy = a.y - b.y - shift.y;
     return -(dx * (a.vx - b.vx) + dy * (a.vy - b.vy)) / std::hypot(dx, dy);
   };
-  // Each turn takes energy from the cluster, or parts a pair where e = 1.
-  for (std::size_t turn = 0; turn < 1000 * pairs.size(); ++turn) {
-    const auto fastest = std::ranges::max_element(pairs, {}, approach);
-    const auto [a, b] = *fastest;
-    if (approach(*fastest) <= slowest_rebound_ || exchange_impulse<kAll>(a, b, between(a, b)) == 0)
-      return;
-  }
+  collide_cluster(
+      pairs, approach, [&](const auto&) { return slowest_rebound_; },
+      [&](std::uint32_t a, std::uint32_t b) { exchange_impulse<kAll>(a, b, between(a, b)); });
 }
 
 BodyState PlanarWorld::state_at(std::size_t body, double now) const {

@@ -6,6 +6,7 @@
 
 #include "physics/contact/collision.h"
 #include "physics/numbers.h"
+#include "reference/events/cluster.h"
 #include "reference/events/path_collision.h"
 
 namespace slipcheck {
@@ -254,6 +255,12 @@ std::span<const std::uint32_t> SubstrateWorld<Phase, Near>::collide(std::uint32_
 }
 
 template <class Phase, class Near>
+double SubstrateWorld<Phase, Near>::slowest_rebound(std::uint32_t i, std::uint32_t j) const {
+  const double hardest = std::max(bodies_[i].hardest_impact, bodies_[j].hardest_impact);
+  return std::max(least_.rebound, least_.rebound_fraction * hardest);
+}
+
+template <class Phase, class Near>
 void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_t second,
                                                    const PairContact& contact, double now) {
   const std::uint32_t i = changed_[first], j = changed_[second];
@@ -267,10 +274,8 @@ void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_
   const auto is_supported = [&](std::uint32_t k, const BodyState& state) {
     return phases_[k].is_supported() && state.velocity.z() <= 0;
   };
-  const double hardest = std::max(bodies_[i].hardest_impact, bodies_[j].hardest_impact);
-  const double slowest = std::max(least_.rebound, least_.rebound_fraction * hardest);
   const CollisionResult result =
-      slipcheck::collide(contact, {scene_->confined, slowest},
+      slipcheck::collide(contact, {scene_->confined, slowest_rebound(i, j)},
                          {scene_->bodies[i], scene_->on_substrate(i), of_i, is_supported(i, of_i)},
                          {scene_->bodies[j], scene_->on_substrate(j), of_j, is_supported(j, of_j)});
   of_j.position -= image;
@@ -286,12 +291,9 @@ void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_
                               std::max(result.impulse.norm(), 1e-300)});
 }
 
-/// Largest relative velocity: bodies that would touch each other within the contact time collide at
-/// once, always the pair that approaches fastest, until none approaches by more than a small part
-/// of the first approach.
+/// Bodies that would touch each other within the contact time collide at once.
 template <class Phase, class Near>
 void SubstrateWorld<Phase, Near>::resolve_cluster(double now) {
-  constexpr double kAtRest = 1e-6;
   const double soon = now + scene_->collapse.contact_time;
   std::vector<std::array<std::uint32_t, 2>> pairs{{0, 1}};
   for (std::uint32_t k = 0; k < changed_.size(); ++k) {
@@ -307,23 +309,17 @@ void SubstrateWorld<Phase, Near>::resolve_cluster(double now) {
       pairs.push_back({std::min(k, place), std::max(k, place)});
     });
   }
-  std::ranges::sort(pairs);
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   const auto approach = [&](const std::array<std::uint32_t, 2>& pair) {
     const BodyState &a = states_[pair[0]], &b = states_[pair[1]];
     const Vector3 dx = a.position - b.position - to_near(a.position, b.position);
     return -dx.normalized().dot(a.velocity - b.velocity);
   };
-  double first = 0;
-  // A row of bodies hands a blow on from end to end; the limit is for a cluster without rest.
-  for (std::size_t turn = 0; turn < 1000 * pairs.size(); ++turn) {
-    const auto fastest = std::ranges::max_element(pairs, {}, approach);
-    const double speed = approach(*fastest);
-    first = std::max(first, speed);
-    if (turn > 0 && speed <= kAtRest * first) return;
-    const auto [a, b] = *fastest;
+  const auto slowest = [&](const std::array<std::uint32_t, 2>& pair) {
+    return slowest_rebound(changed_[pair[0]], changed_[pair[1]]);
+  };
+  collide_cluster(pairs, approach, slowest, [&](std::uint32_t a, std::uint32_t b) {
     exchange_impulse(a, b, scene_->between(changed_[a], changed_[b]), now);
-  }
+  });
 }
 
 /// That the body touches the substrate; frames of the reference do not say how hard.

@@ -111,6 +111,8 @@ class SubstrateWorld {
     return phases_[i].at(now - bodies_[i].start);
   }
   /// Of the bodies at two places of `changed_`, which touch, or nearly.
+  /// At which these two part at least [m/s].
+  double slowest_rebound(std::uint32_t i, std::uint32_t j) const;
   void exchange_impulse(std::size_t first, std::size_t second, const PairContact& contact,
                         double now);
   void resolve_cluster(double now);
