@@ -49,7 +49,7 @@ void run_steps(benchmark::State& state, const ContactScene& scene, bool in_conta
   std::size_t steps = 0;
   for (auto _ : state) {
     StepSolver solver(scene, start, {.step = step, .general = general});
-    steps += solver.run({Run::Until::time, duration, duration}, nullptr).steps;
+    steps += solver.run(until_time(duration), nullptr).steps;
     benchmark::DoNotOptimize(solver.now());
   }
   state.counters["per_step"] = benchmark::Counter(

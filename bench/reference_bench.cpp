@@ -3,6 +3,7 @@
 #include "harness/observe/observer.h"
 #include "harness/run/reference_run.h"
 #include "physics/polynomial_roots.h"
+#include "reference/events/event_solver.h"
 #include "scenes.h"
 
 namespace slipcheck {
@@ -16,7 +17,7 @@ void BM_TwoBodyRun(benchmark::State& state) {
   for (auto _ : state) {
     EventSolver solver(scene, scene.initial);
     Observer observer(scene, 0, 0.15);
-    const EventRun run = solver.run(kRolling, &observer);
+    const SolvedRun run = solver.run(kRolling, &observer);
     benchmark::DoNotOptimize(observer.finish(run.end_time));
   }
 }

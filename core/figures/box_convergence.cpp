@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::size_t kDiscard = 200;  // periods
 
-RunEnd until_time(double time) { return {Run::Until::time, time, time}; }
-
 /// [s]
 double after_periods(std::size_t count) {
   return static_cast<double>(kDiscard + count) / dilute_box().frequency;
@@ -26,8 +24,7 @@ BoxSampling after_discard() {
   return sampling;
 }
 
-template <class Result>
-Result reached(const Result& run) {
+SolvedRun reached(const SolvedRun& run) {
   if (!run.reached) throw std::runtime_error("box convergence: " + run.reason);
   return run;
 }
@@ -79,7 +76,7 @@ TrajectoriesApart trajectories_apart(double friction, const std::vector<double>&
   const Scene hard = few_spheres(friction);
   const RunEnd end = until_time(kTrajectoryTime);
   PlanarSolver event(hard, hard.initial);
-  reached(event.run(end, nullptr, kTrajectoryTime));
+  reached(event.run(end, nullptr));
   const std::vector<BodyState> exact = event.states();
   TrajectoriesApart apart;
   for (double collision_time : collision_times) {
@@ -111,9 +108,9 @@ EventMeans dilute_box_by_events() {
   const VibratedBox box = dilute_box();
   const Scene scene = box.scene();
   PlanarSolver solver(scene, scene.initial);
-  BoxObserver observer(scene, after_discard(), [&] { return solver.world().collisions(); });
-  const PlanarRun run =
-      reached(solver.run(until_time(after_periods(40'000)), &observer, 1 / box.frequency));
+  BoxObserver observer(scene, after_discard());
+  const SolvedRun run =
+      reached(solver.run(until_time(after_periods(40'000), 1 / box.frequency), &observer));
   const double taken_part = static_cast<double>(2 * run.collisions + run.contacts);
   return {observer.finish(), static_cast<double>(box.count) * run.end_time / taken_part};
 }
@@ -123,8 +120,8 @@ BoxObservables dilute_box_by_contacts(double collision_time) {
   const VibratedBox box = dilute_box();
   const ContactScene scene = softened(box.scene(), collision_time, kSlowing);
   SoftBoxSolver solver(scene, scene.hard.initial, {kSteps});
-  BoxObserver observer(scene.hard, after_discard(), [&] { return solver.collisions(); });
-  reached(solver.run(until_time(after_periods(2000)), &observer, 1 / box.frequency));
+  BoxObserver observer(scene.hard, after_discard());
+  reached(solver.run(until_time(after_periods(2000), 1 / box.frequency), &observer));
   return observer.finish();
 }
 

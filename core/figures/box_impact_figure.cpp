@@ -49,7 +49,7 @@ double psi_2(Scene& scene, double psi_1, std::mt19937_64& random) {
 
   PlanarSolver solver(scene, scene.initial);
   const double end = 2 * kBefore;
-  if (solver.run({Run::Until::time, end, end}, nullptr, end).collisions != 1)
+  if (solver.run(until_time(end), nullptr).collisions != 1)
     throw std::runtime_error("L2: the spheres did not collide");
   const std::vector<BodyState> after = solver.states();
   const double u_t = (after[0].velocity - after[1].velocity).dot(t) -

@@ -34,9 +34,9 @@ BoxMeans run_box(const VibratedBox& box, double longer) {
   PlanarSolver solver(scene, scene.initial);
   BoxSampling sampling;
   sampling.discard = static_cast<std::size_t>(discard);
-  BoxObserver observer(scene, sampling, [&solver] { return solver.world().collisions(); });
+  BoxObserver observer(scene, sampling);
   const double end = periods / box.frequency;
-  const PlanarRun run = solver.run({Run::Until::time, end, end}, &observer, 1 / box.frequency);
+  const SolvedRun run = solver.run(until_time(end, 1 / box.frequency), &observer);
   if (!run.reached) throw std::runtime_error("vibrated box: " + run.reason);
 
   const BoxObservables seen = observer.finish();

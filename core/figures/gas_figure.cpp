@@ -84,7 +84,7 @@ PaperFigure figure_k12() {
   for (const Density& density : kDensities) {
     const Scene scene = rolling_gas(density.area_fraction);
     GasRestitution seen(scene, kCollisions, 1e-9 * kSpeed);
-    EventSolver(scene, scene.initial).run({Run::Until::time, density.time, density.time}, &seen);
+    EventSolver(scene, scene.initial).run(until_time(density.time), &seen);
     Curve gas{fmt::format("area fraction {:g}", density.area_fraction), density.look, {}, {}};
     Curve alone = gas;
     alone.label.clear();

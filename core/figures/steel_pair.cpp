@@ -79,7 +79,7 @@ ReferenceResult SteelPair::solve() const {
 
 std::vector<BodyState> states_at(const ContactScene& scene, double time) {
   ContactSolver solver(scene, scene.hard.initial);
-  const ContactRun run = solver.run({Run::Until::time, time, time}, nullptr);
+  const SolvedRun run = solver.run(until_time(time), nullptr);
   if (!run.reached) throw std::runtime_error("a figure's scene was not solved: " + run.reason);
   return solver.states();
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "physics/sphere.h"
@@ -22,6 +24,8 @@ struct Frame {
   std::vector<BodyState> bodies;
   std::vector<Touch> touches;  ///< since the frame before
   double part = 1;             ///< of an engine's step that has passed, in (0, 1]
+  /// Of two bodies since the start, of a solver that counts them.
+  std::optional<std::uint64_t> collisions = {};
 };
 
 /// Takes the frames of a run one after the other.

@@ -7,6 +7,10 @@
 #include <utility>
 
 #include "physics/numbers.h"
+#include "reference/events/event_solver.h"
+#include "reference/events/planar_solver.h"
+#include "reference/forces/contact_solver.h"
+#include "reference/forces/soft_box_solver.h"
 #include "reference/initial_contacts.h"
 #include "reference/lasting_contacts.h"
 #include "reference/run_variation.h"
@@ -32,6 +36,22 @@ SolvedRun checked(SolvedRun solved, const std::vector<BodyState>& states) {
   return solved;
 }
 
+EventSettings event_settings(const ReferenceSettings& asked, double cut_offs = 1) {
+  EventSettings settings;
+  settings.most_events = asked.most_events;
+  settings.general = asked.general;
+  settings.collapse_fraction *= cut_offs;
+  settings.landing_fraction *= cut_offs;
+  return settings;
+}
+
+PlanarSettings planar_settings(const ReferenceSettings& asked) {
+  PlanarSettings settings;
+  settings.most_events = asked.most_events;
+  settings.general = asked.general;
+  return settings;
+}
+
 }  // namespace
 
 bool has_exact_phases(const Scene& scene) {
@@ -44,15 +64,31 @@ bool runs_in_phases(const Scene& scene) {
   return EventSolver::can_solve(scene) && (EventSolver::is_exact(scene) || is_large);
 }
 
+// --- the choice ----------------------------------------------------------------------------------
+
 ReferenceSolver::ReferenceSolver(const ContactScene& scene, const ReferenceSettings& settings)
     : scene_(&scene), settings_(settings) {
+  scene.hard.box ? choose_in_box() : choose_on_plane();
+}
+
+void ReferenceSolver::choose_in_box() {
+  if (settings_.asked == Compare::Reference::steps)
+    throw Unsupported("a container has no steps of fixed length; compare.reference may be contact");
+  resolved_ = settings_.asked == Compare::Reference::contact ||
+              (settings_.asked == Compare::Reference::automatic && !scene_->is_hard());
+  phases_ = !resolved_;
+  if (resolved_) SoftBoxSolver(*scene_, scene_->hard.initial);  // throws
+}
+
+void ReferenceSolver::choose_on_plane() {
+  const ContactScene& scene = *scene_;
   const bool soft = !scene.is_hard();
-  const bool automatic = settings.asked == Compare::Reference::automatic;
+  const bool automatic = settings_.asked == Compare::Reference::automatic;
   const bool periodic = !scene.hard.periodic.isZero(0);
   const bool stepped =
-      settings.asked == Compare::Reference::steps ||
+      settings_.asked == Compare::Reference::steps ||
       (automatic && soft && (periodic || scene.hard.bodies.size() > kMostIntegrated));
-  resolved_ = stepped || settings.asked == Compare::Reference::contact || (automatic && soft);
+  resolved_ = stepped || settings_.asked == Compare::Reference::contact || (automatic && soft);
   if (!resolved_ && soft) {
     if (!initial_contacts(scene, scene.hard.initial).empty())
       throw Unsupported("bodies that overlap at the start can only be solved with soft contacts");
@@ -75,41 +111,56 @@ ReferenceSolver::ReferenceSolver(const ContactScene& scene, const ReferenceSetti
     throw Unsupported(
         "steps of fixed length need a collision to be measured by: no two bodies have a soft "
         "contact and move");
-  step_ = collision / settings.steps_per_contact;
-  StepSolver(scene, scene.hard.initial, {.step = step_, .general = settings.general});
+  step_ = collision / settings_.steps_per_contact;
+  StepSolver(scene, scene.hard.initial, {.step = step_, .general = settings_.general});  // throws
 }
 
-EventSettings ReferenceSolver::event_settings() const {
-  EventSettings settings;
-  settings.most_events = settings_.most_events;
-  settings.general = settings_.general;
-  return settings;
-}
-
-SolvedRun ReferenceSolver::run_steps(const RunEnd& end, FrameSink* sink, double factor) const {
-  double step = factor * step_;
-  // The last step ends where the run does.
-  if (end.until == Run::Until::time && end.time > 0)
-    step = end.time / std::max(1.0, std::round(end.time / step));
-  StepSolver solver(scene(), scene().hard.initial, {.step = step, .general = settings_.general});
-  std::optional<StepsAsEvents> events;
-  if (sink) events.emplace(*sink);
-  SolvedRun solved;
-  StepRun run;
-  try {
-    run = solver.run(end, events ? &*events : nullptr);
-  } catch (const StepTooLong& too_long) {
-    solved.failed = true;
-    solved.reason = too_long.what();
-    solved.end_time = solver.now();
-    return solved;
+std::vector<std::string> ReferenceSolver::loop() const {
+  const Scene& hard = scene().hard;
+  if (is_stepped())
+    return StepSolver(scene(), hard.initial, {.step = step_, .general = settings_.general})
+        .features();
+  if (hard.box && resolved_) return {"free flight, and steps for bodies that touch"};
+  if (hard.box) {
+    std::vector<std::string> loop = {"bodies on parabolas between walls"};
+    for (const std::string& left :
+         PlanarSolver(hard, hard.initial, planar_settings(settings_)).left_out())
+      loop.push_back("without " + left);
+    return loop;
   }
-  solved.end_time = run.end_time;
-  solved.reached = run.reached;
-  solved.reason = run.reason;
-  solved.events = solved.collisions = run.collisions;
-  solved.steps = run.steps;
-  return checked(std::move(solved), solver.states());
+  if (!phases_) return {"all bodies in one system, integrated from event to event"};
+  return EventSolver::features(hard, event_settings(settings_));
+}
+
+// --- what runs -----------------------------------------------------------------------------------
+
+/// The length of a step [s], such that the last one ends where the run does.
+double ReferenceSolver::step_to(const RunEnd& end, double factor) const {
+  const double step = factor * step_;
+  if (end.until != Run::Until::time || end.time == 0) return step;
+  return end.time / std::max(1.0, std::round(end.time / step));
+}
+
+/// `scene` at time 0; `end` sets the length of its steps.
+std::unique_ptr<Solver> ReferenceSolver::at_start(const ContactScene& scene,
+                                                  const SolverAccuracy& accuracy,
+                                                  const RunEnd& end) const {
+  const std::vector<BodyState>& initial = scene.hard.initial;
+  if (is_stepped())
+    return std::make_unique<StepSolver>(
+        scene, initial,
+        StepSettings{.step = step_to(end, accuracy.step), .general = settings_.general});
+  if (scene.hard.box) {
+    if (resolved_) return std::make_unique<SoftBoxSolver>(scene, initial);
+    return std::make_unique<PlanarSolver>(scene.hard, initial, planar_settings(settings_));
+  }
+  if (phases_)
+    return std::make_unique<EventSolver>(scene.hard, initial,
+                                         event_settings(settings_, accuracy.cut_offs));
+  ContactSettings settings;
+  settings.tolerance = accuracy.tolerance;
+  settings.cut_offs = accuracy.cut_offs;
+  return std::make_unique<ContactSolver>(scene, initial, settings);
 }
 
 SolvedRun ReferenceSolver::run_varied(const RunEnd& end, FrameSink* sink,
@@ -129,117 +180,83 @@ SolvedRun ReferenceSolver::run_varied(const RunEnd& end, FrameSink* sink,
 SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
                                const SolverAccuracy& accuracy) const {
   if (accuracy.reversed || accuracy.other_rule) return run_varied(end, sink, accuracy);
-  if (is_stepped()) return run_steps(end, sink, accuracy.step);
-  const std::vector<BodyState>& initial = scene().hard.initial;
-  if (phases_) {
-    EventSettings settings = event_settings();
-    settings.collapse_fraction *= accuracy.cut_offs;
-    settings.landing_fraction *= accuracy.cut_offs;
-    EventSolver solver(scene().hard, initial, settings);
-    const EventRun run = solver.run(end, sink);
-    return checked({run.end_time, run.reached, false, run.reason, run.events, run.collisions,
-                    run.collapses, 0, std::nullopt},
-                   solver.states());
-  }
-  ContactSettings settings;
-  settings.tolerance = accuracy.tolerance;
-  settings.cut_offs = accuracy.cut_offs;
   std::optional<ContactScene> softer;
   if (softened_to() > 0 && accuracy.softness != 1)
     softer = with_lasting_contacts(scene_->hard, accuracy.softness * collision_time_);
-  ContactSolver solver(softer ? *softer : scene(), initial, settings);
-  const ContactRun run = solver.run(end, sink);
-  SolvedRun solved{run.end_time,   run.reached,   run.failed, run.reason, run.events,
-                   run.collisions, run.collapses, run.steps,  run.balance};
-  if (softened_to() > 0 && has_come_apart(scene_->hard, solver.states())) {
+  std::optional<StepsAsEvents> events;
+  if (is_stepped() && sink) events.emplace(*sink);
+  const std::unique_ptr<Solver> solver = at_start(softer ? *softer : scene(), accuracy, end);
+  SolvedRun solved = solver->run(end, events ? &*events : sink);
+  if (is_stepped() && solved.failed) return solved;
+  const std::vector<BodyState> states = solver->states();
+  if (softened_to() > 0 && has_come_apart(scene_->hard, states)) {
     solved.reached = false;
     solved.reason =
         "bodies that rested on each other come apart: how they then collide is not known";
   }
-  return checked(std::move(solved), solver.states());
+  return checked(std::move(solved), states);
 }
 
-std::vector<std::string> ReferenceSolver::loop() const {
-  if (is_stepped())
-    return StepSolver(scene(), scene().hard.initial, {.step = step_, .general = settings_.general})
-        .features();
-  if (!phases_) return {"all bodies in one system, integrated from event to event"};
-  return EventSolver::features(scene().hard, event_settings());
+std::vector<std::vector<BodyState>> ReferenceSolver::states_along(std::span<const double> times,
+                                                                  double tolerance) const {
+  // Steps keep their length, whatever instants are asked for: between two of them bodies go
+  // straight on, which is off by half a step of acceleration.
+  const std::unique_ptr<Solver> solver = at_start(scene(), {.tolerance = tolerance}, {});
+  std::vector<std::vector<BodyState>> along;
+  along.reserve(times.size());
+  for (const double time : times) {
+    if (!solver->run(until_time(time), nullptr).reached) break;
+    std::vector<BodyState>& states = along.emplace_back(solver->states());
+    const double beyond = solver->now() - time;
+    if (beyond == 0) continue;
+    for (BodyState& state : states) state.position -= beyond * state.velocity;
+  }
+  return along;
+}
+
+// --- what looks ahead ----------------------------------------------------------------------------
+
+/// Bodies that are in these states at `start` [s].
+std::unique_ptr<LookingSolver> ReferenceSolver::looking(std::span<const BodyState> states,
+                                                        double start, double tolerance,
+                                                        double slowest) const {
+  if (runs_in_phases(scene().hard)) {
+    EventSettings settings;
+    settings.start = start;
+    settings.slowest_rebound = 1e-2 * slowest;  // a cascade of weaker ones would never be it
+    return std::make_unique<EventSolver>(scene().hard, states, settings);
+  }
+  ContactSettings settings;
+  settings.tolerance = tolerance;
+  settings.start = start;
+  return std::make_unique<ContactSolver>(scene(), states, settings);
 }
 
 double ReferenceSolver::first_contact(double limit, double tolerance) const {
-  if (!initial_contacts(scene(), scene().hard.initial).empty()) return 0;
-  if (runs_in_phases(scene().hard))
-    return EventSolver(scene().hard, scene().hard.initial).first_contact(limit);
-  ContactSettings settings;
-  settings.tolerance = tolerance;
-  return ContactSolver(scene(), scene().hard.initial, settings).first_contact(limit);
+  const Scene& hard = scene().hard;
+  if (hard.box) return kNever;
+  if (!initial_contacts(scene(), hard.initial).empty()) return 0;
+  return looking(hard.initial, 0, tolerance)->first_contact(limit);
+}
+
+double ReferenceSolver::next_collision(std::span<const BodyState> states, double start,
+                                       double limit, double slowest) const {
+  constexpr double kTolerance = 1e-8;  // engines are further off
+  return looking(states, start, kTolerance, slowest)->next_collision(limit, slowest);
 }
 
 std::vector<BodyState> ReferenceSolver::states_at(double time) const {
   const Scene& hard = scene().hard;
   if (time == 0) return hard.initial;
-  const RunEnd end{Run::Until::time, time, time};
-  if (runs_in_phases(hard) && initial_contacts(scene(), hard.initial).empty()) {
-    EventSolver solver(hard, hard.initial);
-    solver.run(end, nullptr);
-    return solver.states();
-  }
-  ContactSolver solver(scene(), hard.initial);
-  solver.run(end, nullptr);
-  return solver.states();
-}
-
-namespace {
-
-template <class Solver>
-std::vector<std::vector<BodyState>> walk(Solver solver, std::span<const double> times) {
-  std::vector<std::vector<BodyState>> states;
-  states.reserve(times.size());
-  for (const double time : times) {
-    if (!solver.run({Run::Until::time, time, time}, nullptr).reached) break;
-    states.push_back(solver.states());
-  }
-  return states;
-}
-
-/// Between two steps on straight lines: the error is that of half a step of acceleration.
-std::vector<std::vector<BodyState>> walk_in_steps(StepSolver solver,
-                                                  std::span<const double> times) {
-  std::vector<std::vector<BodyState>> states;
-  states.reserve(times.size());
-  for (const double time : times) {
-    solver.run({Run::Until::time, time, time}, nullptr);
-    states.push_back(solver.states());
-    for (BodyState& state : states.back()) state.position -= (solver.now() - time) * state.velocity;
-  }
-  return states;
-}
-
-}  // namespace
-
-std::vector<std::vector<BodyState>> ReferenceSolver::states_along(
-    std::span<const double> times) const {
-  const std::vector<BodyState>& initial = scene().hard.initial;
-  if (phases_) return walk(EventSolver(scene().hard, initial, event_settings()), times);
-  if (is_stepped())
-    return walk_in_steps(
-        StepSolver(scene(), initial, {.step = step_, .general = settings_.general}), times);
-  return walk(ContactSolver(scene(), initial), times);
-}
-
-double ReferenceSolver::next_collision(std::span<const BodyState> states, double start,
-                                       double limit, double slowest) const {
-  if (runs_in_phases(scene().hard)) {
-    EventSettings settings;
-    settings.start = start;
-    settings.slowest_rebound = 1e-2 * slowest;  // a cascade of weaker ones would never be it
-    return EventSolver(scene().hard, states, settings).next_collision(limit, slowest);
-  }
-  ContactSettings settings;
-  settings.tolerance = 1e-8;  // engines are further off
-  settings.start = start;
-  return ContactSolver(scene(), states, settings).next_collision(limit, slowest);
+  std::unique_ptr<Solver> solver;
+  if (hard.box)
+    solver = at_start(scene(), {}, {});
+  else if (initial_contacts(scene(), hard.initial).empty())
+    solver = looking(hard.initial, 0, SolverAccuracy{}.tolerance);
+  else
+    solver = std::make_unique<ContactSolver>(scene(), hard.initial);
+  solver->run(until_time(time), nullptr);
+  return solver->states();
 }
 
 }  // namespace slipcheck

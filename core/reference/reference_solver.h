@@ -1,28 +1,16 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "reference/events/event_solver.h"
-#include "reference/forces/contact_solver.h"
 #include "reference/reference_settings.h"
+#include "reference/solver.h"
+#include "scene/contact_scene.h"
 
 namespace slipcheck {
-
-/// A reference run in numbers, whichever solver made it.
-struct SolvedRun {
-  double end_time = 0;                   ///< [s]
-  bool reached = false;                  ///< what RunEnd::until asks for
-  bool failed = false;                   ///< the integrator gave up
-  std::string reason;                    ///< why not reached
-  std::size_t events = 0;                ///< collisions, landings and changes of mode
-  std::size_t collisions = 0;            ///< of two bodies
-  std::size_t collapses = 0;             ///< of these, the ones that the rule for collapse changed
-  std::size_t steps = 0;                 ///< of the integrator; 0 where phases are exact
-  std::optional<EnergyBalance> balance;  ///< where the solver keeps one
-};
 
 /// How finely a run is made; a second run with other numbers tells the uncertainty.
 struct SolverAccuracy {
@@ -39,9 +27,9 @@ struct SolverAccuracy {
 /// event: hard contacts, phases from event to event (EventSolver): exact on a level, still
 /// substrate, to DrivenPhase's bound for many bodies on others. Few bodies on a tilted or moving
 /// substrate have their phases integrated (ContactSolver), as do laws without phases; collisions
-/// are instants.
-/// contact: soft contacts resolved in time, to a tolerance; `automatic` takes it also for hard
-/// ones where bodies stay in contact (has_lasting_contacts()).
+/// are instants. In a box: PlanarSolver.
+/// contact: soft contacts resolved in time, to a tolerance (ContactSolver, in a box SoftBoxSolver);
+/// `automatic` takes it also for hard ones where bodies stay in contact (has_lasting_contacts()).
 /// steps: the same in steps of fixed length (StepSolver); for scenes of so many bodies that
 /// `contact` would not come to an end, which `automatic` leaves to it.
 class ReferenceSolver {
@@ -60,7 +48,7 @@ class ReferenceSolver {
   /// What the loop that runs the scene was made for, in a few words each.
   std::vector<std::string> loop() const;
   /// Contacts that last are taken as instants: `event` was asked for.
-  bool hardens() const { return made_ && !resolved_; }
+  bool hardens() const { return !resolved_ && !scene_->is_hard(); }
   /// Hard contacts are taken as short ones that last (lasting_contacts.h), as bodies stay in
   /// contact: so long is a collision [s], else 0.
   double softened_to() const { return made_ && resolved_ ? collision_time_ : 0; }
@@ -68,28 +56,34 @@ class ReferenceSolver {
 
   SolvedRun run(const RunEnd& end, FrameSink* sink, const SolverAccuracy& accuracy = {}) const;
   /// The time [s] of the first contact of two bodies or landing, or infinity where none comes
-  /// before `limit` [s].
+  /// before `limit` [s], and in a box.
   double first_contact(double limit, double tolerance = SolverAccuracy{}.tolerance) const;
   /// All bodies at a time before the first contact [s].
   std::vector<BodyState> states_at(double time) const;
   /// All bodies at these times [s], rising and >= 0; `states[k][i]`. Where the integrator gives up
   /// or a cascade of collisions never ends, the times that it did not come to are missing.
-  std::vector<std::vector<BodyState>> states_along(std::span<const double> times) const;
+  std::vector<std::vector<BodyState>> states_along(
+      std::span<const double> times, double tolerance = SolverAccuracy{}.tolerance) const;
   /// When two bodies next meet at `slowest` [m/s] or faster, if they are in `states` at `start`
   /// [s]; infinity where not before `limit` [s].
   double next_collision(std::span<const BodyState> states, double start, double limit,
                         double slowest) const;
 
  private:
-  EventSettings event_settings() const;
+  void choose_in_box();
+  void choose_on_plane();
+  double step_to(const RunEnd& end, double factor) const;
+  std::unique_ptr<Solver> at_start(const ContactScene& scene, const SolverAccuracy& accuracy,
+                                   const RunEnd& end) const;
+  std::unique_ptr<LookingSolver> looking(std::span<const BodyState> states, double start,
+                                         double tolerance, double slowest = 0) const;
   SolvedRun run_varied(const RunEnd& end, FrameSink* sink, SolverAccuracy accuracy) const;
-  SolvedRun run_steps(const RunEnd& end, FrameSink* sink, double factor) const;
 
   const ContactScene* scene_;
   /// In place of the scene: its soft contacts hard, as event was asked for, or its hard ones soft.
   std::optional<ContactScene> made_;
   ReferenceSettings settings_;
-  bool resolved_, phases_;
+  bool resolved_ = false, phases_ = false;
   double step_ = 0;            ///< [s]
   double collision_time_ = 0;  ///< of made_, where its contacts last [s]
 };

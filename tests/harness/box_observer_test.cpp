@@ -158,20 +158,17 @@ TEST(BoxObserver, ANewTouchOfTwoBodiesIsACollision) {
   EXPECT_NEAR(observer.series().collision_rate[1], 3 / 0.01, 1e-9);
 }
 
-TEST(BoxObserver, ASolverThatCountsIsAsked) {
+TEST(BoxObserver, FramesThatCountCollisionsAreBelieved) {
   const Scene scene = box_scene(1, 10 * kDiameter);
-  std::uint64_t count = 1000;
-  BoxObserver observer(scene, {}, [&] { return count; });
+  BoxObserver observer(scene, {});
+  Frame frame = frame_of(1e-3);
+  frame.collisions = 1000;
   for (int n = 0; n <= 64; ++n) {
-    observer.take(n / 100.0, frame_of(1e-3));
-    count += n % 2 == 0 ? 3 : 5;
+    observer.take(n / 100.0, frame);
+    *frame.collisions += n % 2 == 0 ? 3 : 5;
   }
-  const BoxObservables seen = observer.finish(1e-13, 2e-14);
   // 32 intervals of 3 and 32 of 5 in 0.01 s each.
-  EXPECT_NEAR(seen.collision_rate.mean, 400, 1e-9);
-  EXPECT_EQ(seen.energy_drift, 1e-13);
-  EXPECT_EQ(seen.momentum_drift, 2e-14);
-  EXPECT_TRUE(std::isnan(observer.finish().energy_drift));
+  EXPECT_NEAR(observer.finish().collision_rate.mean, 400, 1e-9);
 }
 
 TEST(BoxObserver, ALateStartBeginsWithTheNextPhaseZero) {

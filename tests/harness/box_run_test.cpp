@@ -1,5 +1,3 @@
-#include "harness/run/box_run.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 
 #include "engine/engine_registry.h"
 #include "engine/remote_engine.h"
+#include "harness/run/box_reference.h"
 #include "harness/run/scene_run.h"
 #include "scenario/load.h"
 
@@ -57,7 +56,7 @@ compare:
 ReferenceResult run_reference_of(const std::string& text) {
   const Scenario scenario = parse_scenario(text, "box.yaml");
   const ContactScene scene = make_contact_scene(scenario);
-  return run_box_reference(BoxSolver(scene, reference_settings(scenario)), scenario);
+  return run_box_reference(ReferenceSolver(scene, reference_settings(scenario)), scenario);
 }
 
 std::vector<EngineRecord> run_engines(const std::string& text, std::size_t phases) {
@@ -129,12 +128,11 @@ class Sums final : public FrameSink {
 TEST(BoxRun, ItsMeansAreThoseOfTheFramesAtPhaseZero) {
   const Scenario scenario = parse_scenario(shaken_box(50, 100), "box.yaml");
   const ContactScene scene = make_contact_scene(scenario);
-  const BoxSolver solver(scene, reference_settings(scenario));
+  const ReferenceSolver solver(scene, reference_settings(scenario));
   const ReferenceResult result = run_box_reference(solver, scenario);
 
   Sums sums(scene.hard, 0.205);  // the look after 20 periods of 10 ms only begins the count
-  std::uint64_t collisions = 0;
-  solver.run({Run::Until::time, 1, 1}, 0.01, &sums, &collisions);
+  const std::size_t collisions = solver.run(until_time(1, 0.01), &sums).collisions;
   EXPECT_EQ(sums.looks, 80);
   EXPECT_EQ(result.box->samples, 80u);
   EXPECT_EQ(result.box->discarded, 20u);

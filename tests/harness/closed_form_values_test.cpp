@@ -71,11 +71,11 @@ TEST(ClosedFormValues, StayAwayFromWhatTheyDoNotCover) {
 
 TEST(ClosedFormValues, AreNotShownWhereTheRunEndsBeforeThePairMeets) {
   const Scene scene = test::head_on(0.15, -0.15, 0.9);
-  const ReferenceResult before = test::run_hard(scene, {Run::Until::time, 0.01, 0.01}, kNames);
+  const ReferenceResult before = test::run_hard(scene, until_time(0.01), kNames);
   EXPECT_EQ(before.run.collisions, 0u);
   EXPECT_TRUE(before.closed_form.empty());
   // Met, but still sliding: only what has been seen by then.
-  const ReferenceResult sliding = test::run_hard(scene, {Run::Until::time, 0.03, 0.03}, kNames);
+  const ReferenceResult sliding = test::run_hard(scene, until_time(0.03), kNames);
   EXPECT_EQ(sliding.closed_form.count("i-j.restitution"), 1u);
   EXPECT_EQ(sliding.closed_form.count("i.sliding_time"), 0u);
 }

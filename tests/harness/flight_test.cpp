@@ -16,8 +16,7 @@ namespace {
 using Named = std::map<std::string, UncertainValue>;
 
 Named reference(const ContactScene& scene, Compare::Reference solver, double end) {
-  return run_reference(ReferenceSolver(scene, solver), {Run::Until::time, end, end}, {"i", "j"})
-      .observables;
+  return run_reference(ReferenceSolver(scene, solver), until_time(end), {"i", "j"}).observables;
 }
 
 /// A ball that spins backwards strikes one at rest and lifts it, or itself, by rubbing, after

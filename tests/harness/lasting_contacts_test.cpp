@@ -11,8 +11,6 @@
 namespace slipcheck {
 namespace {
 
-RunEnd until(double time) { return {Run::Until::time, time, time}; }
-
 const UncertainValue& of(const ReferenceResult& result, const std::string& name) {
   return result.observables.at(name);
 }
@@ -50,7 +48,7 @@ TEST(LastingContacts, APyramidStandsAsStaticsSays) {
   const double tan_half = std::tan(0.5 * std::asin(1 / std::sqrt(3.0)));
   ASSERT_LT(tan_half, 0.5);
   const Scene scene = pyramid(0.5);
-  const ReferenceResult stands = test::run_hard(scene, until(0.5), {"a", "b", "c", "top"});
+  const ReferenceResult stands = test::run_hard(scene, until_time(0.5), {"a", "b", "c", "top"});
   EXPECT_EQ(stands.solver, "contact");
   ASSERT_TRUE(stands.run.reached) << stands.run.reason;
   const double R = scene.bodies[0].radius;
@@ -60,7 +58,8 @@ TEST(LastingContacts, APyramidStandsAsStaticsSays) {
   EXPECT_LT(z.uncertainty, 1e-2 * R);
   // Below that angle's friction it falls, and how it then goes on is not decided.
   ASSERT_GT(tan_half, 0.1);
-  const ReferenceResult falls = test::run_hard(pyramid(0.1), until(0.5), {"a", "b", "c", "top"});
+  const ReferenceResult falls =
+      test::run_hard(pyramid(0.1), until_time(0.5), {"a", "b", "c", "top"});
   EXPECT_FALSE(falls.run.reached);
   EXPECT_NE(falls.run.reason.find("come apart"), std::string::npos) << falls.run.reason;
 }
@@ -72,7 +71,7 @@ TEST(LastingContacts, PairThatDoesNotReboundIsPressedTogetherUntilItsSpinsAreSpe
   const double meeting = (0.01 - 0.004) / (2 * v), spent = v / push;
   const Scene scene = test::head_on(v, -v, 0);
   const double half = 0.5 * spent;
-  const ReferenceResult pressed = test::run_hard(scene, until(meeting + half), {"i", "j"});
+  const ReferenceResult pressed = test::run_hard(scene, until_time(meeting + half), {"i", "j"});
   EXPECT_EQ(pressed.solver, "contact");
   EXPECT_EQ(pressed.run.collisions, 1u);
   // Integrated to 1e-13, with the digits of places of 1e-2 m in the time of the meeting.
@@ -100,7 +99,7 @@ TEST(LastingContacts, ALineThatDoesNotReboundGoesOnWithTheMomentumOfOne) {
   for (std::size_t k = 0; k < 4; ++k)
     scene.initial[k].position.x() = 0.0044 * static_cast<double>(k);
   scene.initial[0].velocity.x() = v;
-  const ReferenceResult result = test::run_hard(scene, until(end), {"a", "b", "c", "d"});
+  const ReferenceResult result = test::run_hard(scene, until_time(end), {"a", "b", "c", "d"});
   ASSERT_TRUE(result.run.reached) << result.run.reason;
   for (const char* name : {"a", "b", "c", "d"})
     EXPECT_NEAR(of(result, std::string(name) + ".final_velocity.x").value, v / 4,
@@ -111,7 +110,7 @@ TEST(LastingContacts, ALineThatDoesNotReboundGoesOnWithTheMomentumOfOne) {
 TEST(LastingContacts, AStateThatIsNoNumberFailsTheRunByName) {
   Scene scene = test::head_on(0.1, -0.1, 0.9);
   scene.initial[1].angular_velocity.z() = std::numeric_limits<double>::quiet_NaN();
-  const ReferenceResult result = test::run_hard(scene, until(0.01), {"i", "j"});
+  const ReferenceResult result = test::run_hard(scene, until_time(0.01), {"i", "j"});
   EXPECT_TRUE(result.run.failed);
   EXPECT_FALSE(result.run.reached);
   EXPECT_NE(result.run.reason.find("the state of body 1 is not finite"), std::string::npos)

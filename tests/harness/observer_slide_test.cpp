@@ -139,7 +139,7 @@ class Thrown {
     double falls = 0;
     for (int n = 0; n * h < 2; ++n) {
       ended = start + n * h;
-      solver.run({Run::Until::time, ended, ended}, nullptr);
+      solver.run(until_time(ended), nullptr);
       frame.bodies = solver.states();
       const BodyState& now = frame.bodies[0];
       const bool lies = now.position.z() <= kR * (1 + 1e-12);

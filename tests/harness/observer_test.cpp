@@ -27,7 +27,7 @@ Observables sampled(const Scene& scene, double step, double end) {
   for (int n = 1; n * step <= end; ++n) {
     const double t = n * step;
     EventSolver solver(scene, scene.initial);
-    const EventRun run = solver.run({Run::Until::time, t, t}, nullptr);
+    const SolvedRun run = solver.run(until_time(t), nullptr);
     Frame frame = on_plane(solver.states());
     if (run.collisions > 0 && !collided) frame.touches.push_back({0, 1, 1e-3});
     collided = run.collisions > 0;
@@ -77,7 +77,7 @@ TEST(Observer, SeesTheSameCollisionInStepsAndAtEvents) {
   const Scene scene = test::head_on(0.2, -0.1, 0.9);
   EventSolver solver(scene, scene.initial);
   Observer exact(scene, 0, 0.2);
-  const EventRun run = solver.run({Run::Until::rolling, 0, 1}, &exact);
+  const SolvedRun run = solver.run({Run::Until::rolling, 0, 1}, &exact);
   const Observables truth = exact.finish(run.end_time);
   EXPECT_NEAR(truth.pairs[0].restitution, 0.9, 1e-14);
   EXPECT_NEAR(truth.pairs[0].effective_restitution, (2.5 * 0.9 - 1) / 3.5, 1e-14);
@@ -119,7 +119,7 @@ TEST(Observer, JumpHasTheBallisticHeightAndTime) {
   scene.pairs[0].tangential_restitution = 0;
   EventSolver solver(scene, scene.initial);
   Observer observer(scene, 0, 0.3);
-  const EventRun run = solver.run({Run::Until::rolling, 0, 1}, &observer);
+  const SolvedRun run = solver.run({Run::Until::rolling, 0, 1}, &observer);
   const Observables seen = observer.finish(run.end_time);
   const BodyObservables& striker = seen.bodies[0];
   const double lift = 0.05 * 1.9 * 0.3 / 2;  // μ (1 + e) v/2
@@ -135,7 +135,7 @@ TEST(Observer, ABounceIsAJumpWithTheHeightOfItsSpeed) {
   scene.initial[0].position.z() = 0.002 + 0.05;
   EventSolver solver(scene, scene.initial);
   Observer observer(scene, 0, speed_scale(scene, scene.initial));
-  solver.run({Run::Until::time, 0.3, 0.3}, &observer);
+  solver.run(until_time(0.3), &observer);
   const Observables seen = observer.finish(0.3);
   const double rebound = 0.8 * std::sqrt(2 * 9.81 * 0.05);
   EXPECT_NEAR(seen.bodies[0].lift_off_speed, rebound, 1e-14);
@@ -152,7 +152,7 @@ TEST(Observer, EffectiveRestitutionOfACollisionThatAnotherInterruptsIsNotObserve
                    test::rolling_at(0.006, 0, 0, 0)};
   EventSolver solver(scene, scene.initial);
   Observer observer(scene, 0, 0.2);
-  const EventRun run = solver.run({Run::Until::rolling, 0, 10}, &observer);
+  const SolvedRun run = solver.run({Run::Until::rolling, 0, 10}, &observer);
   const Observables seen = observer.finish(run.end_time);
   ASSERT_EQ(seen.pairs.size(), 2u);
   EXPECT_EQ(seen.pairs[1].first, 1);
@@ -167,7 +167,7 @@ TEST(Observer, EffectiveRestitutionIsNegativeWhereSpinsDriveThePairTogetherAgain
     const Scene scene = test::head_on(0.15, -0.15, e_n);
     EventSolver solver(scene, scene.initial);
     Observer observer(scene, 0, 0.15);
-    const EventRun run = solver.run({Run::Until::rolling, 0, 5}, &observer);
+    const SolvedRun run = solver.run({Run::Until::rolling, 0, 5}, &observer);
     EXPECT_TRUE(run.reached);
     return observer.finish(run.end_time).pairs.at(0).effective_restitution;
   };

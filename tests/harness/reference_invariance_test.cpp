@@ -98,7 +98,7 @@ TEST(ReferenceInvariance, AStrangerDoesNotChangeAPair) {
 TEST(ReferenceInvariance, ALaterLimitCostsNothing) {
   Scene scene = test::steel_scene(1);
   scene.motion = SubstrateMotion::oscillation({0.01, 0}, 5, M_PI / 2);
-  const RunEnd soon{Run::Until::time, 1, 1}, late{Run::Until::time, 1, 1e9};
+  const RunEnd soon = until_time(1), late{Run::Until::time, 1, 1e9};
   const ReferenceResult one = test::run_hard(scene, soon, {"i"});
   const ReferenceResult other = test::run_hard(scene, late, {"i"});
   EXPECT_EQ(one.run.steps, other.run.steps);

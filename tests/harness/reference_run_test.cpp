@@ -63,7 +63,7 @@ TEST(ReferenceRun, ANaNIsAFailureAndNotNothing) {
   Scene scene = test::steel_scene(1);
   scene.initial[0] = test::rolling_at(0, 0, 0, 0);
   scene.initial[0].angular_velocity.z() = std::sqrt(-scene.gravity);
-  const ReferenceResult result = test::run_hard(scene, {Run::Until::time, 1, 1}, {"i"});
+  const ReferenceResult result = test::run_hard(scene, until_time(1), {"i"});
   EXPECT_TRUE(result.run.failed);
   EXPECT_FALSE(result.run.reached);
   EXPECT_EQ(result.run.reason, "the state of body 0 is not finite at 1 s");

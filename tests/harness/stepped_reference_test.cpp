@@ -7,7 +7,7 @@
 
 #include "harness/run/engine_run.h"
 #include "harness/run/reference_run.h"
-#include "reference/box_solver.h"
+#include "reference/reference_solver.h"
 #include "scenario/load.h"
 
 namespace slipcheck {
@@ -82,7 +82,7 @@ TEST(SteppedReference, IsChosenWhereTheIntegratorWouldNotDo) {
 TEST(SteppedReference, BoxesHaveNone) {
   const Scenario scenario = bundled("box-viscoelastic");
   const ContactScene scene = make_contact_scene(scenario);
-  EXPECT_THROW(BoxSolver(scene, {.asked = Compare::Reference::steps}), Unsupported);
+  EXPECT_THROW(ReferenceSolver(scene, {.asked = Compare::Reference::steps}), Unsupported);
 }
 
 /// 7 phases on 3 workers and on one: the same phases in the same order, each once.

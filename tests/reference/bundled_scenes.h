@@ -9,6 +9,7 @@
 
 #include "harness/observe/observer.h"
 #include "harness/run/reference_run.h"
+#include "reference/events/event_solver.h"
 #include "reference/reference_solver.h"
 #include "scenario/load.h"
 

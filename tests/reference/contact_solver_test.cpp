@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "physics/closed_forms.h"
+#include "reference/events/event_solver.h"
 #include "soft_scenes.h"
 
 namespace slipcheck {
 namespace {
 
 constexpr RunEnd kRolling{Run::Until::rolling, 0, 10};
-
-RunEnd until(double t) { return {Run::Until::time, t, t}; }
 
 /// Keeps all frames.
 struct Film final : FrameSink {
@@ -52,7 +51,7 @@ TEST(ContactSolver, K2FreePairPartsWithItsRestitutionAfterItsTime) {
     const ContactScene scene = test::soft(free_pair(0.05, -0.05), 2.55e-5, end);
     ContactSolver solver(scene, scene.hard.initial);
     Film film;
-    const ContactRun run = solver.run(until(0.1), &film);
+    const SolvedRun run = solver.run(until_time(0.1), &film);
     const auto states = solver.states();
     EXPECT_NEAR(states[0].velocity.x(), -0.045, 1e-12);
     EXPECT_NEAR(states[1].velocity.x(), 0.045, 1e-12);
@@ -61,7 +60,7 @@ TEST(ContactSolver, K2FreePairPartsWithItsRestitutionAfterItsTime) {
     double force_ends = film.frames[last].first;
     if (end == ContactEnd::zero_force) force_ends = film.frames[last - 1].first;
     EXPECT_NEAR((force_ends - film.frames[first].first) / 2.55e-5, 1, 1e-10);
-    EXPECT_LT(std::abs(run.balance.error()), 1e-10);
+    EXPECT_LT(std::abs(run.balance->error()), 1e-10);
   }
 }
 
@@ -73,7 +72,7 @@ TEST(ContactSolver, AGapOfRoundOffBetweenBallsAtRestTakesNoTime) {
   for (BodyState& state : hard.initial) state.angular_velocity.setZero();
   const ContactScene scene = test::soft(hard);
   ContactSolver solver(scene, scene.hard.initial);
-  const ContactRun run = solver.run(until(60), nullptr);
+  const SolvedRun run = solver.run(until_time(60), nullptr);
   EXPECT_TRUE(run.reached);
   EXPECT_EQ(run.collisions, 0u);
   EXPECT_LT(run.steps, 1000u);
@@ -92,7 +91,7 @@ TEST(ContactSolver, AGapOfRoundOffBesideBallsThatLeanTakesNoTime) {
       SoftContact{LinearForce{law.stiffness(), law.damping_rate() * hard.bodies[0].mass / 2},
                   ContactEnd::zero_force, NoTangentialForce{}};
   ContactSolver solver(scene, scene.hard.initial);
-  const ContactRun run = solver.run(until(0.1), nullptr);
+  const SolvedRun run = solver.run(until_time(0.1), nullptr);
   EXPECT_TRUE(run.reached);
   const double rest = 3 * radius - hard.bodies[0].mass * hard.gravity / law.stiffness();
   EXPECT_NEAR(solver.states()[2].position.z(), rest, 1e-12);
@@ -103,7 +102,7 @@ TEST(ContactSolver, KClampOnTheDampingOfZeroOverlapGives090203) {
   ContactScene scene = test::soft(free_pair(0.05, -0.05));
   scene.soft[0]->end = ContactEnd::zero_force;
   ContactSolver solver(scene, scene.hard.initial);
-  solver.run(until(0.1), nullptr);
+  solver.run(until_time(0.1), nullptr);
   EXPECT_NEAR(solver.states()[1].velocity.x() / 0.05, 0.90203, 5e-6);
 }
 
@@ -158,7 +157,7 @@ TEST(ContactSolver, K55CappedRubbingTurnsBothBy0113) {
         test::soft(hard, 2.55e-5, ContactEnd::zero_overlap, ViscousForce{half, cap});
     scene.soft[0]->end = end;
     ContactSolver solver(scene, scene.hard.initial);
-    solver.run(until(0.1), nullptr);
+    solver.run(until_time(0.1), nullptr);
     const double before = scene.hard.initial[0].angular_velocity.y();
     const auto after = solver.states();
     // Both turn by the same angle in the same sense.
@@ -216,7 +215,7 @@ TEST(ContactSolver, AGrazeShorterThanAStepIsNotMissed) {
   hard.initial[1].position.x() = 3;
   const ContactScene scene = test::soft(hard, 1e-7);
   ContactSolver solver(scene, scene.hard.initial);
-  const ContactRun run = solver.run(until(6), nullptr);
+  const SolvedRun run = solver.run(until_time(6), nullptr);
   EXPECT_EQ(run.collisions, 1u);
   EXPECT_GT(solver.states()[0].velocity.y(), 1e-4);
 }
@@ -228,7 +227,7 @@ TEST(ContactSolver, KAppFLiftedStrikerFliesAndLands) {
       test::soft(hard, 2.55e-5, ContactEnd::zero_overlap, ViscousForce{4, 0.1});
   ContactSolver solver(scene, scene.hard.initial);
   Film film;
-  const ContactRun run = solver.run(kRolling, &film);
+  const SolvedRun run = solver.run(kRolling, &film);
   ASSERT_TRUE(run.reached) << run.reason;
   const auto [first, last] = film.contact();
   const BodyState& after = film.frames[last].second.bodies[0];
@@ -238,7 +237,7 @@ TEST(ContactSolver, KAppFLiftedStrikerFliesAndLands) {
   bool landed = false;
   for (const auto& [time, frame] : film.frames) landed |= std::abs(time - landing) < 1e-13;
   EXPECT_TRUE(landed);
-  EXPECT_LT(std::abs(run.balance.error()), 1e-10);
+  EXPECT_LT(std::abs(run.balance->error()), 1e-10);
   // The struck one never leaves the plane.
   for (const auto& [time, frame] : film.frames) EXPECT_EQ(frame.bodies[1].position.z(), 0.002);
 }
@@ -252,7 +251,7 @@ TEST(ContactSolver, SpinAboutTheVerticalShearsAnObliqueHit) {
   const ContactScene scene =
       test::soft(hard, 1e-6, ContactEnd::zero_overlap, ViscousForce{1e3, 0.05});
   ContactSolver solver(scene, scene.hard.initial);
-  solver.run(until(0.1), nullptr);
+  solver.run(until_time(0.1), nullptr);
   const auto states = solver.states();
   const double normal = 0.5 * 1.9 * 0.2;  // impulse over mass
   EXPECT_NEAR(states[0].velocity.y(), -0.05 * normal, 1e-3 * normal);
@@ -273,10 +272,10 @@ TEST(ContactSolver, BallsThatComeToRestAgainstEachOtherEndTheRun) {
   ContactScene scene = test::soft(hard);
   scene.soft.assign(4, scene.soft[0]);
   ContactSolver solver(scene, scene.hard.initial);
-  const ContactRun run = solver.run({Run::Until::rest, 0, 20}, nullptr);
+  const SolvedRun run = solver.run({Run::Until::rest, 0, 20}, nullptr);
   EXPECT_TRUE(run.reached) << run.reason;
   for (const BodyState& state : solver.states()) EXPECT_LT(state.velocity.norm(), 1e-9);
-  EXPECT_LT(std::abs(run.balance.error()), 1e-10);
+  EXPECT_LT(std::abs(run.balance->error()), 1e-10);
 }
 
 TEST(ContactSolver, TurnedSceneTurnsItsResult) {

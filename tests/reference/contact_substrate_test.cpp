@@ -14,15 +14,13 @@ namespace {
 
 constexpr double kG = 9.81, kRadius = 0.002;
 
-RunEnd until(double t) { return {Run::Until::time, t, t}; }
-
 BodyState at_rest() { return test::rolling_at(0, 0, 0, 0); }
 
 BodyState state_after(const ContactScene& scene, double time) {
   ContactSolver solver(scene, scene.hard.initial);
-  const ContactRun run = solver.run(until(time), nullptr);
+  const SolvedRun run = solver.run(until_time(time), nullptr);
   EXPECT_TRUE(run.reached) << run.reason;
-  EXPECT_LT(std::abs(run.balance.error()), 1e-10);
+  EXPECT_LT(std::abs(run.balance->error()), 1e-10);
   return solver.states()[0];
 }
 
@@ -97,7 +95,7 @@ TEST(ContactSubstrate, K18SlideAcrossASlopeEndsInRolling) {
     }
   } rolling;
   ContactSolver solver(scene, scene.hard.initial);
-  solver.run(until(1), &rolling);
+  solver.run(until_time(1), &rolling);
   ASSERT_GT(rolling.time, 0.3 / (3.5 * 0.1 * kG));
   const double down = scene.hard.downhill.y();
   // (1+A) v − u at both ends; u is driven by g_∥ once, v too: the difference grows by A g_∥ t.
@@ -135,10 +133,10 @@ TEST(ContactSubstrate, K17BreaksLooseWhereTheSubstratePassesSevenHalvesMuG) {
     void take(double t, const Frame&) override { times.push_back(t); }
   } film;
   ContactSolver solver(scene, scene.hard.initial);
-  const ContactRun run = solver.run(until(0.5), &film);
+  const SolvedRun run = solver.run(until_time(0.5), &film);
   ASSERT_GT(film.times.size(), 3u);
   EXPECT_NEAR(film.times[1], std::asin(1.75 * kG / (amplitude * w * w)) / w, 1e-12);
-  EXPECT_LT(std::abs(run.balance.error()), 1e-10);
+  EXPECT_LT(std::abs(run.balance->error()), 1e-10);
 }
 
 TEST(ContactSubstrate, ABeltThatStartsAtOnceDragsTheBallToTwoSeventhsOfItsSpeed) {
@@ -248,7 +246,7 @@ TEST(ContactSubstrate, CoupledSlidingAndSpinEndTogether) {
   contact.coupled_radius = 4e-4;
   contact.drilling_length = 0.1 * 4e-4 * 2 / 3;
   ContactSolver solver(scene, scene.hard.initial);
-  const ContactRun run = solver.run({Run::Until::rolling, 0, 5}, nullptr);
+  const SolvedRun run = solver.run({Run::Until::rolling, 0, 5}, nullptr);
   ASSERT_TRUE(run.reached) << run.reason;
   EXPECT_GT(std::abs(solver.states()[0].angular_velocity.z()), 1);
   // Once the slip counts as ended the ball rolls at 5/7 of its speed, to that slip.
@@ -261,7 +259,7 @@ TEST(ContactSubstrate, ABouncingBallFollowsTheGeometricSeries) {
   ContactScene scene = test::one_ball(start);
   scene.hard.substrate[0].restitution = 0.5;
   ContactSolver solver(scene, scene.hard.initial);
-  const ContactRun run = solver.run({Run::Until::rest, 0, 5}, nullptr);
+  const SolvedRun run = solver.run({Run::Until::rest, 0, 5}, nullptr);
   ASSERT_TRUE(run.reached) << run.reason;
   // t = √(2h/g) (1 + e)/(1 − e); the bounces below 1e-10 of the speed are cut off.
   EXPECT_NEAR(run.end_time, std::sqrt(2 * 0.05 / kG) * 3, 1e-9);

@@ -15,8 +15,6 @@ namespace {
 const RunEnd kRolling{Run::Until::rolling, 0, 10};
 const RunEnd kRest{Run::Until::rest, 0, 100};
 
-RunEnd until(double time) { return {Run::Until::time, time, time}; }
-
 /// Keeps every frame.
 struct Recorder final : FrameSink {
   void take(double time, const Frame& frame) override {
@@ -32,7 +30,7 @@ TEST(EventSolver, SymmetricPairEndsAsTheClosedFormSays) {
     const Scene scene = test::head_on(0.15, -0.15, e);
     EventSolver solver(scene, scene.initial);
     Recorder seen;
-    const EventRun run = solver.run(kRolling, &seen);
+    const SolvedRun run = solver.run(kRolling, &seen);
     ASSERT_TRUE(run.reached) << run.reason;
     EXPECT_EQ(run.collisions, 1u);
     const double t_collision = (0.01 - 0.004) / 0.3;
@@ -99,7 +97,7 @@ TEST(EventSolver, ObliqueCollisionWithRollingFrictionMatchesSmallSteps) {
   scene.initial = {test::rolling_at(-0.02, 0.001, 0.3, 0), test::rolling_at(0, 0, -0.1, 0.05)};
   const double end = 0.6;
   EventSolver solver(scene, scene.initial);
-  const EventRun run = solver.run(until(end), nullptr);
+  const SolvedRun run = solver.run(until_time(end), nullptr);
   ASSERT_EQ(run.collisions, 1u);
   const std::vector<BodyState> found = solver.states();
   // The steps see the collision up to h late; the line of centres has then turned by up to
@@ -134,8 +132,8 @@ TEST(EventSolver, BallThatStopsShortOfAnotherDoesNotCollide) {
   // It rolls v²/(2 μ_r g) = 0.0917 m of the 0.096 m to the contact.
   scene.initial = {test::rolling_at(-0.1, 0, 0.3, 0), test::rolling_at(0, 0, 0, 0)};
   EventSolver solver(scene, scene.initial);
-  EXPECT_EQ(solver.next_collision(10), kNever);
-  const EventRun run = solver.run(kRest, nullptr);
+  EXPECT_EQ(solver.next_collision(10, 0), kNever);
+  const SolvedRun run = solver.run(kRest, nullptr);
   EXPECT_TRUE(run.reached);
   EXPECT_EQ(run.collisions, 0u);
   EXPECT_NEAR(run.end_time, 0.3 / (0.05 * 9.81), 1e-14);
@@ -147,8 +145,8 @@ TEST(EventSolver, BallThatSlowsDownForEverNeverReachesAnother) {
   scene.substrate[0].rolling = RollingFriction({{0, 0}, {1, 0.05}});
   scene.initial = {test::rolling_at(-0.1, 0, 0.01, 0), test::rolling_at(0, 0, 0, 0)};
   EventSolver solver(scene, scene.initial);
-  EXPECT_EQ(solver.next_collision(1000), kNever);
-  ASSERT_TRUE(solver.run(until(10), nullptr).reached);
+  EXPECT_EQ(solver.next_collision(1000, 0), kNever);
+  ASSERT_TRUE(solver.run(until_time(10), nullptr).reached);
   const double decay = 0.05 * 9.81;
   // Rounding of numbers of order 0.1.
   EXPECT_NEAR(solver.states()[0].position.x(), -0.1 - 0.01 / decay * std::expm1(-10 * decay),
@@ -159,7 +157,7 @@ TEST(EventSolver, RollingRunDoesNotEndBeforeTheLastCollision) {
   // Both roll from the start; they must still meet.
   const Scene scene = test::head_on(0.01, -0.01, 0.9, 0.5);
   EventSolver solver(scene, scene.initial);
-  EXPECT_NEAR(solver.next_collision(1000), (1 - 0.004) / 0.02, 1e-10);
+  EXPECT_NEAR(solver.next_collision(1000, 0), (1 - 0.004) / 0.02, 1e-10);
   RunEnd end = kRolling;
   end.limit = 1000;
   EXPECT_EQ(solver.run(end, nullptr).collisions, 1u);
@@ -170,7 +168,7 @@ TEST(EventSolver, RunThatCannotEndSaysWhy) {
   scene.substrate[0].kinetic_friction = 0;
   scene.initial[0].velocity.x() = 1;
   EventSolver solver(scene, scene.initial);
-  const EventRun run = solver.run(kRolling, nullptr);
+  const SolvedRun run = solver.run(kRolling, nullptr);
   EXPECT_FALSE(run.reached);
   EXPECT_EQ(run.reason, "a body still slides or flies, or collides again, at the limit");
   EXPECT_EQ(run.end_time, 10);
@@ -179,10 +177,10 @@ TEST(EventSolver, RunThatCannotEndSaysWhy) {
 TEST(EventSolver, ZeroLengthRunAndRunToATime) {
   const Scene scene = test::head_on(0.15, -0.15, 0.9);
   EventSolver at_once(scene, scene.initial);
-  EXPECT_TRUE(at_once.run(until(0), nullptr).reached);
+  EXPECT_TRUE(at_once.run(until_time(0), nullptr).reached);
   EXPECT_EQ(at_once.states()[0].position.x(), -0.005);
   EventSolver later(scene, scene.initial);
-  later.run(until(0.01), nullptr);
+  later.run(until_time(0.01), nullptr);
   EXPECT_DOUBLE_EQ(later.states()[0].position.x(), -0.005 + 0.0015);
 }
 
@@ -190,7 +188,7 @@ TEST(EventSolver, InelasticCollapseEndsAndIsCounted) {
   // e_n < 1/A: the spins drive the balls together again and again.
   const Scene scene = test::head_on(0.15, -0.15, 0.2);
   EventSolver solver(scene, scene.initial);
-  const EventRun run = solver.run(kRolling, nullptr);
+  const SolvedRun run = solver.run(kRolling, nullptr);
   EXPECT_TRUE(run.reached) << run.reason;
   EXPECT_GT(run.collapses, 0u);
   // Momentum is zero and the spins are spent: both end at rest, up to the collapse speed.
@@ -206,7 +204,7 @@ TEST(EventSolver, EventLimitIsAnErrorNotALoop) {
   settings.collapse_fraction = 0;
   settings.burst = 100;
   EventSolver solver(scene, scene.initial, settings);
-  const EventRun run = solver.run(kRolling, nullptr);
+  const SolvedRun run = solver.run(kRolling, nullptr);
   EXPECT_FALSE(run.reached);
   EXPECT_EQ(run.reason,
             "more than 1e+07 events for each body and second at 0.02 s: inelastic collapse; "
@@ -218,7 +216,7 @@ TEST(EventSolver, BouncingBallFollowsTheGeometricSeries) {
   scene.substrate[0].restitution = 0.5;
   scene.initial[0].position.z() = 0.002 + 0.1;
   EventSolver solver(scene, scene.initial);
-  const EventRun run = solver.run(kRest, nullptr);
+  const SolvedRun run = solver.run(kRest, nullptr);
   ASSERT_TRUE(run.reached);
   // t = sqrt(2h/g) (1 + 2 Σ e^n) = sqrt(2h/g) (1 + e)/(1 − e); the bounces that the cut-off drops
   // last 1e-10 of it.

@@ -84,10 +84,10 @@ TEST_P(GrainLaws, StepsAsStepSolverDoes) {
     grains.advance(count);
     // What begins now is counted with the next step, by StepSolver with the last one.
     const double t = static_cast<double>(n) * kStep;
-    const std::size_t collisions = steps.run(until(t - kStep), nullptr).collisions;
-    ASSERT_EQ(steps.run(until(t), nullptr).steps, n);
+    const std::size_t collisions = steps.run(until_time(t - kStep), nullptr).collisions;
+    ASSERT_EQ(steps.run(until_time(t), nullptr).steps, n);
     grains.show(frame);
-    beside.run(until(t), nullptr);
+    beside.run(until_time(t), nullptr);
     EXPECT_LT(largest_difference(frame.bodies, steps.states()),
               3 * largest_difference(beside.states(), steps.states()))
         << n;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "physics/contact/elastic_pair.h"
+#include "reference/forces/contact_solver.h"
 #include "reference/reference_solver.h"
 #include "reference/steps/step_solver.h"
 #include "soft_scenes.h"
@@ -19,8 +20,6 @@ namespace {
 constexpr double kR = 0.002;
 /// What the integration leaves of a balance: 1e-13 in each of some hundred steps.
 constexpr double kBalance = 1e-10;
-
-RunEnd until(double t) { return {Run::Until::time, t, t}; }
 
 /// When two bodies were last in contact, and how fast they parted then.
 struct LastTouch final : FrameSink {
@@ -63,7 +62,7 @@ TEST(InitialContacts, AnUndampedSpringPartsThemInAQuarterPeriod) {
     const ContactScene scene = test::soft(row(2, overlap), t_col);
     ContactSolver solver(scene, scene.hard.initial);
     LastTouch touch;
-    const ContactRun run = solver.run(until(0.01), &touch);
+    const SolvedRun run = solver.run(until_time(0.01), &touch);
     // The distance of the centres knows an overlap to 1e-16 of itself.
     const double known = 1e-11 + 1e-15 * kR / overlap;
     EXPECT_EQ(run.collisions, 1u);
@@ -71,7 +70,7 @@ TEST(InitialContacts, AnUndampedSpringPartsThemInAQuarterPeriod) {
     EXPECT_NEAR(touch.speed / (omega0 * overlap), 1, known);
     EXPECT_NEAR(solver.states()[0].velocity.x() / (-0.5 * omega0 * overlap), 1, known);
     EXPECT_NEAR(solver.states()[1].velocity.x() / (0.5 * omega0 * overlap), 1, known);
-    EXPECT_LT(std::abs(run.balance.error()), kBalance);
+    EXPECT_LT(std::abs(run.balance->error()), kBalance);
   }
 }
 
@@ -96,20 +95,20 @@ TEST(InitialContacts, ADampedSpringFollowsItsClosedForm) {
     const double no_overlap = (M_PI - std::atan(2 * omega / gamma)) / omega;
     for (const double part : {0.1, 0.5, 0.9}) {
       ContactSolver solver(scene, scene.hard.initial);
-      solver.run(until(part * no_force), nullptr);
+      solver.run(until_time(part * no_force), nullptr);
       EXPECT_NEAR(overlap_now(solver) / overlap, left(part * no_force) / overlap, 1e-11);
     }
     ContactSolver solver(scene, scene.hard.initial);
     LastTouch touch;
-    const ContactRun run = solver.run(until(0.01), &touch);
+    const SolvedRun run = solver.run(until_time(0.01), &touch);
     const bool clamped = end == ContactEnd::zero_force;
     const double parted = speed(clamped ? no_force : no_overlap);
     EXPECT_NEAR(touch.speed / parted, 1, 1e-10);
     // Free after the force has gone, until no overlap is left.
     const double last = clamped ? no_force + left(no_force) / parted : no_overlap;
     EXPECT_NEAR(touch.time / last, 1, 1e-10);
-    EXPECT_LT(std::abs(run.balance.error()), kBalance);
-    EXPECT_GT(run.balance.dissipated, 0);
+    EXPECT_LT(std::abs(run.balance->error()), kBalance);
+    EXPECT_GT(run.balance->dissipated, 0);
   }
 }
 
@@ -119,13 +118,13 @@ TEST(InitialContacts, HertzGivesBackTwoFifthsOfKTimesTheOverlapToFiveHalves) {
   const ContactScene scene = with_law(hard, HertzForce{rho});
   ContactSolver solver(scene, hard.initial);
   LastTouch touch;
-  const ContactRun run = solver.run(until(0.01), &touch);
+  const SolvedRun run = solver.run(until_time(0.01), &touch);
   const double energy = 0.4 * rho * std::pow(overlap, 2.5);
   const double speed = std::sqrt(2 * energy / (hard.bodies[0].mass / 2));
-  EXPECT_NEAR(run.balance.initial / energy, 1, 1e-12);
+  EXPECT_NEAR(run.balance->initial / energy, 1, 1e-12);
   EXPECT_NEAR(touch.speed / speed, 1, 1e-10);
   EXPECT_NEAR(touch.time / (hertz_duration(hard.bodies[0].mass / 2, rho, speed) / 2), 1, 1e-10);
-  EXPECT_LT(std::abs(run.balance.error()), kBalance);
+  EXPECT_LT(std::abs(run.balance->error()), kBalance);
 }
 
 TEST(InitialContacts, WithoutGravityNothingElseSetsAScale) {
@@ -133,9 +132,9 @@ TEST(InitialContacts, WithoutGravityNothingElseSetsAScale) {
   hard.gravity = 0;
   const ContactScene scene = test::soft(hard, 1e-3);
   ContactSolver solver(scene, hard.initial);
-  const ContactRun run = solver.run(until(0.01), nullptr);
+  const SolvedRun run = solver.run(until_time(0.01), nullptr);
   EXPECT_NEAR(solver.states()[1].velocity.x() / (0.25 * M_PI * kR / 1e-3), 1, 1e-11);
-  EXPECT_LT(std::abs(run.balance.error()), kBalance);
+  EXPECT_LT(std::abs(run.balance->error()), kBalance);
   EXPECT_NEAR(speed_scale(scene), 0.5 * M_PI * kR / 1e-3, 1e-12);
 }
 
@@ -149,10 +148,10 @@ TEST(InitialContacts, ThrownUpwardsTheyFallAgain) {
   const double omega = std::sqrt(k / m), rest = m * hard.gravity / k;
   const double t = std::acos(-rest / (overlap - rest)) / omega;
   const double v = omega * (overlap - rest) * std::sin(omega * t);
-  const ContactRun run = solver.run(until(t + v / hard.gravity), nullptr);
+  const SolvedRun run = solver.run(until_time(t + v / hard.gravity), nullptr);
   EXPECT_NEAR(solver.states()[1].position.z() / (3 * kR + v * v / (2 * hard.gravity)), 1, 1e-11);
   EXPECT_EQ(solver.states()[0].position.z(), kR);
-  EXPECT_LT(std::abs(run.balance.error()), kBalance);
+  EXPECT_LT(std::abs(run.balance->error()), kBalance);
 }
 
 TEST(InitialContacts, RollingFrictionHoldsWhatPressesLess) {
@@ -165,13 +164,13 @@ TEST(InitialContacts, RollingFrictionHoldsWhatPressesLess) {
   for (const double share : {0.99, 1.01}) {
     const ContactScene scene = with_law(hard, LinearForce{share * held / (0.1 * kR), 0});
     ContactSolver solver(scene, hard.initial);
-    const ContactRun run = solver.run({Run::Until::rest, 0, 20}, nullptr);
+    const SolvedRun run = solver.run({Run::Until::rest, 0, 20}, nullptr);
     EXPECT_TRUE(run.reached) << run.reason;
     EXPECT_EQ(run.end_time == 0, share < 1);
     if (share < 1) {
       EXPECT_EQ(solver.states()[1].position, hard.initial[1].position);
     }
-    EXPECT_LT(std::abs(run.balance.error()), kBalance);
+    EXPECT_LT(std::abs(run.balance->error()), kBalance);
   }
 }
 
@@ -200,9 +199,9 @@ TEST(InitialContacts, ManyOnRoughStillTiltedAndMovingPlanes) {
         const ContactScene scene = with_law(hard, normal, tangential);
         ASSERT_GE(initial_contacts(scene, hard.initial).size(), 4u);
         ContactSolver solver(scene, hard.initial);
-        const ContactRun run = solver.run(until(0.02), nullptr);
+        const SolvedRun run = solver.run(until_time(0.02), nullptr);
         EXPECT_TRUE(run.reached) << run.reason;
-        EXPECT_LT(std::abs(run.balance.error()), 5 * kBalance)
+        EXPECT_LT(std::abs(run.balance->error()), 5 * kBalance)
             << "plane " << plane << ", normal " << normal.index() << ", tangential "
             << tangential.index();
       }
@@ -236,7 +235,7 @@ TEST(InitialContacts, TheFixedStepSolverAgreesToSecondOrder) {
   double last = 0;
   for (const double h : {1e-5, 0.5e-5, 0.25e-5}) {
     StepSolver solver(scene, scene.hard.initial, {h});
-    solver.run(until(0.4 * t_col), nullptr);
+    solver.run(until_time(0.4 * t_col), nullptr);
     // Before they part: v = ω0 ξ0/2 sin ω0 t.
     const double off = std::abs(solver.states()[1].velocity.x() - speed * std::sin(0.4 * M_PI));
     EXPECT_LT(off, 1e-3 * speed);

@@ -58,7 +58,7 @@ TEST(ManyBodies, FrictionlessElasticGasConservesMomentumAndEnergyWithoutOverlap)
   const Scene scene = cloud(6, 0, 1, 1);
   EventSolver solver(scene, scene.initial);
   OverlapWatch watch(scene);
-  const EventRun run = solver.run({Run::Until::time, 0.5, 0.5}, &watch);
+  const SolvedRun run = solver.run(until_time(0.5), &watch);
   ASSERT_GT(run.collisions, 50u);
   const double p_scale =
       std::sqrt(2 * kinetic_energy(scene, scene.initial) * scene.bodies[0].mass * 36);
@@ -74,7 +74,7 @@ TEST(ManyBodies, SlidingGasComesToRollingWithoutOverlap) {
   const Scene scene = cloud(5, 0.1, 0.9, 2);
   EventSolver solver(scene, scene.initial);
   OverlapWatch watch(scene);
-  const EventRun run = solver.run({Run::Until::rolling, 0, 60}, &watch);
+  const SolvedRun run = solver.run({Run::Until::rolling, 0, 60}, &watch);
   ASSERT_TRUE(run.reached) << run.reason;
   EXPECT_GT(run.collisions, 20u);
   EXPECT_LE(watch.deepest, 1e-12);
@@ -84,7 +84,7 @@ TEST(ManyBodies, SlidingGasComesToRollingWithoutOverlap) {
 
 TEST(ManyBodies, TimeReversedFrictionlessElasticGasRetracesItsPath) {
   const Scene scene = cloud(4, 0, 1, 3);
-  const RunEnd end{Run::Until::time, 0.05, 0.05};
+  const RunEnd end = until_time(0.05);
   EventSolver there(scene, scene.initial);
   ASSERT_GT(there.run(end, nullptr).collisions, 3u);
   std::vector<BodyState> turned = there.states();
@@ -108,7 +108,7 @@ TEST(ManyBodies, RowOfTouchingBallsPassesTheBlowOn) {
   for (std::size_t i : {1u, 2u, 3u})
     scene.initial[i] = test::rolling_at(0.004 * static_cast<double>(i - 1), 0, 0, 0);
   EventSolver solver(scene, scene.initial);
-  const EventRun run = solver.run({Run::Until::time, 0.1, 0.1}, nullptr);
+  const SolvedRun run = solver.run(until_time(0.1), nullptr);
   EXPECT_EQ(run.collisions, 3u);
   EXPECT_NEAR(solver.states()[3].velocity.x(), 0.1, 1e-15);
   for (std::size_t i : {0u, 1u, 2u}) EXPECT_NEAR(solver.states()[i].velocity.x(), 0, 1e-15);

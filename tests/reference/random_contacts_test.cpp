@@ -138,19 +138,19 @@ TEST(RandomContacts, TheLedgerOfEnergyCloses) {
     SCOPED_TRACE(seed);
     const ContactScene scene = random_scene(seed);
     ContactSolver solver(scene, scene.hard.initial);
-    const ContactRun run = solver.run({Run::Until::time, 0.4, 0.4}, nullptr);
+    const SolvedRun run = solver.run(until_time(0.4), nullptr);
     EXPECT_TRUE(run.reached) << run.reason;
     for (const BodyState& state : solver.states()) {
       ASSERT_TRUE(state.velocity.allFinite());
       ASSERT_TRUE(state.angular_velocity.allFinite());
     }
     // Some hundred events, each with some units of the integrator's tolerance of 1e-13.
-    EXPECT_LT(std::abs(run.balance.error()), 5e-10);
+    EXPECT_LT(std::abs(run.balance->error()), 5e-10);
     // Only the printed asperity can make energy.
     const auto* asperity =
         scene.soft[0] ? std::get_if<AsperityForce>(&scene.soft[0]->tangential) : nullptr;
     if (!asperity || asperity->form == AsperityForce::Form::passive) {
-      EXPECT_GE(run.balance.dissipated, -1e-9 * run.balance.scale);
+      EXPECT_GE(run.balance->dissipated, -1e-9 * run.balance->scale);
     }
   }
 }

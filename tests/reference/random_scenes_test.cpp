@@ -116,7 +116,7 @@ TEST(RandomScenes, GainNoEnergyAndNeverOverlap) {
     settings.burst = 5000;
     EventSolver solver(scene, scene.initial, settings);
     Watch watch(scene);
-    const EventRun run = solver.run({Run::Until::time, 2, 2}, &watch);
+    const SolvedRun run = solver.run(until_time(2), &watch);
     collisions += run.collisions;
     // The rebound that keeps a collapse finite may give back 1e-12 of the scene's energy.
     EXPECT_LE(watch.largest_gain, 1e-11) << "seed " << seed;

@@ -11,8 +11,6 @@
 namespace slipcheck {
 namespace {
 
-RunEnd until(double time) { return {Run::Until::time, time, time}; }
-
 /// side² rolling balls on a jittered square lattice of `spacing` [m] around `middle`, with
 /// velocities of up to `speed` [m/s].
 Scene gas(std::size_t side, double spacing, double speed, const Vector2& middle, unsigned seed) {
@@ -51,7 +49,7 @@ struct Collisions final : FrameSink {
 
 Collisions collisions_of(const Scene& scene, double end, const EventSettings& settings = {}) {
   Collisions seen;
-  EventSolver(scene, scene.initial, settings).run(until(end), &seen);
+  EventSolver(scene, scene.initial, settings).run(until_time(end), &seen);
   return seen;
 }
 
@@ -117,7 +115,7 @@ TEST(RollingGas, RunUntilRollingEndsAlikeWithCellsAndWithout) {
   for (const Run::Until what : {Run::Until::rolling, Run::Until::rest}) {
     EventSolver cells(scene, scene.initial), pairs(scene, scene.initial, without_cells());
     const RunEnd end{what, 0, 60};
-    const EventRun a = cells.run(end, nullptr), b = pairs.run(end, nullptr);
+    const SolvedRun a = cells.run(end, nullptr), b = pairs.run(end, nullptr);
     ASSERT_TRUE(a.reached && b.reached) << a.reason << b.reason;
     EXPECT_GT(a.collisions, 20u);
     EXPECT_EQ(a.collisions, b.collisions);
@@ -138,7 +136,7 @@ TEST(RollingGas, StatesGoOnAcrossThePeriodicBorder) {
   scene.periodic = {0.02, 0};
   scene.initial[0] = test::rolling_at(0.001, 0.3, -0.5, 0.25);
   EventSolver solver(scene, scene.initial);
-  ASSERT_TRUE(solver.run(until(4), nullptr).reached);
+  ASSERT_TRUE(solver.run(until_time(4), nullptr).reached);
   // Rounding of numbers of order 1.
   EXPECT_NEAR(solver.states()[0].position.x(), 0.001 - 2, 1e-14);
   EXPECT_NEAR(solver.states()[0].position.y(), 1.3, 1e-14);
@@ -149,7 +147,7 @@ TEST(RollingGas, TwoBallsMeetAroundThePeriodicCell) {
   scene.periodic = {0.03, 0.02};
   EventSolver solver(scene, scene.initial);
   // The images are 3 − 1 cm apart and touch at 4 mm.
-  EXPECT_NEAR(solver.next_collision(1), (0.02 - 0.004) / 0.2, 1e-15);
+  EXPECT_NEAR(solver.next_collision(1, 0), (0.02 - 0.004) / 0.2, 1e-15);
 }
 
 TEST(RollingGas, FrictionlessPeriodicGasKeepsMomentumAndEnergy) {
@@ -157,7 +155,7 @@ TEST(RollingGas, FrictionlessPeriodicGasKeepsMomentumAndEnergy) {
   scene.substrate[0].kinetic_friction = 0;
   scene.pairs[0].restitution = 1.0;
   EventSolver solver(scene, scene.initial);
-  const EventRun run = solver.run(until(2), nullptr);
+  const SolvedRun run = solver.run(until_time(2), nullptr);
   ASSERT_GT(run.collisions, 5000u);
   const double energy = kinetic_energy(scene, scene.initial);
   const double scale = std::sqrt(2 * energy * scene.bodies[0].mass * 100);
@@ -212,7 +210,7 @@ TEST(RollingGas, EnergyGoesWhereTheContactsTakeIt) {
   scene.substrate[0].rolling = RollingFriction(0.003);
   EventSolver solver(scene, scene.initial);
   Losses losses(scene);
-  const EventRun run = solver.run(until(0.5), &losses);
+  const SolvedRun run = solver.run(until_time(0.5), &losses);
   ASSERT_GT(run.collisions, 100u);
   const double energy = kinetic_energy(scene, scene.initial);
   // Some roundings of the energy at each of about 1000 events.
@@ -225,10 +223,10 @@ TEST(RollingGas, ThousandBallsNeverOverlapAndGiveTheSameBitsAgain) {
   EventSolver a(scene, scene.initial), b(scene, scene.initial);
   std::size_t collisions = 0;
   for (int k = 1; k <= 5; ++k) {
-    const EventRun run = a.run(until(0.05 * k), nullptr);
+    const SolvedRun run = a.run(until_time(0.05 * k), nullptr);
     ASSERT_TRUE(run.reached) << run.reason;
     collisions += run.collisions;
-    b.run(until(0.05 * k), nullptr);
+    b.run(until_time(0.05 * k), nullptr);
     EXPECT_LE(deepest_overlap(scene, a.states()), 1e-12);
   }
   EXPECT_GT(collisions, 2000u);
@@ -242,10 +240,10 @@ TEST(RollingGas, ThousandBallsNeverOverlapAndGiveTheSameBitsAgain) {
 TEST(RollingGas, CopyRunsOnByItself) {
   const Scene scene = periodic_gas(6, 0.006, 0.3, {0, 0}, 8);
   EventSolver solver(scene, scene.initial);
-  solver.run(until(0.05), nullptr);
+  solver.run(until_time(0.05), nullptr);
   EventSolver other = solver;
-  other.run(until(0.1), nullptr);
-  solver.run(until(0.1), nullptr);
+  other.run(until_time(0.1), nullptr);
+  solver.run(until_time(0.1), nullptr);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     EXPECT_EQ(solver.states()[i].position, other.states()[i].position);
 }
@@ -270,7 +268,7 @@ TEST(RollingGas, CollisionsInQuickSuccessionDoNotDissipateUnderTheContactTimeMod
     std::vector<double> impact, rebound;
   } seen;
   EventSolver solver(scene, scene.initial);
-  const EventRun run = solver.run({Run::Until::rolling, 0, 10}, &seen);
+  const SolvedRun run = solver.run({Run::Until::rolling, 0, 10}, &seen);
   ASSERT_TRUE(run.reached) << run.reason;
   ASSERT_GE(seen.impact.size(), 7u);
   EXPECT_EQ(run.collapses, run.collisions - 1);
@@ -292,7 +290,7 @@ TEST(RollingGas, ClusterComesToRestAtOnceUnderTheLargestVelocityModel) {
   scene.initial[1] = test::rolling_at(0, 0, 0, 0);
   scene.initial[2] = test::rolling_at(0.004 + 1e-5, 0, 0, 0);
   EventSolver solver(scene, scene.initial);
-  const EventRun run = solver.run(until(1), nullptr);
+  const SolvedRun run = solver.run(until_time(1), nullptr);
   ASSERT_TRUE(run.reached) << run.reason;
   EXPECT_GT(run.collapses, 0u);
   EXPECT_LT(run.collisions, 100u);
@@ -310,11 +308,11 @@ void expect_as_integrated(const Scene& scene, double end, std::size_t collisions
                           double tolerance) {
   Collisions a, b;
   EventSolver events(scene, scene.initial);
-  const EventRun run = events.run(until(end), &a);
+  const SolvedRun run = events.run(until_time(end), &a);
   ASSERT_TRUE(run.reached) << run.reason;
   const ContactScene contacts = with_hard_contacts(scene);
   ContactSolver integrated(contacts, scene.initial);
-  ASSERT_TRUE(integrated.run(until(end), &b).reached);
+  ASSERT_TRUE(integrated.run(until_time(end), &b).reached);
   EXPECT_EQ(a.times.size(), b.times.size());
   expect_same(a, b, collisions, tolerance);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

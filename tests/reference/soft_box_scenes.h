@@ -61,8 +61,6 @@ inline BodyState bead(double x, double z, double vx, double vz, double w = 0) {
   return {{x, 0, z}, {vx, 0, vz}, {0, w, 0}};
 }
 
-inline RunEnd until_time(double time) { return {Run::Until::time, time, time}; }
-
 inline std::vector<BodyState> after(const ContactScene& scene, double time, double steps = 25) {
   SoftBoxSolver solver(scene, scene.hard.initial, {steps});
   EXPECT_TRUE(solver.run(until_time(time), nullptr).reached);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "reference/events/event_solver.h"
 #include "reference/forces/contact_solver.h"
 #include "reference/pair/pair_map.h"
 #include "reference/steps/step_pair.h"
@@ -77,7 +78,7 @@ TEST(StepSolver, SecondOrderWithViscousForceAndSpins) {
   ASSERT_LT((exact[0].position - exact[1].position).norm(), 0.004);  // still in contact
   const auto error = [&](int steps) {
     StepSolver solver(all, pair.scene.initial, {t / steps});
-    solver.run(until(t), nullptr);
+    solver.run(until_time(t), nullptr);
     const std::vector<BodyState> s = solver.states();
     double e = 0;
     for (std::size_t i = 0; i < 2; ++i)
@@ -108,7 +109,7 @@ TEST(StepSolver, FreePairKeepsMomentumAndAngularMomentum) {
     };
     StepSolver solver(all, pair.scene.initial, {1e-7});
     const auto before = momenta(solver.states());
-    EXPECT_EQ(solver.run(until(2e-4), nullptr).collisions, 1u);
+    EXPECT_EQ(solver.run(until_time(2e-4), nullptr).collisions, 1u);
     const auto after = momenta(solver.states());
     EXPECT_LT((after.first - before.first).norm(), 1e-13 * before.first.norm());
     // The lever arms are R, the surfaces being ξ/2 ~ 1e-5 of them inside: what the contact point's
@@ -163,7 +164,7 @@ TEST(StepSolver, FreeCollisionsMeetThePairMap) {
     const ContactScene all = with_contact(scene, contact);
     const auto error = [&](int steps) {
       StepSolver solver(all, scene.initial, {kCollisionTime / steps});
-      solver.run(until(1.3 * kCollisionTime), nullptr);
+      solver.run(until_time(1.3 * kCollisionTime), nullptr);
       const std::vector<BodyState> s = solver.states();
       const Vector3 n = (s[0].position - s[1].position).normalized();
       const Vector3 u = s[0].velocity - s[1].velocity -
@@ -182,7 +183,7 @@ TEST(StepSolver, SymmetricCollisionTendsToTheEventSolver) {
     EventSolver hard(all.hard, all.hard.initial);
     hard.run(kRolling, nullptr);
     StepSolver soft(all, all.hard.initial, {collision_time / 50});
-    const StepRun run = soft.run(kRolling, nullptr);
+    const SolvedRun run = soft.run(kRolling, nullptr);
     ASSERT_TRUE(run.reached) << run.reason;
     EXPECT_EQ(run.collisions, 1u);
     const double sliding = 0.1 * 1.9 / (3.5 * 0.1 * 9.81);
@@ -205,7 +206,7 @@ TEST(StepSolver, K55RubbingOfConfinedSpheres) {
   const double c = 0.1 * std::get<LinearForce>(all.soft[0]->normal).damping;
   all.soft[0]->tangential = ViscousForce{c, 1e9};
   StepSolver solver(all, all.hard.initial, {collision_time / 500});
-  solver.run(until(2 * collision_time), nullptr);
+  solver.run(until_time(2 * collision_time), nullptr);
   const std::vector<BodyState> s = solver.states();
   const double share = -0.5 * std::expm1(-2 * 2.5 * c * collision_time / all.hard.bodies[0].mass);
   const double sum = (0.2 - 0.05) / 0.002;
@@ -218,11 +219,11 @@ TEST(StepSolver, K9RubbingLiftsOneSphere) {
   // App. F: the struck, slower sphere is pressed down, the faster one lifted; it flies and lands.
   const ContactScene all = colliding(0.5, 0, 0.9, kCollisionTime, ViscousForce{1.5, 0.5}, 0.002);
   StepSolver solver(all, all.hard.initial, {kCollisionTime / 50});
-  solver.run(until(2 * kCollisionTime), nullptr);
+  solver.run(until_time(2 * kCollisionTime), nullptr);
   const std::vector<BodyState> s = solver.states();
   EXPECT_GT(s[0].velocity.z(), 1e-3);
   EXPECT_EQ(s[1].velocity.z(), 0);
-  const StepRun run = solver.run(kRolling, nullptr);
+  const SolvedRun run = solver.run(kRolling, nullptr);
   ASSERT_TRUE(run.reached) << run.reason;
   for (const BodyState& body : solver.states()) EXPECT_EQ(body.position.z(), 0.002);
 }
@@ -274,11 +275,11 @@ TEST(StepSolver, TendsToTheContactSolver) {
         M_PI / std::sqrt(law.stiffness / (0.5 * scene.hard.bodies[0].mass));
     const double end = 1e-3 + 20 * collision_time;
     ContactSolver exact(scene, scene.hard.initial);
-    ASSERT_TRUE(exact.run(until(end), nullptr).reached) << seed;
+    ASSERT_TRUE(exact.run(until_time(end), nullptr).reached) << seed;
     const auto error = [&](int steps) {
       const double h = end / std::ceil(end / collision_time * steps);
       StepSolver solver(scene, scene.hard.initial, {h});
-      EXPECT_EQ(solver.run(until(end), nullptr).collisions, 1u) << seed;
+      EXPECT_EQ(solver.run(until_time(end), nullptr).collisions, 1u) << seed;
       double e = 0;
       for (std::size_t i = 0; i < 2; ++i) {
         const BodyState now = solver.states()[i], then = exact.states()[i];

@@ -58,8 +58,8 @@ TEST_P(GeneralLoop, GivesTheSameBits) {
   std::size_t collisions = 0;
   for (int k = 1; k <= 40; ++k) {
     const double t = k * 500 * kStep;
-    collisions = special.run(until(t), nullptr).collisions;
-    EXPECT_EQ(general.run(until(t), nullptr).collisions, collisions);
+    collisions = special.run(until_time(t), nullptr).collisions;
+    EXPECT_EQ(general.run(until_time(t), nullptr).collisions, collisions);
     const auto a = special.states(), b = general.states();
     for (std::size_t i = 0; i < a.size(); ++i) {
       EXPECT_EQ(a[i].position, b[i].position) << k << " " << i;
@@ -96,7 +96,7 @@ TEST(GeneralEvents, PhasesOnAnyPlaneGiveTheSame) {
   general.general = true;
   EventSolver special(scene, scene.initial), other(scene, scene.initial, general);
   EXPECT_NE(EventSolver::features(scene, {}), EventSolver::features(scene, general));
-  const EventRun a = special.run(kRolling, nullptr), b = other.run(kRolling, nullptr);
+  const SolvedRun a = special.run(kRolling, nullptr), b = other.run(kRolling, nullptr);
   EXPECT_TRUE(a.reached && b.reached);
   EXPECT_EQ(a.collisions, b.collisions);
   EXPECT_NEAR(a.end_time / b.end_time, 1, 1e-13);

@@ -15,8 +15,6 @@ namespace slipcheck::test {
 inline constexpr double kCollisionTime = 2.55e-5;  // K, steel [s]
 inline const RunEnd kRolling{Run::Until::rolling, 0, 10};
 
-inline RunEnd until(double time) { return {Run::Until::time, time, time}; }
-
 inline ContactScene with_contact(Scene hard, const SoftContact& contact) {
   ContactScene scene;
   scene.hard = std::move(hard);

@@ -30,7 +30,7 @@ TEST(StepSolver, SecondOrderInDampedLinearCollision) {
   const ContactScene all = with_contact(scene, contact);
   const auto states = [&](int steps) {
     StepSolver solver(all, scene.initial, {t / steps});
-    solver.run(until(t), nullptr);
+    solver.run(until_time(t), nullptr);
     return solver.states();
   };
   const auto error = [&](int steps) { return std::abs(overlap(scene, states(steps)) - exact); };
@@ -51,7 +51,7 @@ TEST(StepSolver, SecondOrderInHertzCollision) {
   const double exact = hertz_largest_overlap(mass, modulus, 0.1);
   const auto error = [&](int steps) {
     StepSolver solver(all, scene.initial, {t / steps});
-    solver.run(until(t), nullptr);
+    solver.run(until_time(t), nullptr);
     return std::abs(overlap(scene, solver.states()) - exact);
   };
   EXPECT_NEAR(order(error, 100), 2, 0.06);
@@ -66,7 +66,7 @@ double worst_restitution_error(const SoftContact& contact, double exact, double 
     const Scene scene = free_pair(0.1, 0.1 * h * phase / 16);
     const ContactScene all = with_contact(scene, contact);
     StepSolver solver(all, scene.initial, {h});
-    solver.run(until(1.5 * duration), nullptr);
+    solver.run(until_time(1.5 * duration), nullptr);
     worst = test::largest_of(worst, std::abs(-closing(solver.states()) / 0.1 - exact));
   }
   return worst;
@@ -121,7 +121,7 @@ TEST(StepSolver, EnergyOfABoundPairDoesNotDrift) {
     const auto range = [&](double from) {
       double low = 1e300, high = -1e300;
       for (int n = 1; n <= 400; ++n) {
-        solver.run(until(from + n * period / 10), nullptr);
+        solver.run(until_time(from + n * period / 10), nullptr);
         low = test::least_of(low, solver.energy() - first);
         high = test::largest_of(high, solver.energy() - first);
       }
@@ -151,7 +151,7 @@ double growth(double damping_ratio, double ratio) {
   StepSolver solver(all, scene.initial, {h});
   double largest = 0;
   for (int n = 1; n <= 2000; ++n) {
-    solver.run(until(n * h), nullptr);
+    solver.run(until_time(n * h), nullptr);
     largest = test::largest_of(largest, std::abs(solver.states()[1].velocity.x()));
   }
   return largest / 1e-10;
@@ -184,7 +184,7 @@ TEST(StepSolver, ShowsAFrameAStepWithTheImpulses) {
   const ContactScene all = colliding(0.1, -0.1, 0.9, kCollisionTime);
   StepSolver solver(all, all.hard.initial, {kCollisionTime / 100});
   TouchWatch watch;
-  const StepRun run = solver.run(until(0.002), &watch);
+  const SolvedRun run = solver.run(until_time(0.002), &watch);
   EXPECT_EQ(watch.frames, run.steps + 1);
   EXPECT_EQ(watch.last, run.end_time);
   // The impulse m̄ (1 + e) v_rel; friction of the substrate takes ~1e-4 of it, |F_N| counts at the
@@ -198,7 +198,7 @@ TEST(StepSolver, WatchingDoesNotChangeTheRun) {
   StepSolver seen(all, all.hard.initial, {kCollisionTime / 50});
   StepSolver unseen(all, all.hard.initial, {kCollisionTime / 50});
   TouchWatch watch;
-  const StepRun a = seen.run(kRolling, &watch), b = unseen.run(kRolling, nullptr);
+  const SolvedRun a = seen.run(kRolling, &watch), b = unseen.run(kRolling, nullptr);
   EXPECT_EQ(a.steps, b.steps);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(seen.states()[i].position, unseen.states()[i].position);
@@ -213,8 +213,8 @@ TEST(StepSolver, FullLoopWithNothingToDoEqualsThePlainOne) {
   full.hard.downhill = {0, 1e-18};
   const std::vector<BodyState> initial = plain.hard.initial;
   StepSolver a(plain, initial, {kCollisionTime / 50}), b(full, initial, {kCollisionTime / 50});
-  a.run(until(0.01), nullptr);
-  b.run(until(0.01), nullptr);
+  a.run(until_time(0.01), nullptr);
+  b.run(until_time(0.01), nullptr);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_LT((a.states()[i].velocity - b.states()[i].velocity).norm(), 1e-12);
     EXPECT_LT((a.states()[i].position - b.states()[i].position).norm(), 1e-13);
@@ -235,8 +235,8 @@ TEST(StepSolver, MixedLawsEqualTheSpecialisedLoop) {
   mixed.soft = {plain.soft[0], other, other, other};
   StepSolver a(plain, plain.hard.initial, {kCollisionTime / 50});
   StepSolver b(mixed, mixed.hard.initial, {kCollisionTime / 50});
-  a.run(until(0.01), nullptr);
-  b.run(until(0.01), nullptr);
+  a.run(until_time(0.01), nullptr);
+  b.run(until_time(0.01), nullptr);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(a.states()[i].velocity, b.states()[i].velocity);
 }
 
@@ -250,7 +250,7 @@ TEST(StepSolver, HardPairsAreRefused) {
 TEST(StepSolver, SaysWhyItDidNotReachItsEnd) {
   const ContactScene all = colliding(0.1, -0.1, 0.9, kCollisionTime);
   StepSolver solver(all, all.hard.initial, {kCollisionTime / 20});
-  const StepRun run = solver.run({Run::Until::rolling, 0, 0.01}, nullptr);
+  const SolvedRun run = solver.run({Run::Until::rolling, 0, 0.01}, nullptr);
   EXPECT_FALSE(run.reached);
   EXPECT_EQ(run.reason, "a body still slides or flies, or collides again, at the limit");
 }

@@ -43,7 +43,7 @@ TEST(StepSolver, SlidingTimeAndDistanceAreOfFirstOrder) {
       const double h = 1e-4 / (1 << halving) * (1 + phase / 32.0);
       SlideWatch watch(0.002);
       StepSolver solver(all, scene.initial, {h});
-      const StepRun run = solver.run(kRolling, &watch);
+      const SolvedRun run = solver.run(kRolling, &watch);
       ASSERT_TRUE(run.reached);
       time_error = test::largest_of(time_error, std::abs(watch.end - exact.sliding_time) / h);
       const BodyState s = solver.states()[0];
@@ -90,7 +90,7 @@ TEST(StepSolver, TurningSlipIsOfSecondOrder) {
   }
   const auto error = [&](int steps) {
     StepSolver solver(all, scene.initial, {t / steps});
-    solver.run(until(t), nullptr);
+    solver.run(until_time(t), nullptr);
     return (solver.states()[0].velocity.head<2>() - v).norm();
   };
   EXPECT_NEAR(order(error, 100), 2, 0.1);
@@ -104,7 +104,7 @@ TEST(StepSolver, K16RollingStopsAfterItsDistance) {
   const double a = 0.01 * 9.81;
   for (const double h : {1e-3, 5e-4, 2.5e-4}) {
     StepSolver solver(all, scene.initial, {h});
-    const StepRun run = solver.run({Run::Until::rest, 0, 10}, nullptr);
+    const SolvedRun run = solver.run({Run::Until::rest, 0, 10}, nullptr);
     ASSERT_TRUE(run.reached);
     EXPECT_NEAR(run.end_time, 0.1 / a, 1.5 * h);
     const BodyState s = solver.states()[0];
@@ -123,7 +123,7 @@ TEST(StepSolver, RollingFrictionOfATableFollowsItsExponential) {
   const ContactScene all = alone(scene);
   const auto error = [&](int steps) {
     StepSolver solver(all, scene.initial, {1.0 / steps});
-    solver.run(until(1), nullptr);
+    solver.run(until_time(1), nullptr);
     return std::abs(solver.states()[0].velocity.x() - 0.1 * std::exp(-0.981));
   };
   EXPECT_LT(error(1000), 1e-4);
@@ -138,7 +138,7 @@ TEST(StepSolver, RollingFrictionWhileSlidingTurnsTheSphereOnly) {
   scene.initial[0].angular_velocity = {0, 50, 0};
   const ContactScene all = alone(scene);
   StepSolver solver(all, scene.initial, {1e-4});
-  solver.run(until(0.01), nullptr);
+  solver.run(until_time(0.01), nullptr);
   const BodyState s = solver.states()[0];
   // I Ω̇ = R μ_k m g − (1+q) μ_r m g R, all constant.
   EXPECT_NEAR(s.velocity.x(), 1 - 0.01 * 0.981, 1e-13);
@@ -153,9 +153,9 @@ TEST(StepSolver, DrillingStopsLinearly) {
   const ContactScene all = alone(scene);
   StepSolver solver(all, scene.initial, {1e-4});
   const double rate = 2e-6 * 9.81 / (0.4 * 0.002 * 0.002);
-  solver.run(until(1), nullptr);
+  solver.run(until_time(1), nullptr);
   EXPECT_NEAR(solver.states()[0].angular_velocity.z(), 30 - rate, 1e-9);
-  const StepRun run = solver.run({Run::Until::rest, 0, 10}, nullptr);
+  const SolvedRun run = solver.run({Run::Until::rest, 0, 10}, nullptr);
   EXPECT_NEAR(run.end_time, 30 / rate, 1.5e-4);
   EXPECT_EQ(solver.states()[0].angular_velocity.z(), 0);
 }
@@ -190,7 +190,7 @@ TEST(StepSolver, CoupledDrillingFollowsTheIntegratedLaw) {
   ASSERT_GT(u, 0.001);
   const auto error = [&](int steps) {
     StepSolver solver(all, scene.initial, {t / steps});
-    solver.run(until(t), nullptr);
+    solver.run(until_time(t), nullptr);
     const BodyState s = solver.states()[0];
     return std::abs(s.velocity.x() - v) / v + std::abs(s.angular_velocity.z() - w) / w;
   };
@@ -205,7 +205,7 @@ TEST(StepSolver, K24FiveSeventhsDownASlope) {
   scene.downhill = {0, -9.81 * std::sin(tilt)};
   const ContactScene all = alone(scene);
   StepSolver solver(all, scene.initial, {1e-3});
-  solver.run(until(0.5), nullptr);
+  solver.run(until_time(0.5), nullptr);
   const BodyState s = solver.states()[0];
   const double a = 5.0 / 7 * 9.81 * std::sin(tilt);
   EXPECT_NEAR(s.velocity.y(), -a * 0.5, 1e-13);
@@ -223,7 +223,7 @@ TEST(StepSolver, SteepSlopeSlides) {
     scene.downhill = {9.81 * std::sin(tilt), 0};
     const ContactScene all = alone(scene);
     StepSolver solver(all, scene.initial, {1e-3});
-    solver.run(until(0.1), nullptr);
+    solver.run(until_time(0.1), nullptr);
     const double rolls = 5.0 / 7 * 9.81 * std::sin(tilt);
     const double slides = 9.81 * (std::sin(tilt) - 0.1 * std::cos(tilt));
     EXPECT_NEAR(solver.states()[0].velocity.x(), 0.1 * (tan < 0.7 ? rolls : slides), 1e-12);
@@ -241,7 +241,7 @@ TEST(StepSolver, K15TwoSeventhsOfTheSubstratesVelocity) {
   const std::vector<BodyState> initial = {start};
   StepSolver solver(all, initial, {1e-4});
   for (const double t : {0.1, 0.25, 0.5}) {
-    solver.run(until(t), nullptr);
+    solver.run(until_time(t), nullptr);
     const Vector3 expected = 2.0 / 7 * (scene.motion.velocity(t) - first);
     EXPECT_LT((solver.states()[0].velocity - expected).norm(), 1e-12) << t;
   }
@@ -256,7 +256,7 @@ TEST(StepSolver, FastOscillationMakesTheBallSlide) {
     scene.motion = SubstrateMotion::oscillation({amplitude, 0}, 5, M_PI / 2);
     const ContactScene all = alone(scene);
     StepSolver solver(all, scene.initial, {1e-5});
-    solver.run(until(0.01), nullptr);
+    solver.run(until_time(0.01), nullptr);
     const BodyState s = solver.states()[0];
     const double slip =
         (slip_velocity(s, 0.002) - scene.motion.velocity(solver.now())).head<2>().norm();
@@ -273,10 +273,10 @@ TEST(StepSolver, FlightLandingAndRestitution) {
   const double fall = std::sqrt(2 * 0.05 / 9.81), speed = 9.81 * fall;
   for (const double h : {1e-4, 5e-5}) {
     StepSolver solver(all, scene.initial, {h});
-    solver.run(until(fall - 1e-3), nullptr);
+    solver.run(until_time(fall - 1e-3), nullptr);
     EXPECT_EQ(solver.states()[0].velocity.x(), 0.2);
     // Half way up and down of the rebound.
-    solver.run(until(fall + 0.5 * speed / 9.81), nullptr);
+    solver.run(until_time(fall + 0.5 * speed / 9.81), nullptr);
     const BodyState s = solver.states()[0];
     EXPECT_NEAR(s.position.z() - 0.002, 0.25 * 0.05, speed * h);
     // μ_k (1+e) v_z of slip friction, K (18), below what would make it roll.
@@ -284,7 +284,7 @@ TEST(StepSolver, FlightLandingAndRestitution) {
     EXPECT_NEAR(s.velocity.x(), expected, 1e-3 * 0.2);
   }
   StepSolver solver(all, scene.initial, {1e-4});
-  const StepRun run = solver.run(kRolling, nullptr);
+  const SolvedRun run = solver.run(kRolling, nullptr);
   ASSERT_TRUE(run.reached);
   EXPECT_EQ(solver.states()[0].position.z(), 0.002);
 }

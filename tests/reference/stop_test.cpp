@@ -8,7 +8,6 @@
 
 #include "../scenario/scenes.h"
 #include "base/stop_scope.h"
-#include "reference/box_solver.h"
 #include "reference/reference_solver.h"
 
 namespace slipcheck {
@@ -76,17 +75,12 @@ std::vector<Case> cases() {
 
 /// The run that does not end.
 std::function<void()> endless(const ContactScene& contacts, const Case& each) {
-  const RunEnd end{Run::Until::time, kForever, kForever};
+  const RunEnd end = until_time(kForever);
   ReferenceSettings settings;
   settings.asked = each.solver == std::string("event")     ? Compare::Reference::event
                    : each.solver == std::string("contact") ? Compare::Reference::contact
                                                            : Compare::Reference::steps;
-  return [&contacts, end, settings] {
-    if (contacts.hard.box)
-      BoxSolver(contacts, settings).run(end, kForever, nullptr);
-    else
-      ReferenceSolver(contacts, settings).run(end, nullptr);
-  };
+  return [&contacts, end, settings] { ReferenceSolver(contacts, settings).run(end, nullptr); };
 }
 
 class Stopped : public ::testing::TestWithParam<Case> {};

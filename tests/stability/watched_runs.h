@@ -93,7 +93,7 @@ inline OutcomeWatch parted(const ReferencePath& path, double gain, int first_fra
 inline WatchedPhase reference_watched(const ReferencePath& path, double rate, bool soft) {
   std::vector<double> times;
   for (int k = 1; k <= static_cast<int>(path.end() * rate); ++k) times.push_back(k / rate);
-  const auto states = std::get<ReferenceSolver>(path.prepared().solver).states_along(times);
+  const auto states = path.prepared().solver.states_along(times);
   const auto& bodies = path.scene().hard.bodies;
   OutcomeWatch watch(path, {}, 1 / rate, soft);
   watch.begin(0, path.states().front());

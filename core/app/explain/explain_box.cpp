@@ -8,7 +8,7 @@
 
 #include "app/explain/explain_rows.h"
 #include "harness/observe/box_observer.h"
-#include "harness/run/box_run.h"
+#include "harness/run/box_reference.h"
 #include "harness/run/reference_run.h"
 
 namespace slipcheck {
@@ -91,8 +91,7 @@ void print_looks(const Scenario& scenario, const Scene& scene) {
     print_row("discarded", plural(sampling.discard, "period"),
               sampling.until_steady ? "and more, until H, K and R are steady"
                                     : "before the first sample");
-  const double interval = frequency > 0 ? 1 / (frequency * static_cast<double>(sampling.per_period))
-                                        : sampling.interval;
+  const double interval = sampling_interval(scene, sampling);
   const double looks = std::floor(end / interval * (1 + 1e-12)) -
                        static_cast<double>(sampling.discard * sampling.per_period);
   print_row("samples", plural(static_cast<std::size_t>(std::max(looks, 0.0)), "look"),

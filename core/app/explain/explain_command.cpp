@@ -22,7 +22,6 @@
 #include "harness/run/reference_run.h"
 #include "harness/run/requested_runs.h"
 #include "physics/closed_forms.h"
-#include "reference/box_solver.h"
 #include "reference/events/planar_solver.h"
 #include "reference/initial_contacts.h"
 #include "reference/reference_solver.h"
@@ -32,8 +31,11 @@ namespace slipcheck {
 namespace {
 
 void print_solver(const ContactScene& scene, const ReferenceSolver& solver) {
+  const bool boxed = scene.hard.box.has_value();
   const std::string text =
-      solver.is_stepped()
+      boxed && solver.is_resolved() ? "contacts last; their forces are integrated in time"
+      : boxed && scene.is_hard() ? "every contact is hard; exact flight from collision to collision"
+      : solver.is_stepped()
           ? fmt::format("contacts last; in steps of {}", in_unit(solver.step(), "s"))
       : solver.is_resolved()
           ? (scene.is_hard() ? "asked for by compare.reference; collisions are instants"
@@ -44,13 +46,6 @@ void print_solver(const ContactScene& scene, const ReferenceSolver& solver) {
           ? "every contact is hard; phases between collisions to 1e-13 of the speeds"
           : "every contact is hard; integrated between collisions";
   fmt::print("  solver: {} ({})\n", solver.name(), text);
-}
-
-void print_solver(const ContactScene& scene, const BoxSolver& solver) {
-  fmt::print("  solver: {} ({})\n", solver.name(),
-             solver.is_resolved() ? "contacts last; their forces are integrated in time"
-             : scene.is_hard() ? "every contact is hard; exact flight from collision to collision"
-                               : "asked for by compare.reference; soft contacts become hard ones");
 }
 
 /// What the loop was made for.
@@ -192,10 +187,8 @@ void print_engines(const Scenario& scenario, const Scene& scene,
   }
 }
 
-void explain_in_box(const Scenario& scenario, const ContactScene& scene, bool general) {
-  const BoxSolver solver(scene, reference_settings(scenario, general));
-  print_solver(scene, solver);
-  print_loop(solver.loop());
+void explain_in_box(const Scenario& scenario, const ContactScene& scene,
+                    const ReferenceSolver& solver) {
   print_features(solver.is_resolved() ? scene : with_hard_contacts(scene.hard));
   explain_bodies(scenario, scene.hard);
   explain_box(scenario, scene);
@@ -203,11 +196,9 @@ void explain_in_box(const Scenario& scenario, const ContactScene& scene, bool ge
   explain_contacts(scenario, scene, std::nullopt, speed > 0 ? speed : 1);
 }
 
-void explain_on_substrate(const Scenario& scenario, const ContactScene& scene, bool general) {
-  const ReferenceSolver solver(scene, reference_settings(scenario, general));
+void explain_on_substrate(const Scenario& scenario, const ContactScene& scene,
+                          const ReferenceSolver& solver) {
   const auto meeting = first_meeting(scene, run_end(scenario).last());
-  print_solver(scene, solver);
-  print_loop(solver.loop());
   print_features(solver.scene());
   explain_bodies(scenario, scene.hard);
   print_substrate(scenario, scene.hard);
@@ -223,8 +214,11 @@ void explain(const Scenario& scenario, const std::vector<EngineRecord>& runs, bo
   ContactScene scene;
   try {
     scene = make_contact_scene(scenario);
-    scene.hard.box ? explain_in_box(scenario, scene, general)
-                   : explain_on_substrate(scenario, scene, general);
+    const ReferenceSolver solver(scene, reference_settings(scenario, general));
+    print_solver(scene, solver);
+    print_loop(solver.loop());
+    scene.hard.box ? explain_in_box(scenario, scene, solver)
+                   : explain_on_substrate(scenario, scene, solver);
   } catch (const Unsupported& unsupported) {
     fmt::print("\n  No solver for this scene:\n{}\n", unsupported.what());
     return;

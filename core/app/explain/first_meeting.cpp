@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "reference/events/event_solver.h"
 #include "reference/initial_contacts.h"
 #include "reference/reference_solver.h"
 
@@ -52,15 +53,15 @@ std::optional<Meeting> first_meeting(const ContactScene& scene, double limit) {
   UntilTouch sink(scene.hard.periodic);
   const auto just_after = [](double time) {
     const double end = time * (1 + 1e-6) + 1e-12;
-    return RunEnd{Run::Until::time, end, end};
+    return until_time(end);
   };
   if (runs_in_phases(hard.hard)) {
     // Frames of many bodies cost more than the events between them.
     EventSolver solver(hard.hard, hard.hard.initial);
-    const double time = solver.next_collision(limit);
+    const double time = solver.next_collision(limit, 0);
     if (!(time <= limit)) return std::nullopt;
     const double before = time * (1 - 1e-6);
-    solver.run({Run::Until::time, before, before}, nullptr);
+    solver.run(until_time(before), nullptr);
     solver.run(just_after(time), &sink);
     return sink.found;
   }

@@ -23,14 +23,13 @@ double mean_diameter(const Scene& scene) {
   return sum / static_cast<double>(scene.bodies.size());
 }
 
-/// A share of the floor's period, or what is asked for where it has none.
+}  // namespace
+
 double sampling_interval(const Scene& scene, const BoxSampling& sampling) {
   const double frequency = scene.box->floor.frequency;
   if (frequency == 0) return sampling.interval;
   return 1 / (frequency * static_cast<double>(sampling.per_period));
 }
-
-}  // namespace
 
 double resting_height(const Scene& scene) {
   assert(scene.box && !scene.bodies.empty());
@@ -45,11 +44,9 @@ double resting_height(const Scene& scene) {
   return d0 / (2 * n) * (n_b * ((1 - rise) * n_h + rise * n_h * n_h) + n_r * (1 + 2 * rise * n_h));
 }
 
-BoxObserver::BoxObserver(const Scene& scene, const BoxSampling& sampling,
-                         std::function<std::uint64_t()> collisions_so_far)
+BoxObserver::BoxObserver(const Scene& scene, const BoxSampling& sampling)
     : scene_(&scene),
       sampling_(sampling),
-      collisions_so_far_(std::move(collisions_so_far)),
       rest_(resting_height(scene)),
       mass_(0),
       next_(sampling.discard * sampling.per_period) {
@@ -76,8 +73,8 @@ BoxObserver::Look BoxObserver::look_at(const Frame& frame) const {
 }
 
 void BoxObserver::count_collisions(const Frame& frame) {
-  if (collisions_so_far_) {
-    collisions_ = collisions_so_far_();
+  if (frame.collisions) {
+    collisions_ = *frame.collisions;
     return;
   }
   now_.clear();
@@ -131,7 +128,7 @@ void BoxObserver::take(double time, const Frame& frame) {
   look_ = look;
 }
 
-BoxObservables BoxObserver::finish(double energy_drift, double momentum_drift) const {
+BoxObservables BoxObserver::finish() const {
   const std::array<std::vector<double>, 3> judged = {series_.height, series_.kinetic_energy,
                                                      series_.rotational_energy};
   std::size_t dropped = 0;
@@ -151,8 +148,6 @@ BoxObservables BoxObserver::finish(double energy_drift, double momentum_drift) c
   result.kinetic_energy = mean(series_.kinetic_energy);
   result.rotational_energy = mean(series_.rotational_energy);
   result.collision_rate = mean(series_.collision_rate);
-  result.energy_drift = energy_drift;
-  result.momentum_drift = momentum_drift;
   result.samples = series_.time.size() - dropped;
   const std::size_t seen = next_ - series_.time.size();
   const std::size_t first = std::max(seen, sampling_.discard * sampling_.per_period + 1) - 1;

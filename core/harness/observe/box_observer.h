@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -35,6 +34,9 @@ struct BoxSampling {
   bool until_steady = false;   ///< and more, until H, K and R are steady (steady_state.h)
 };
 
+/// Time between two samples of this scene in a box [s].
+double sampling_interval(const Scene& scene, const BoxSampling& sampling);
+
 /// What was seen at each sample after the `discard` periods; all of one length.
 struct BoxSeries {
   std::vector<double> time;               ///< [s]
@@ -46,15 +48,13 @@ struct BoxSeries {
 
 /// What a scene in a box shows as a whole, defined in docs/observables.md.
 struct BoxObservables {
-  BlockedMean height;                    ///< H [m]
-  BlockedMean kinetic_energy;            ///< K, of translation, per body [J]
-  BlockedMean rotational_energy;         ///< R, per body [J]
-  BlockedMean collision_rate;            ///< of two bodies, all bodies together [1/s]
-  double energy_drift = kNotObserved;    ///< as the solver tells it
-  double momentum_drift = kNotObserved;  ///< as the solver tells it
-  std::size_t samples = 0;               ///< that the means are taken over
-  std::size_t discarded = 0;             ///< periods before the first of them
-  bool steady = false;                   ///< H, K and R show no trend over these samples
+  BlockedMean height;             ///< H [m]
+  BlockedMean kinetic_energy;     ///< K, of translation, per body [J]
+  BlockedMean rotational_energy;  ///< R, per body [J]
+  BlockedMean collision_rate;     ///< of two bodies, all bodies together [1/s]
+  std::size_t samples = 0;        ///< that the means are taken over
+  std::size_t discarded = 0;      ///< periods before the first of them
+  bool steady = false;            ///< H, K and R show no trend over these samples
 };
 
 /// Samples a scene in a box at phase zero of its floor, for the reference and for engines alike.
@@ -67,21 +67,18 @@ struct BoxObservables {
 /// the average over where in the step it falls.
 class BoxObserver final : public FrameSink {
  public:
-  /// `scene` has a box and outlives the observer. `collisions_so_far`: collisions of two bodies
-  /// since the start, of a solver that counts them; it is asked when a frame is taken. Where there
-  /// is none, each Touch of two bodies that did not touch in the frame before is one: an engine
-  /// thus misses collisions of a pair in consecutive steps.
+  /// `scene` has a box and outlives the observer. Where frames do not count the collisions, each
+  /// Touch of two bodies that did not touch in the frame before is one: an engine thus misses
+  /// collisions of a pair in consecutive steps.
   /// Throws std::invalid_argument for a sampling interval that is not > 0.
-  BoxObserver(const Scene& scene, const BoxSampling& sampling,
-              std::function<std::uint64_t()> collisions_so_far = {});
+  BoxObserver(const Scene& scene, const BoxSampling& sampling);
 
   void take(double time, const Frame& frame) override;
 
   const BoxSeries& series() const { return series_; }
 
-  /// The means over the samples so far. The drifts are those of a solver that knows them.
-  BoxObservables finish(double energy_drift = kNotObserved,
-                        double momentum_drift = kNotObserved) const;
+  /// The means over the samples so far.
+  BoxObservables finish() const;
 
  private:
   /// Frames this near to a phase zero, of the interval, fall on it: times are rounded.
@@ -95,7 +92,6 @@ class BoxObserver final : public FrameSink {
 
   const Scene* scene_;
   BoxSampling sampling_;
-  std::function<std::uint64_t()> collisions_so_far_;
   double rest_, mass_;
   BoxSeries series_;
   std::size_t next_;  ///< the number n of the next sample

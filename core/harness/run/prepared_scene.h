@@ -2,11 +2,9 @@
 
 #include <limits>
 #include <memory>
-#include <variant>
 #include <vector>
 
 #include "harness/run/reference_run.h"
-#include "reference/box_solver.h"
 #include "reference/reference_solver.h"
 #include "scenario/scenario.h"
 
@@ -17,7 +15,7 @@ namespace slipcheck {
 struct PreparedScene {
   Scenario scenario;
   std::unique_ptr<const ContactScene> contact;  ///< the solver looks at it
-  std::variant<ReferenceSolver, BoxSolver> solver;
+  ReferenceSolver solver;
   ReferenceResult reference;
 };
 

@@ -97,7 +97,7 @@ std::vector<double> instants(const EventTimes& events, double end, std::size_t m
 RecordedMotion reference_motion(const ReferenceSolver& solver, double end) {
   const Scene& scene = solver.scene().hard;
   EventTimes events;
-  solver.run({Run::Until::time, end, end}, &events);
+  solver.run(until_time(end), &events);
 
   RecordedMotion motion;
   motion.role = "reference";

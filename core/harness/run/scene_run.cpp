@@ -6,13 +6,11 @@
 #include <deque>
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include "engine/engine_registry.h"
 #include "engine/worker_pool.h"
 #include "harness/compare/comparison.h"
 #include "harness/observe/motion_recorder.h"
-#include "harness/run/box_run.h"
 #include "harness/run/engine_run.h"
 #include "harness/run/reference_motion.h"
 #include "harness/run/requested_runs.h"
@@ -35,32 +33,27 @@ EngineRecord::Status status_of(JobResult::Status status) {
   return EngineRecord::Status::crashed;
 }
 
+bool is_recorded(const PreparedScene& scene) {
+  return !scene.contact->hard.box && scene.scenario.bodies.size() <= kMostRecordedBodies;
+}
+
 /// A task as its workers see it: the phases of one ensemble are shared where nobody looks at all of
 /// them and there are more workers than tasks.
 class EngineWork {
  public:
   EngineWork(const EngineTask& task, const RunOptions& options, std::size_t workers)
-      : task_(&task), options_(&options) {
-    if (const auto* solver = std::get_if<ReferenceSolver>(&task.scene->solver)) {
-      ensemble_ = {solver,         &task.scene->reference, &task.scene->scenario,
-                   options.phases, options.time_limit,     task.watch};
-      records_motion_ = options.record_motion && !task.watch &&
-                        solver->scene().hard.bodies.size() <= kMostRecordedBodies;
-      shares_ = phase_shares(options.phases, task.watch || records_motion_ ? 1 : workers);
-    }
-  }
+      : task_(&task),
+        options_(&options),
+        ensemble_{&task.scene->solver, &task.scene->reference, &task.scene->scenario,
+                  options.phases,      options.time_limit,     task.watch},
+        records_motion_(options.record_motion && !task.watch && is_recorded(*task.scene)),
+        shares_(phase_shares(options.phases, task.watch || records_motion_ ? 1 : workers)) {}
 
-  std::size_t parts() const { return shares_.empty() ? 1 : shares_.size(); }
+  std::size_t parts() const { return shares_.size(); }
   EngineRecord& record() const { return *task_->record; }
 
   void run(RemoteEngine& engine, std::size_t part) {
     engine.limit_run(options_->time_limit);
-    if (const auto* box = std::get_if<BoxSolver>(&task_->scene->solver)) {
-      run_box_ensemble(engine,
-                       {box, &task_->scene->reference, &task_->scene->scenario, options_->phases},
-                       record());
-      return;
-    }
     if (records_motion_) recorder_.emplace(ensemble_.solver->scene().hard);
     EnsembleTask ensemble = ensemble_;
     if (recorder_) ensemble.watch = &*recorder_;
@@ -69,7 +62,6 @@ class EngineWork {
 
   /// All parts have come to an end, one way or another.
   void finish() {
-    if (shares_.empty()) return;
     finish_ensemble(ensemble_, shares_, record());
     if (!recorder_) return;
     record().motions = record().status == EngineRecord::Status::ok
@@ -82,8 +74,8 @@ class EngineWork {
   const EngineTask* task_;
   const RunOptions* options_;
   EnsembleTask ensemble_;
-  bool records_motion_ = false;
-  std::vector<PhaseShare> shares_;  ///< none in a box
+  bool records_motion_;
+  std::vector<PhaseShare> shares_;
   std::optional<MotionRecorder> recorder_;
 };
 
@@ -110,12 +102,10 @@ void finish(EngineWork& work) {
 }
 
 void record_motion_of(PreparedScene& scene, double time_limit) {
-  const auto* solver = std::get_if<ReferenceSolver>(&scene.solver);
-  if (!solver || scene.scenario.bodies.size() > kMostRecordedBodies) return;
-  if (scene.reference.observables.empty()) return;  // it has failed
+  if (!is_recorded(scene) || scene.reference.observables.empty()) return;  // none: it has failed
   try {
     const StopScope limit(time_limit);
-    scene.reference.motion = reference_motion(*solver, scene.reference.run.end_time);
+    scene.reference.motion = reference_motion(scene.solver, scene.reference.run.end_time);
   } catch (const std::exception& fault) {
     scene.reference.warnings.push_back(std::string("its motion was not recorded: ") + fault.what());
   }

@@ -46,15 +46,9 @@ double speed_scale(const Scene& scene, std::span<const BodyState> states) {
 }
 
 /// A world with its scheduler, whatever kind of both the scene asks for.
-class EventSolver::Engine {
+class EventSolver::Engine : public LookingSolver {
  public:
-  virtual ~Engine() = default;
   virtual std::unique_ptr<Engine> copy() const = 0;
-  virtual EventRun run(const RunEnd& end, FrameSink* sink) = 0;
-  virtual double first_contact(double limit) const = 0;
-  virtual double next_collision(double limit, double slowest) const = 0;
-  virtual std::vector<BodyState> states() const = 0;
-  virtual double now() const = 0;
 };
 
 template <class World, class Queue>
@@ -86,12 +80,12 @@ class EventSolver::EngineOf final : public Engine {
     return states;
   }
 
-  double first_contact(double limit) const override {
+  double first_contact(double limit) override {
     const std::size_t so_far = world_.collisions() + world_.landings();
     return time_of(
         limit, [&](const World& world) { return world.collisions() + world.landings() != so_far; });
   }
-  double next_collision(double limit, double slowest) const override {
+  double next_collision(double limit, double slowest) override {
     std::size_t so_far = world_.collisions();
     return time_of(limit, [&](const World& world) {
       if (world.collisions() == so_far) return false;
@@ -100,9 +94,8 @@ class EventSolver::EngineOf final : public Engine {
     });
   }
 
-  EventRun run(const RunEnd& end, FrameSink* sink) override {
-    EventRun run;
-    const bool to_a_time = end.until == Run::Until::time;
+  SolvedRun run(const RunEnd& end, FrameSink* sink) override {
+    SolvedRun run;
     const double last = end.last();
     const std::size_t events = world_.events(), collisions = world_.collisions();
     const std::size_t collapses = world_.collapses();
@@ -122,11 +115,7 @@ class EventSolver::EngineOf final : public Engine {
       if (!(scheduler_.next_time() <= last)) {
         if (std::isfinite(last)) now_ = std::max(now_, last);
         world_.show(now_);
-        run.reached = to_a_time;
-        if (!to_a_time)
-          run.reason = end.until == Run::Until::rolling
-                           ? "a body still slides or flies, or collides again, at the limit"
-                           : "a body still moves at the limit";
+        run.stop_at_limit(end.until);
         break;
       }
       scheduler_.step();
@@ -192,11 +181,11 @@ class EventSolver::EngineOf final : public Engine {
   }
 
   /// On an unbounded plane bodies that fly apart would cross cells for ever; all pairs do not.
-  double time_of_next(double limit) const {
+  double time_of_next(double limit) {
     if constexpr (World::kHasCells) {
       if (scene_->periodic == Vector2::Zero()) {
         using Pairs = SubstrateWorld<typename World::PhaseType, AllPairs>;
-        const EngineOf<Pairs, HeapQueue> ahead(*scene_, states(), settings_, least_, now_);
+        EngineOf<Pairs, HeapQueue> ahead(*scene_, states(), settings_, least_, now_);
         return ahead.next_collision(limit, 0);
       }
     }
@@ -265,9 +254,9 @@ bool EventSolver::can_solve(const Scene& scene) {
   });
 }
 
-EventRun EventSolver::run(const RunEnd& end, FrameSink* sink) { return engine_->run(end, sink); }
-double EventSolver::first_contact(double limit) const { return engine_->first_contact(limit); }
-double EventSolver::next_collision(double limit, double slowest) const {
+SolvedRun EventSolver::run(const RunEnd& end, FrameSink* sink) { return engine_->run(end, sink); }
+double EventSolver::first_contact(double limit) { return engine_->first_contact(limit); }
+double EventSolver::next_collision(double limit, double slowest) {
   return engine_->next_collision(limit, slowest);
 }
 std::vector<BodyState> EventSolver::states() const { return engine_->states(); }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "physics/frame.h"
-#include "reference/run_end.h"
+#include "reference/solver.h"
 #include "scene/scene.h"
 
 namespace slipcheck {
@@ -37,15 +37,6 @@ struct EventSettings {
   std::size_t most_without_cells = 24;
 };
 
-struct EventRun {
-  double end_time = 0;         ///< [s]
-  bool reached = false;        ///< what RunEnd::until asks for
-  std::string reason;          ///< why not
-  std::size_t events = 0;      ///< collisions, landings and ends of phases
-  std::size_t collisions = 0;  ///< of two bodies
-  std::size_t collapses = 0;   ///< of these, the ones that the rule for collapse changed
-};
-
 /// Hard spheres on a substrate, from event to event: collisions at the roots of the exact paths,
 /// and between them the phases of sliding, rolling, drilling, flight and rest, exact on a still,
 /// level plane (SubstratePhase), and to the bound that DrivenPhase states on a tilted or moving
@@ -54,7 +45,7 @@ struct EventRun {
 /// showing the frames around it does.
 ///
 /// On a plane that repeats itself states are unfolded: they go on across the border.
-class EventSolver {
+class EventSolver final : public LookingSolver {
  public:
   /// `scene` has a substrate and must outlive the solver; can_solve() holds.
   EventSolver(const Scene& scene, std::span<const BodyState> initial,
@@ -63,7 +54,7 @@ class EventSolver {
   EventSolver& operator=(const EventSolver& other);
   EventSolver(EventSolver&&) noexcept;
   EventSolver& operator=(EventSolver&&) noexcept;
-  ~EventSolver();
+  ~EventSolver() override;
 
   /// Whether there are phases for what the substrate does to bodies.
   static bool can_solve(const Scene& scene);
@@ -75,18 +66,14 @@ class EventSolver {
   /// Until::rolling and Until::rest ask, whenever nothing slides or flies (moves), whether a
   /// collision still comes before the limit. The answer is found once and holds until that
   /// collision; many bodies on an unbounded plane are then looked at in all pairs.
-  EventRun run(const RunEnd& end, FrameSink* sink);
+  SolvedRun run(const RunEnd& end, FrameSink* sink) override;
 
-  /// The time [s] of the first collision of two bodies or landing on the substrate, or infinity
-  /// where none comes before `limit` [s]. Leaves the solver as it is.
-  double first_contact(double limit) const;
+  // Both leave the solver as it is.
+  double first_contact(double limit) override;
+  double next_collision(double limit, double slowest) override;
 
-  /// The same for collisions of two bodies alone that meet at `slowest` [m/s] or faster.
-  double next_collision(double limit, double slowest = 0) const;
-
-  /// All bodies' states now.
-  std::vector<BodyState> states() const;
-  double now() const;
+  std::vector<BodyState> states() const override;
+  double now() const override;
   /// What the loop for this scene is made for: "phases on a level, still plane", ...
   static std::vector<std::string> features(const Scene& scene, const EventSettings& settings);
 

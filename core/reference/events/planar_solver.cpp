@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "physics/numbers.h"
 #include "reference/events/rate_limit.h"
 
 namespace slipcheck {
@@ -63,35 +64,36 @@ void PlanarSolver::show(double time, FrameSink* sink) {
   if (!sink) return;
   frame_.bodies.resize(world_.size());
   for (std::size_t i = 0; i < world_.size(); ++i) frame_.bodies[i] = world_.state_at(i, time);
+  frame_.collisions = world_.collisions();
   sink->take(time, frame_);
 }
 
-PlanarRun PlanarSolver::run(const RunEnd& end, FrameSink* sink, double sample_interval) {
+SolvedRun PlanarSolver::run(const RunEnd& end, FrameSink* sink) {
   return std::visit(
       [&]<class Chosen>(Chosen& chosen) {
         if constexpr (std::is_same_v<Chosen, std::monostate>)
-          return PlanarRun{};
+          return SolvedRun{};
         else
-          return run(chosen.scheduler, end, sink, sample_interval);
+          return run(chosen.scheduler, end, sink);
       },
       loop_);
 }
 
 template <class Scheduler>
-PlanarRun PlanarSolver::run(Scheduler& scheduler, const RunEnd& end, FrameSink* sink,
-                            double sample_interval) {
-  PlanarRun run;
+SolvedRun PlanarSolver::run(Scheduler& scheduler, const RunEnd& end, FrameSink* sink) {
+  SolvedRun run;
   const double last = end.last();
   // Looked at over so many events that no harmless burst of collisions counts.
   RateLimit rate(settings_.most_events, world_.size(), 1000 * world_.size() + 1'000'000, now_);
-  std::size_t samples = 0;
-  double next_sample = 0;
+  const double interval = end.sample_interval;
+  double samples = interval > 0 ? std::floor(now_ / interval) : 0;
+  double next_sample = now_, shown = now_;
   run.reached = true;
   while (true) {
     const double next = scheduler.next_time();
     while (sink && next_sample <= std::min(next, last)) {
-      show(next_sample, sink);
-      next_sample = static_cast<double>(++samples) * sample_interval;
+      show(shown = next_sample, sink);
+      next_sample = interval > 0 ? ++samples * interval : kNever;
     }
     if (!(next <= last)) break;
     scheduler.step();
@@ -105,17 +107,13 @@ PlanarRun PlanarSolver::run(Scheduler& scheduler, const RunEnd& end, FrameSink* 
   }
   if (run.reached && std::isfinite(last)) now_ = last;
   run.end_time = now_;
-  if (sink && static_cast<double>(samples - 1) * sample_interval < now_) show(now_, sink);
+  if (sink && shown < now_) show(now_, sink);
 
   run.collisions = world_.collisions();
   run.collapses = world_.collapses();
   run.contacts = world_.contacts();
-  run.energy = world_.energy_at(now_);
-  run.work = world_.work();
-  run.dissipated = world_.dissipated();
-  const double sum = std::abs(first_energy_) + std::abs(run.work) + run.dissipated;
-  run.energy_error =
-      sum == 0 ? 0 : std::abs(run.energy - first_energy_ - run.work + run.dissipated) / sum;
+  run.balance = {world_.energy_at(now_), first_energy_, world_.dissipated(), world_.work()};
+  run.balance->scale = std::abs(first_energy_) + std::abs(world_.work()) + world_.dissipated();
   double mass = 0;
   for (const Sphere& sphere : scene_->bodies) mass += sphere.mass;
   Vector2 given = world_.wall_impulse();

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "physics/frame.h"
-#include "reference/events/event_solver.h"
 #include "reference/events/planar_loop.h"
 #include "reference/events/planar_world.h"
+#include "reference/solver.h"
 
 namespace slipcheck {
 
@@ -26,30 +26,20 @@ struct PlanarSettings {
   bool general = false;
 };
 
-/// What a run in the plane came to, beside what every event-driven run tells.
-struct PlanarRun : EventRun {
-  std::size_t contacts = 0;   ///< with walls, floor and lid
-  double energy = 0;          ///< in the end, kinetic and potential [J]
-  double work = 0;            ///< of moving walls on the bodies [J]
-  double dissipated = 0;      ///< in collisions, by their laws [J]
-  double energy_error = 0;    ///< of E − E0 − work + dissipated, relative to their sum [-]
-  double momentum_error = 0;  ///< of the sum over all bodies, relative to that of |m v| passed on
-};
-
 /// Hard spheres in a plane from event to event (PlanarWorld, EventScheduler): L's vibrated box, or
 /// a gas on a plane without friction. The only errors are of rounding.
-class PlanarSolver {
+class PlanarSolver final : public Solver {
  public:
   /// `scene` must outlive the solver; PlanarWorld::is_planar() holds.
   PlanarSolver(const Scene& scene, std::span<const BodyState> initial,
                const PlanarSettings& settings = {});
 
   /// Runs from time 0 to end.time [s], or end.limit where `until` is no time, and shows `sink`,
-  /// where given, the states at 0, at every multiple of `sample_interval` [s], > 0, and at the end.
-  PlanarRun run(const RunEnd& end, FrameSink* sink, double sample_interval);
+  /// where given, the states at 0, at every multiple of end.sample_interval, and at the end.
+  SolvedRun run(const RunEnd& end, FrameSink* sink) override;
 
-  /// All bodies' states now, the end of the last run.
-  std::vector<BodyState> states() const;
+  std::vector<BodyState> states() const override;
+  double now() const override { return now_; }
   const PlanarWorld& world() const { return world_; }
   /// What the loop over events leaves out because the scene lacks it, in words; maybe nothing.
   std::vector<std::string> left_out() const;
@@ -72,7 +62,7 @@ class PlanarSolver {
   using SmoothPlane = Loop<PlanarFeatures{.box = false, .radii = false, .spin = false}>;
 
   template <class Scheduler>
-  PlanarRun run(Scheduler& scheduler, const RunEnd& end, FrameSink* sink, double sample_interval);
+  SolvedRun run(Scheduler& scheduler, const RunEnd& end, FrameSink* sink);
   void choose_loop();
   void show(double time, FrameSink* sink);
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "physics/numbers.h"
+#include "reference/events/event_solver.h"
 #include "reference/forces/contact_integrator.h"
 #include "reference/initial_contacts.h"
 
@@ -50,7 +51,7 @@ class ContactSolver::Impl {
         initial_energy_(energy()),
         initial_elastic_energy_(state_.dynamics().elastic_energy(state_.y.data())) {}
 
-  ContactRun run(const RunEnd& end, FrameSink* sink);
+  SolvedRun run(const RunEnd& end, FrameSink* sink);
   double first_contact(double limit);
   double next_collision(double limit, double slowest);
 
@@ -60,8 +61,8 @@ class ContactSolver::Impl {
  private:
   using Happening = ContactIntegrator::Happening;
 
-  void handle(const Happening& happening, FrameSink* sink, ContactRun& run);
-  void handle_touch(const NextTouch& touch, FrameSink* sink, ContactRun& run);
+  void handle(const Happening& happening, FrameSink* sink, SolvedRun& run);
+  void handle_touch(const NextTouch& touch, FrameSink* sink, SolvedRun& run);
   void handle_root(const ContactWatch::Item& item, int direction);
   void reveal_slides(FrameSink* sink);
   bool has_ended(const RunEnd& end);
@@ -85,7 +86,7 @@ class ContactSolver::Impl {
 
 // --- events --------------------------------------------------------------------------------------
 
-void ContactSolver::Impl::handle_touch(const NextTouch& touch, FrameSink* sink, ContactRun& run) {
+void ContactSolver::Impl::handle_touch(const NextTouch& touch, FrameSink* sink, SolvedRun& run) {
   state_.project();
   const auto& soft = scene_->between(touch.first, touch.second);
   const bool is_impact = !soft || (soft->after_impact && state_.meet(touch.first, touch.second));
@@ -170,7 +171,7 @@ void ContactSolver::Impl::handle_root(const ContactWatch::Item& item, int direct
   }
 }
 
-void ContactSolver::Impl::handle(const Happening& happening, FrameSink* sink, ContactRun& run) {
+void ContactSolver::Impl::handle(const Happening& happening, FrameSink* sink, SolvedRun& run) {
   if (happening.touch) {
     ++run.events;
     handle_touch(*happening.touch, sink, run);
@@ -264,9 +265,9 @@ EnergyBalance ContactSolver::Impl::balance() const {
   balance.energy = energy();
   balance.initial = initial_energy_;
   balance.dissipated = state_.y[state_.dynamics().dissipated_at()];
-  balance.substrate_work = state_.y[state_.dynamics().work_at()];
+  balance.work = state_.y[state_.dynamics().work_at()];
   balance.scale = std::max({integrator_.largest_kinetic_energy(), initial_elastic_energy_,
-                            std::abs(balance.dissipated), std::abs(balance.substrate_work)});
+                            std::abs(balance.dissipated), std::abs(balance.work)});
   return balance;
 }
 
@@ -293,9 +294,8 @@ bool ContactSolver::Impl::has_ended(const RunEnd& end) {
   return !will_collide(end.limit);
 }
 
-ContactRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
-  ContactRun run;
-  const bool to_a_time = end.until == Run::Until::time;
+SolvedRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
+  SolvedRun run;
   const double last = end.last();
   if (is_at_start()) run.collisions = overlapping_.size();
   show(sink, state_.time);
@@ -316,11 +316,7 @@ ContactRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
       break;
     }
     if (state_.time >= last) {
-      run.reached = to_a_time;
-      if (!to_a_time)
-        run.reason = end.until == Run::Until::rolling
-                         ? "a body still slides or flies, or collides again, at the limit"
-                         : "a body still moves at the limit";
+      run.stop_at_limit(end.until);
       state_.project();
       show(sink, state_.time);
       break;
@@ -352,7 +348,7 @@ ContactRun ContactSolver::Impl::run(const RunEnd& end, FrameSink* sink) {
 
 double ContactSolver::Impl::first_contact(double limit) {
   if (is_at_start() && !overlapping_.empty()) return state_.time;
-  ContactRun run;
+  SolvedRun run;
   while (state_.time < limit && run.events < settings_.max_events) {
     const Happening happening = integrator_.advance(limit);
     if (happening.touch) return state_.time;
@@ -367,7 +363,7 @@ double ContactSolver::Impl::next_collision(double limit, double slowest) {
   // Looks at what meets: an engine's overlaps are not to burst apart.
   if (!overlapping_.empty())
     return Impl(*scene_, initial_, settings_, {}).next_collision(limit, slowest);
-  ContactRun run;
+  SolvedRun run;
   while (state_.time < limit && run.events < settings_.max_events) {
     const Happening happening = integrator_.advance(limit);
     if (happening.touch) {
@@ -389,7 +385,7 @@ ContactSolver::ContactSolver(const ContactScene& scene, std::span<const BodyStat
 ContactSolver::~ContactSolver() = default;
 ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
 
-ContactRun ContactSolver::run(const RunEnd& end, FrameSink* sink) { return impl_->run(end, sink); }
+SolvedRun ContactSolver::run(const RunEnd& end, FrameSink* sink) { return impl_->run(end, sink); }
 double ContactSolver::first_contact(double limit) { return impl_->first_contact(limit); }
 double ContactSolver::next_collision(double limit, double slowest) {
   return impl_->next_collision(limit, slowest);

@@ -41,14 +41,14 @@ class SoftBoxSolver::Impl {
     first_energy_ = energy();
   }
 
-  SoftBoxRun run(const RunEnd& end, FrameSink* sink, double sample_interval) {
+  SolvedRun run(const RunEnd& end, FrameSink* sink) {
     if (end.until != Run::Until::time)
       throw Unsupported("resolved contacts in a box run until a time; nothing there comes to rest");
     sink_ = sink;
-    interval_ = sink ? sample_interval : 0;
+    interval_ = sink ? end.sample_interval : 0;
     next_sample_ = interval_ > 0 ? std::floor(now_ / interval_) : 0;
     while (sample_time() <= now_) ++next_sample_;
-    SoftBoxRun run;
+    SolvedRun run;
     if (sink) show(now_, state_);
     while (now_ < end.time && steps_ < settings_.max_steps) {
       heed_stop();
@@ -73,15 +73,11 @@ class SoftBoxSolver::Impl {
     run.reached = now_ >= end.time;
     if (!run.reached) run.reason = "more than " + std::to_string(settings_.max_steps) + " steps";
     run.steps = steps_;
-    run.body_steps = body_steps_;
     run.collisions = collisions_;
-    run.bounces = bounces_;
-    run.work = state_.work;
-    run.dissipated = state_.dissipated;
-    const double last = energy();
-    const double scale = std::max(
-        {std::abs(first_energy_), std::abs(last), std::abs(run.work), std::abs(run.dissipated)});
-    if (scale != 0) run.energy_error = (last - first_energy_ - run.work + run.dissipated) / scale;
+    run.contacts = bounces_;
+    run.balance = {energy(), first_energy_, state_.dissipated, state_.work};
+    run.balance->scale = std::max({std::abs(first_energy_), std::abs(run.balance->energy),
+                                   std::abs(state_.work), std::abs(state_.dissipated)});
     return run;
   }
 
@@ -91,7 +87,7 @@ class SoftBoxSolver::Impl {
     return states;
   }
   double now() const { return now_; }
-  std::size_t collisions() const { return collisions_; }
+  std::size_t body_steps() const { return body_steps_; }
   double energy() const { return dynamics_.energy(now_, motions(now_, state_)); }
 
  private:
@@ -121,6 +117,7 @@ class SoftBoxSolver::Impl {
     frame_.bodies.resize(dynamics_.size());
     for (std::size_t i = 0; i < dynamics_.size(); ++i)
       frame_.bodies[i] = spatial(motion(i, t, state));
+    frame_.collisions = collisions_;
     sink_->take(t, frame_);
     shown_ = t;
   }
@@ -371,12 +368,10 @@ SoftBoxSolver::SoftBoxSolver(const ContactScene& scene, std::span<const BodyStat
 SoftBoxSolver::~SoftBoxSolver() = default;
 SoftBoxSolver::SoftBoxSolver(SoftBoxSolver&&) noexcept = default;
 
-SoftBoxRun SoftBoxSolver::run(const RunEnd& end, FrameSink* sink, double sample_interval) {
-  return impl_->run(end, sink, sample_interval);
-}
+SolvedRun SoftBoxSolver::run(const RunEnd& end, FrameSink* sink) { return impl_->run(end, sink); }
 std::vector<BodyState> SoftBoxSolver::states() const { return impl_->states(); }
 double SoftBoxSolver::now() const { return impl_->now(); }
-std::size_t SoftBoxSolver::collisions() const { return impl_->collisions(); }
+std::size_t SoftBoxSolver::body_steps() const { return impl_->body_steps(); }
 double SoftBoxSolver::energy() const { return impl_->energy(); }
 
 }  // namespace slipcheck

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "physics/numbers.h"
+#include "reference/events/event_solver.h"
 #include "reference/events/path_collision.h"
 #include "reference/steps/step_kernel.h"
 
@@ -68,42 +69,20 @@ class StepSolver::Impl {
       world_.bodies.push_back(make_body(hard, i, initial[i], world_.slowest_rebound));
   }
 
-  StepRun run(const RunEnd& end, FrameSink* sink) {
-    const bool to_a_time = end.until == Run::Until::time;
-    const auto last = static_cast<std::size_t>(
-        std::ceil((to_a_time ? end.time : end.limit) / world_.step * (1 - 4 * kEpsilon)));
-    const StepStop wanted = to_a_time                          ? StepStop::never
-                            : end.until == Run::Until::rolling ? StepStop::rolling
-                                                               : StepStop::rest;
-    bool reached = false;
-    std::size_t quiet_from = world_.n;  // before that, bodies are known to collide yet
-    while (true) {
-      kernel_->find_forces(world_);
-      if (sink) {
-        kernel_->show(world_, frame_);
-        sink->take(world_.time(), frame_);
-      }
-      if (wanted != StepStop::never && world_.n >= quiet_from && kernel_->is_met(world_, wanted)) {
-        const double meeting = next_collision(end.limit - world_.time());
-        reached = meeting == kNever;
-        if (reached) break;
-        quiet_from = world_.n + 1 + static_cast<std::size_t>(meeting / world_.step);
-      }
-      if (world_.n >= last) break;
-      const bool is_watched = world_.n >= quiet_from;
-      std::size_t steps = sink ? 1 : last - world_.n;
-      if (!is_watched) steps = std::min(steps, quiet_from - world_.n);
-      kernel_->advance(world_, steps, is_watched ? wanted : StepStop::never);
+  SolvedRun run(const RunEnd& end, FrameSink* sink) {
+    SolvedRun run;
+    try {
+      if (has_ended(end, sink))
+        run.reached = true;
+      else
+        run.stop_at_limit(end.until);
+    } catch (const StepTooLong& too_long) {
+      run.failed = true;
+      run.reason = too_long.what();
     }
-    StepRun run;
     run.end_time = world_.time();
-    run.reached = to_a_time || reached;
-    if (!run.reached)
-      run.reason = end.until == Run::Until::rolling
-                       ? "a body still slides or flies, or collides again, at the limit"
-                       : "a body still moves at the limit";
     run.steps = world_.n;
-    run.collisions = world_.collisions;
+    run.events = run.collisions = world_.collisions;
     return run;
   }
 
@@ -140,6 +119,34 @@ class StepSolver::Impl {
   }
 
  private:
+  /// Goes on to the end; whether it came there before the limit.
+  bool has_ended(const RunEnd& end, FrameSink* sink) {
+    const bool to_a_time = end.until == Run::Until::time;
+    const auto last =
+        static_cast<std::size_t>(std::ceil(end.last() / world_.step * (1 - 4 * kEpsilon)));
+    const StepStop wanted = to_a_time                          ? StepStop::never
+                            : end.until == Run::Until::rolling ? StepStop::rolling
+                                                               : StepStop::rest;
+    std::size_t quiet_from = world_.n;  // before that, bodies are known to collide yet
+    while (true) {
+      kernel_->find_forces(world_);
+      if (sink) {
+        kernel_->show(world_, frame_);
+        sink->take(world_.time(), frame_);
+      }
+      if (wanted != StepStop::never && world_.n >= quiet_from && kernel_->is_met(world_, wanted)) {
+        const double meeting = next_collision(end.limit - world_.time());
+        if (meeting == kNever) return true;
+        quiet_from = world_.n + 1 + static_cast<std::size_t>(meeting / world_.step);
+      }
+      if (world_.n >= last) return to_a_time;
+      const bool is_watched = world_.n >= quiet_from;
+      std::size_t steps = sink ? 1 : last - world_.n;
+      if (!is_watched) steps = std::min(steps, quiet_from - world_.n);
+      kernel_->advance(world_, steps, is_watched ? wanted : StepStop::never);
+    }
+  }
+
   /// In what time bodies that all roll collide again, or infinity: exact on a level substrate at
   /// rest. Elsewhere straight on, half the time to that collision: all that roll are accelerated
   /// alike, if their shape factors are.
@@ -148,7 +155,7 @@ class StepSolver::Impl {
     const std::vector<BodyState> all = states();
     if (hard.motion.is_still() && hard.downhill.isZero(0)) {
       EventSolver ahead(hard, all);
-      return ahead.next_collision(limit);
+      return ahead.next_collision(limit, 0);
     }
     double first = kNever;
     for (std::size_t j = 1; j < all.size(); ++j)
@@ -174,10 +181,10 @@ StepSolver::StepSolver(const ContactScene& scene, std::span<const BodyState> ini
 StepSolver::~StepSolver() = default;
 StepSolver::StepSolver(StepSolver&&) noexcept = default;
 
-StepRun StepSolver::run(const RunEnd& end, FrameSink* sink) { return impl_->run(end, sink); }
-std::vector<BodyState> StepSolver::states() { return impl_->states(); }
+SolvedRun StepSolver::run(const RunEnd& end, FrameSink* sink) { return impl_->run(end, sink); }
+std::vector<BodyState> StepSolver::states() const { return impl_->states(); }
 double StepSolver::now() const { return impl_->now(); }
-double StepSolver::energy() { return impl_->energy(); }
+double StepSolver::energy() const { return impl_->energy(); }
 std::vector<std::string> StepSolver::features() const { return impl_->features(); }
 
 double step_limit(double omega0, double gamma) {

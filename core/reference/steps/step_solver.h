@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "physics/frame.h"
-#include "reference/run_end.h"
+#include "reference/solver.h"
 #include "scene/contact_scene.h"
 
 namespace slipcheck {
@@ -29,14 +29,6 @@ class StepTooLong : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-struct StepRun {
-  double end_time = 0;         ///< [s], a whole number of steps
-  bool reached = false;        ///< what RunEnd::until asks for
-  std::string reason;          ///< why not
-  std::size_t steps = 0;       ///< since time 0
-  std::size_t collisions = 0;  ///< contacts of two bodies that began since then
-};
-
 /// The forces of ContactSolver by steps of fixed length h: velocity Verlet, symplectic without
 /// dissipation and of second order for smooth motion, collisions from begin to end included (order
 /// 3/2 for B (24), whose force begins like √t). An asperity that breaks, and Coulomb's cap where
@@ -48,26 +40,24 @@ struct StepRun {
 /// The normal and tangential law and whether the substrate is one without friction, a level plane
 /// at rest with Coulomb friction or more are chosen once, into a loop that has no trace of what the
 /// scene lacks; many bodies in a plane go to GrainLoop.
-class StepSolver {
+class StepSolver final : public Solver {
  public:
   /// The scene must outlive the solver. Throws Unsupported where bodies could meet whose contact is
   /// hard, or on a periodic plane with what GrainLoop has not.
   StepSolver(const ContactScene& scene, std::span<const BodyState> initial,
              const StepSettings& settings);
-  ~StepSolver();
+  ~StepSolver() override;
   StepSolver(StepSolver&&) noexcept;
 
-  /// Throws StepTooLong where many bodies move so far in a step that neighbours cannot be told.
-  ///
-  /// Runs from time 0, or from now when called again, to the first step at or after the end. Shows
-  /// `sink`, where given, a frame a step.
-  StepRun run(const RunEnd& end, FrameSink* sink);
+  /// Runs to the first step at or after the end, and shows `sink` a frame a step. A run in which
+  /// many bodies move so far in a step that neighbours cannot be told has failed. The run counts
+  /// from time 0.
+  SolvedRun run(const RunEnd& end, FrameSink* sink) override;
 
-  /// All bodies' states now.
-  std::vector<BodyState> states();
-  double now() const;
+  std::vector<BodyState> states() const override;
+  double now() const override;
   /// Kinetic energy and that of gravity and of elastic contacts, now [J].
-  double energy();
+  double energy() const;
   /// What the loop was made for: "linear normal force", ...
   std::vector<std::string> features() const;
 

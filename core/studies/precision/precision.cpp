@@ -112,7 +112,7 @@ struct Work {
   std::vector<std::unique_ptr<TrajectoryWatch>> watches;  ///< of the engines' records, in order
   std::vector<MethodCurve> reference;
 
-  const ReferenceSolver& solver() const { return std::get<ReferenceSolver>(scene->solver); }
+  const ReferenceSolver& solver() const { return scene->solver; }
 };
 
 /// Of a scene whose reference has an end to be held against.

@@ -31,9 +31,7 @@ constexpr double kMostSteps = 1e6;
 /// Of the reference's run: what has not come to its end by then is not waited for.
 constexpr double kPatience = 1.5;
 
-const ReferenceSolver& solver_of(const PreparedScene& scene) {
-  return std::get<ReferenceSolver>(scene.solver);
-}
+const ReferenceSolver& solver_of(const PreparedScene& scene) { return scene.solver; }
 
 /// A solver's runs on one scene turned into points.
 class Curves {
@@ -108,17 +106,8 @@ WorkPrecision Curves::solved_point(const ReferenceSolver& solver, double toleran
     return point;
   }
   std::vector<Centres> centres;
-  if (solver.is_exact()) {
-    for (const auto& states : solver.states_along(times_)) centres.push_back(centres_of(states));
-  } else {
-    ContactSettings settings;
-    settings.tolerance = tolerance;
-    ContactSolver along(solver.scene(), hard.initial, settings);
-    for (const double time : times_) {
-      if (!along.run({Run::Until::time, time, time}, nullptr).reached) break;
-      centres.push_back(centres_of(along.states()));
-    }
-  }
+  for (const auto& states : solver.states_along(times_, tolerance))
+    centres.push_back(centres_of(states));
   return point_of(tolerance,
                   {named_values(observer.finish(run.end_time), body_names(scene_.scenario))},
                   {largest_distance(centres, expected_)});
@@ -189,17 +178,14 @@ WorkPrecision Curves::stepped_point(double step) const {
     StepsAsEvents events(observer);
     SampledPath path(times_, &events);
     StepSolver solver(*scene_.contact, hard.initial, {h});
-    StepRun run;
-    try {
-      run = solver.run(end_, &path);
-    } catch (const StepTooLong& too_long) {
+    const SolvedRun run = solver.run(end_, &path);
+    if (run.failed) {
       point.status = RunStatus::unstable;
-      point.reason = too_long.what();
+      point.reason = run.reason;
       return point;
     }
     path.stop_telling();
-    if (path.centres.size() < times_.size())
-      solver.run({Run::Until::time, times_.back(), times_.back()}, &path);
+    if (path.centres.size() < times_.size()) solver.run(until_time(times_.back()), &path);
     // The end as an engine's run has it.
     const double ended = !run.reached                        ? run.end_time
                          : end_.until == Run::Until::time    ? end_.time

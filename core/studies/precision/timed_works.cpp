@@ -51,8 +51,7 @@ TimedWork timed_steps(const PreparedScene& scene, const ReferenceSolver& solver,
   const double step = point.knob, time = (steps - 0.5) * step;
   return {&point, steps, 1 / step, [&scene, stretch, step, time] {
             return least_cpu_seconds([&] {
-              StepSolver(*scene.contact, stretch->states, {step})
-                  .run({Run::Until::time, time, time}, nullptr);
+              StepSolver(*scene.contact, stretch->states, {step}).run(until_time(time), nullptr);
             });
           }};
 }
@@ -105,7 +104,7 @@ TimedStretch timed_stretch(const ReferenceSolver& solver, double first_contact, 
 
 std::vector<TimedWork> timed_works(const PreparedScene& scene, std::vector<MethodCurve>& curves,
                                    TimingWorkers& workers) {
-  const auto& solver = std::get<ReferenceSolver>(scene.solver);
+  const ReferenceSolver& solver = scene.solver;
   std::vector<TimedWork> works;
   for (MethodCurve& curve : curves)
     for (WorkPrecision& point : curve.points) {

@@ -65,7 +65,7 @@ Trial closed_contact_trial(double omega0, double gamma, double step) {
   StepSolver solver(scene, scene.hard.initial, {step});
   Quarters seen;
   const double end = static_cast<double>(kSteps) * step;
-  solver.run({Run::Until::time, end, end}, &seen);
+  solver.run(until_time(end), &seen);
 
   const double largest = *std::ranges::max_element(seen.way);
   const bool is_finite = std::ranges::all_of(seen.way, [](double v) { return std::isfinite(v); });

@@ -62,7 +62,7 @@ class FixedStepRun final : public FrameSink {
 FixedStepOutcome fixed_step_outcome(const ReferencePath& path, double step, std::size_t phases,
                                     const OutcomeCriteria& criteria) {
   const PreparedScene& scene = path.prepared();
-  const auto& solver = std::get<ReferenceSolver>(scene.solver);
+  const ReferenceSolver& solver = scene.solver;
   OutcomeWatch watch(path, criteria, step, true);
   std::vector<std::map<std::string, double>> seen;
   FixedStepOutcome result;
@@ -73,7 +73,7 @@ FixedStepOutcome fixed_step_outcome(const ReferencePath& path, double step, std:
       StepSolver steps(path.scene(), solver.states_at(start), {step});
       const double end = path.end() - start;
       try {
-        const StepRun done = steps.run({Run::Until::time, end, end}, &run);
+        const SolvedRun done = steps.run(until_time(end), &run);
         seen.push_back(
             named_values(run.observables(start + done.end_time), body_names(scene.scenario)));
       } catch (const Lost& run_lost) {

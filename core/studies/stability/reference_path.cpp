@@ -55,12 +55,12 @@ struct EnergySeries final : FrameSink {
 }  // namespace
 
 ReferencePath::ReferencePath(const PreparedScene& scene, std::size_t samples)
-    : prepared_(&scene), scene_(&std::get<ReferenceSolver>(scene.solver).scene()) {
+    : prepared_(&scene), scene_(&scene.solver.scene()) {
   const Scene& hard = scene_->hard;
   speed_scale_ = speed_scale(*scene_);
   times_ = {0};
   states_ = {hard.initial};
-  const auto& solver = std::get<ReferenceSolver>(scene.solver);
+  const ReferenceSolver& solver = scene.solver;
   const double end = scene.reference.run.end_time;
   if (end > 0 && std::isfinite(end)) {
     const std::size_t count = samples_of(hard.motion, end, samples);
@@ -89,7 +89,7 @@ void ReferencePath::look_at_energies(const ReferenceSolver& solver) {
   const Scene& hard = scene_->hard;
   EnergySeries series(*scene_, kAtRest * speed_scale_);
   for (std::size_t k = 0; k < times_.size(); ++k) series.add(times_[k], states_[k]);
-  if (!hard.motion.is_still() && end() > 0) solver.run({Run::Until::time, end(), end()}, &series);
+  if (!hard.motion.is_still() && end() > 0) solver.run(until_time(end()), &series);
   series.sort();
 
   double lowest = kNever, highest = -kNever;
