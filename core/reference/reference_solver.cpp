@@ -77,7 +77,16 @@ void ReferenceSolver::choose_in_box() {
   resolved_ = settings_.asked == Compare::Reference::contact ||
               (settings_.asked == Compare::Reference::automatic && !scene_->is_hard());
   phases_ = !resolved_;
-  if (resolved_) SoftBoxSolver(*scene_, scene_->hard.initial);  // throws
+  if (resolved_)
+    SoftBoxSolver(*scene_, scene_->hard.initial);  // throws
+  else if (!scene_->is_hard())
+    harden();
+}
+
+/// What is solved has no contact that lasts.
+void ReferenceSolver::harden() {
+  made_ = with_hard_contacts(scene_->hard);
+  made_->warnings = scene_->warnings;
 }
 
 void ReferenceSolver::choose_on_plane() {
@@ -92,8 +101,7 @@ void ReferenceSolver::choose_on_plane() {
   if (!resolved_ && soft) {
     if (!initial_contacts(scene, scene.hard.initial).empty())
       throw Unsupported("bodies that overlap at the start can only be solved with soft contacts");
-    made_ = scene;
-    made_->soft.assign(scene.soft.size(), std::nullopt);
+    harden();
   }
   if (automatic && !soft && has_lasting_contacts(scene.hard)) {
     collision_time_ = short_collision_time(scene.hard);

@@ -52,6 +52,7 @@ class ReferenceSolver {
   /// Hard contacts are taken as short ones that last (lasting_contacts.h), as bodies stay in
   /// contact: so long is a collision [s], else 0.
   double softened_to() const { return made_ && resolved_ ? collision_time_ : 0; }
+  /// What is solved.
   const ContactScene& scene() const { return made_ ? *made_ : *scene_; }
 
   SolvedRun run(const RunEnd& end, FrameSink* sink, const SolverAccuracy& accuracy = {}) const;
@@ -72,6 +73,7 @@ class ReferenceSolver {
  private:
   void choose_in_box();
   void choose_on_plane();
+  void harden();
   double step_to(const RunEnd& end, double factor) const;
   std::unique_ptr<Solver> at_start(const ContactScene& scene, const SolverAccuracy& accuracy,
                                    const RunEnd& end) const;

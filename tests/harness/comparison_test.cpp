@@ -170,8 +170,8 @@ TEST(Undecided, AReferenceThatDidNotEnd) {
                                 ensemble_values({{{"i.sliding_time", 1.0}}}));
   EXPECT_EQ(found.at("i.sliding_time").verdict, Verdict::undecided);
   EXPECT_EQ(found.at("i.sliding_time").reason, "the reference did not come to its end");
-  EXPECT_EQ((SceneRecord{{}, truth, {}}).verdict(), Verdict::undecided);
-  EXPECT_EQ((SceneRecord{{}, reference({}), {}}).verdict(), Verdict::unjudged);
+  EXPECT_EQ((SceneRecord{{}, {}, truth, {}}).verdict(), Verdict::undecided);
+  EXPECT_EQ((SceneRecord{{}, {}, reference({}), {}}).verdict(), Verdict::unjudged);
 }
 
 TEST(Undecided, AveragesOverABoxThatDrift) {
@@ -372,7 +372,7 @@ EngineRecord deviating_run(RunStatus status = RunStatus::ok) {
 }
 
 Verdict verdict_of(const EngineRecord& run) {
-  return SceneRecord{{}, reference({}), {run}}.verdict();
+  return SceneRecord{{}, {}, reference({}), {run}}.verdict();
 }
 
 TEST(Expectations, JudgeARunInPlaceOfItsTolerances) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <pugixml.hpp>
 #include <set>
 #include <sstream>
@@ -13,6 +14,7 @@
 #include "records.h"
 #include "report/charts/gnuplot_charts.h"
 #include "report/files/files.h"
+#include "scene/scene_outline.h"
 #include "study_records.h"
 #include "text_search.h"
 
@@ -151,9 +153,16 @@ RecordedMotion sliding(const std::string& role, std::size_t bodies) {
   return motion;
 }
 
+/// Motion is held against the scene in numbers.
+void put_on_plane(SceneRecord& scene) {
+  scene.scenario.surroundings = Substrate{};
+  scene.scene =
+      std::make_shared<const ContactScene>(with_hard_contacts(make_outline(scene.scenario).scene));
+}
+
 TEST_F(Gnuplot, MotionHasAPanelEachForSlipSpeedAndEnergy) {
   SceneRecord scene = lottery_scene(4);
-  scene.scenario.surroundings = Substrate{};
+  put_on_plane(scene);
   scene.reference.motion = sliding("reference", 2);
   scene.runs[0].motions = {sliding("nearest", 2), sliding("median", 2)};
   const pugi::xml_document svg = drawn(content_of(scene), "motion-symmetric-steel");
@@ -212,7 +221,7 @@ TEST_F(Gnuplot, StudiesHaveTheirCharts) {
 TEST_F(Gnuplot, PoorDataAreDrawnToo) {
   ReportContent content;
   SceneRecord scene = lottery_scene(1);
-  scene.scenario.surroundings = Substrate{};
+  put_on_plane(scene);
   for (EngineRecord& run : scene.runs)
     for (auto& [name, ensemble] : run.observables) ensemble.values = {kInfinity};
   RecordedMotion instant = sliding("median", 2);

@@ -195,6 +195,7 @@ bodies:
 run: {until: rest}
 )",
                                   "ball.yaml");
+  scene.scene = solved_scene(scene.scenario);
   const std::string html = page_of({scene});
   EXPECT_TRUE(contains(html, "<summary>Left out: 10 of 12 features</summary>"));
   EXPECT_TRUE(contains(html, "collisions of two bodies: one body; "));

@@ -179,6 +179,7 @@ bodies:
 run: {until: 0.1}
 )",
                                   "ball.yaml");
+  scene.scene = solved_scene(scene.scenario);
   return scene;
 }
 

@@ -187,9 +187,7 @@ void print_engines(const Scenario& scenario, const Scene& scene,
   }
 }
 
-void explain_in_box(const Scenario& scenario, const ContactScene& scene,
-                    const ReferenceSolver& solver) {
-  print_features(solver.is_resolved() ? scene : with_hard_contacts(scene.hard));
+void explain_in_box(const Scenario& scenario, const ContactScene& scene) {
   explain_bodies(scenario, scene.hard);
   explain_box(scenario, scene);
   const double speed = planar_speed_scale(scene.hard, scene.hard.initial);
@@ -199,7 +197,6 @@ void explain_in_box(const Scenario& scenario, const ContactScene& scene,
 void explain_on_substrate(const Scenario& scenario, const ContactScene& scene,
                           const ReferenceSolver& solver) {
   const auto meeting = first_meeting(scene, run_end(scenario).last());
-  print_features(solver.scene());
   explain_bodies(scenario, scene.hard);
   print_substrate(scenario, scene.hard);
   explain_gas(scene.hard);
@@ -217,7 +214,8 @@ void explain(const Scenario& scenario, const std::vector<EngineRecord>& runs, bo
     const ReferenceSolver solver(scene, reference_settings(scenario, general));
     print_solver(scene, solver);
     print_loop(solver.loop());
-    scene.hard.box ? explain_in_box(scenario, scene, solver)
+    print_features(solver.scene());
+    scene.hard.box ? explain_in_box(scenario, scene)
                    : explain_on_substrate(scenario, scene, solver);
   } catch (const Unsupported& unsupported) {
     fmt::print("\n  No solver for this scene:\n{}\n", unsupported.what());

@@ -4,6 +4,8 @@
 
 #include "harness/compare/comparison.h"
 #include "harness/observe/observables.h"
+#include "reference/reference_solver.h"
+#include "scenario/fault.h"
 
 namespace slipcheck {
 
@@ -39,6 +41,18 @@ Verdict SceneRecord::verdict() const {
   Verdict worst = has_end ? Verdict::unjudged : Verdict::undecided;
   for (const EngineRecord& run : runs) worst = std::max(worst, run.verdict());
   return worst;
+}
+
+std::shared_ptr<const ContactScene> solved_scene(const Scenario& scenario) {
+  try {
+    const ContactScene scene = make_contact_scene(scenario);
+    const ReferenceSolver solver(scene, reference_settings(scenario));
+    return std::make_shared<const ContactScene>(solver.scene());
+  } catch (const Unsupported&) {
+    return nullptr;
+  } catch (const BadScenario&) {  // a restitution that a law of this version cannot reach
+    return nullptr;
+  }
 }
 
 const char* name_of(EngineRecord::Status status) {

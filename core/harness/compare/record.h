@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -83,12 +84,17 @@ struct EngineRecord {
 /// A scene with all that was found out about it.
 struct SceneRecord {
   Scenario scenario;
+  /// In numbers, as the reference solves it; none where this version has no solver for it.
+  std::shared_ptr<const ContactScene> scene;
   ReferenceResult reference;
   std::vector<EngineRecord> runs;
 
   /// The worst of its runs, undecided where the reference came to no end; unjudged without engines.
   Verdict verdict() const;
 };
+
+/// What SceneRecord::scene is.
+std::shared_ptr<const ContactScene> solved_scene(const Scenario& scenario);
 
 const char* name_of(EngineRecord::Status status);
 const char* name_of(ExpectationResult::Statistic statistic);

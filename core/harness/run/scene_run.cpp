@@ -166,8 +166,9 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
 
   std::vector<SceneRecord> scenes;
   for (std::size_t s = 0; s < prepared.size(); ++s)
-    scenes.push_back(
-        {std::move(prepared[s].scenario), std::move(prepared[s].reference), std::move(runs[s])});
+    scenes.push_back({std::move(prepared[s].scenario),
+                      std::make_shared<const ContactScene>(prepared[s].solver.scene()),
+                      std::move(prepared[s].reference), std::move(runs[s])});
   return scenes;
 }
 

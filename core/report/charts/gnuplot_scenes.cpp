@@ -15,7 +15,6 @@
 #include "report/rows/phase_spread.h"
 #include "report/rows/quantity.h"
 #include "report/rows/selection.h"
-#include "scene/scene_outline.h"
 
 namespace slipcheck {
 namespace {
@@ -199,8 +198,8 @@ std::string panel_script(const MotionPanel& panel, const std::string& data,
 void add_motion_chart(const SceneRecord& scene, std::set<std::string>& taken,
                       std::vector<GnuplotChart>& charts) {
   const std::vector<DrawnMotion> motions = drawn_motions(scene);
-  if (motions.empty()) return;
-  const Scene hard = make_outline(scene.scenario).scene;
+  if (motions.empty() || !scene.scene) return;
+  const Scene& hard = scene.scene->hard;
   CsvRows rows({"motion", "body", "time", "slip_x", "slip_y", "slip", "speed", "energy", "label"});
   std::array<MotionPanel, 3> panels = {MotionPanel{"slip", "slip velocity", kVelocity, {}, {}},
                                        MotionPanel{"speed", "speed", kVelocity, {}, {}},

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <exception>
-
 #include "harness/compare/scene_features.h"
 #include "report/charts/phase_charts.h"
 #include "report/charts/scene_drawing.h"
@@ -50,14 +48,8 @@ std::string reference_part(const SceneRecord& scene, const std::vector<std::stri
 
 /// The features of the reference that the scene does without, as `slipcheck explain` tells them.
 std::string left_out_part(const SceneRecord& scene) {
-  std::vector<Feature> features;
-  try {
-    ContactScene solved = make_contact_scene(scene.scenario);
-    if (scene.reference.solver != "contact") solved = with_hard_contacts(std::move(solved.hard));
-    features = scene_features(solved);
-  } catch (const std::exception&) {
-    return {};  // no solver knows the scene
-  }
+  if (!scene.scene) return {};
+  const std::vector<Feature> features = scene_features(*scene.scene);
   std::vector<std::string> left_out;
   for (const Feature& feature : features)
     if (!feature.needed) left_out.push_back(fmt::format("{}: {}", feature.name, feature.detail));

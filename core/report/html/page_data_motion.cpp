@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -10,7 +9,6 @@
 #include "report/html/page_channel.h"
 #include "report/html/page_data_parts.h"
 #include "report/terminal/text.h"
-#include "scene/contact_scene.h"
 
 namespace slipcheck {
 
@@ -183,14 +181,10 @@ Json motion_page_data(const SceneRecord& scene, const MotionDetail& detail) {
   const bool any = scene.reference.motion || std::ranges::any_of(scene.runs, [](const auto& run) {
                      return !run.motions.empty();
                    });
-  if (!any || scene.scenario.bodies.empty() || scene.scenario.bodies.size() > kMostBodies)
+  if (!any || !scene.scene || scene.scenario.bodies.empty() ||
+      scene.scenario.bodies.size() > kMostBodies)
     return nullptr;
-  Scene hard;
-  try {
-    hard = make_contact_scene(scene.scenario).hard;
-  } catch (const std::exception&) {
-    return nullptr;  // a scene that this version cannot solve
-  }
+  const Scene& hard = scene.scene->hard;
   Json runs = Json::array();
   if (scene.reference.motion && fits(hard, *scene.reference.motion))
     runs.push_back(run_motion(hard, *scene.reference.motion, -1, {}));

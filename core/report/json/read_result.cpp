@@ -160,6 +160,7 @@ void add_expectations(const Scenario& scenario, std::vector<EngineRecord>& runs)
 SceneRecord read_result(const JsonNode& result) {
   SceneRecord scene;
   scene.scenario = read_scenario(result.at("scenario"));
+  scene.scene = solved_scene(scene.scenario);
   scene.reference = read_reference(result.at("reference"));
   for (const JsonNode& run : result.list("runs")) scene.runs.push_back(read_run(run));
   add_expectations(scene.scenario, scene.runs);
