@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "physics/contact/elastic_pair.h"
@@ -170,6 +171,30 @@ TEST(TabulatedRestitution, GoesOnAsAPower) {
   EXPECT_NEAR(table(1e4) / table(1e2), std::pow(1e2, -3 / 1.1), 1e-10);
   EXPECT_EQ(table(0), 1);
   EXPECT_GE(table(1e300), 0);
+}
+
+/// Against the difference of F_N along the way ξ(t) = ξ + ξ̇ t + ξ̈ t²/2.
+TEST(NormalForce, TellsTheSignOfItsGrowth) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const std::vector<NormalForce> laws = {LinearForce{2, 0.3},
+                                         HertzForce{2},
+                                         PowerForce{2, 0.3, 1.5, 0.5},
+                                         PowerForce{2, 0, 1.2, 0.5},
+                                         PowerForce{2, 0.3, 1, 1.3},
+                                         ViscoelasticForce{2, 0.2},
+                                         CompactViscoelasticForce{2, 0.2}};
+  for (const NormalForce& law : laws)
+    for (int n = 0; n < 100; ++n) {
+      const double overlap = 1 + 0.5 * any(random), rate = any(random), turn = any(random);
+      const auto at = [&](double t) {
+        return normal_force(law, overlap + rate * t + 0.5 * turn * t * t, rate + turn * t);
+      };
+      constexpr double kStep = 1e-5;  // its square is the difference's error
+      const double growth = (at(kStep) - at(-kStep)) / (2 * kStep);
+      if (std::abs(growth) < 1e-8) continue;
+      EXPECT_EQ(force_growth(law, overlap, rate, turn) > 0, growth > 0);
+    }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "../support/extremes.h"
 #include "physics/contact/elastic_pair.h"
+#include "reference/steps/step_pair.h"
 #include "scene/impact.h"
 #include "step_scenes.h"
 
@@ -253,6 +254,19 @@ TEST(StepSolver, SaysWhyItDidNotReachItsEnd) {
   const SolvedRun run = solver.run({Run::Until::rolling, 0, 0.01}, nullptr);
   EXPECT_FALSE(run.reached);
   EXPECT_EQ(run.reason, "a body still slides or flies, or collides again, at the limit");
+}
+
+/// The step's own form, without a branch and with one root less.
+TEST(StepPair, ViscousForceIsTheLaw) {
+  const ViscousPair pair{{3.0, 0.4}};
+  for (const double normal : {-2.0, 0.0, 0.5, 2.0})
+    for (const double speed : {1e-9, 0.06, 0.1, 1.0}) {
+      const Vector3 slip = speed * Vector3(2, -1, 2) / 3;
+      TangentialBranch branch;
+      follow(pair.law, normal, speed, branch);
+      const Vector3 law = tangential_force(pair.law, branch, normal, slip, Vector3());
+      EXPECT_LE((pair.force({}, normal, slip) - law).norm(), 4e-16 * law.norm()) << normal;
+    }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -13,7 +14,9 @@ enum class ContactEnd {
 
 // Normal forces between two spheres over the overlap ξ [m], >= 0, and its rate ξ̇ [m/s], > 0 while
 // they approach. F_N [N] is repulsive where positive. Each law also tells its elastic part and the
-// energy stored in it; what is left of F_N dissipates. For ξ slightly below 0, where an integrator
+// energy stored in it; what is left of F_N dissipates; and what has the sign of dF_N/dt where the
+// rate itself changes at `acceleration` [m/s²]: dF_N/dt times the power of ξ that takes a
+// singularity at ξ = 0 away. For ξ slightly below 0, where an integrator
 // looks before it finds the end of a contact, every law goes on smoothly (odd in ξ).
 
 /// K (2): F_N = k ξ + c ξ̇ with c = γ_N m̄.
@@ -26,6 +29,9 @@ struct LinearForce {
   double operator()(double overlap, double rate) const {
     return stiffness * overlap + damping * rate;
   }
+  double growth(double, double rate, double acceleration) const {
+    return stiffness * rate + damping * acceleration;
+  }
 };
 
 /// Elastic spheres, the limit A = 0 of B (24): F_N = ρ ξ^{3/2}, ρ = (4/3) E* √R_eff.
@@ -35,6 +41,7 @@ struct HertzForce {
   double elastic(double overlap) const { return modulus * overlap * std::sqrt(std::abs(overlap)); }
   double energy(double overlap) const { return 0.4 * overlap * elastic(overlap); }
   double operator()(double overlap, double) const { return elastic(overlap); }
+  double growth(double, double rate, double) const { return rate; }
 };
 
 /// K (B1): F_N = E ξ^α + η ξ^γ ξ̇.
@@ -51,6 +58,14 @@ struct PowerForce {
   double operator()(double overlap, double rate) const {
     return elastic(overlap) + viscosity * std::pow(std::abs(overlap), gamma) * rate;
   }
+  double growth(double overlap, double rate, double acceleration) const {
+    if (viscosity == 0) return rate;
+    // E α ξ^(α−1) ξ̇ + η (γ ξ^(γ−1) ξ̇² + ξ^γ ξ̈)
+    const double lowest = std::min(alpha, gamma), size = std::abs(overlap);
+    return modulus * alpha * std::pow(size, alpha - lowest) * rate +
+           viscosity * std::pow(size, gamma - lowest) *
+               (gamma * rate * rate + overlap * acceleration);
+  }
 };
 
 /// B (24): F_N = ρ (ξ^{3/2} + (3/2) A √ξ ξ̇), A the dissipation time of B (23).
@@ -62,6 +77,10 @@ struct ViscoelasticForce {
   double energy(double overlap) const { return 0.4 * overlap * elastic(overlap); }
   double operator()(double overlap, double rate) const {
     return modulus * std::sqrt(std::abs(overlap)) * (overlap + 1.5 * dissipation_time * rate);
+  }
+  double growth(double overlap, double rate, double acceleration) const {
+    // (3/2) ρ (√ξ ξ̇ + A (ξ̇²/(2√ξ) + √ξ ξ̈))
+    return overlap * rate + dissipation_time * (0.5 * rate * rate + overlap * acceleration);
   }
 };
 
@@ -75,6 +94,9 @@ struct CompactViscoelasticForce {
   double operator()(double overlap, double rate) const {
     return elastic(overlap + dissipation_time * rate);
   }
+  double growth(double, double rate, double acceleration) const {
+    return rate + dissipation_time * acceleration;
+  }
 };
 
 using NormalForce =
@@ -83,6 +105,13 @@ using NormalForce =
 /// F_N [N] of whichever law.
 inline double normal_force(const NormalForce& law, double overlap, double rate) {
   return std::visit([&](const auto& force) { return force(overlap, rate); }, law);
+}
+
+/// What has the sign of dF_N/dt, of whichever law.
+inline double force_growth(const NormalForce& law, double overlap, double rate,
+                           double acceleration) {
+  return std::visit([&](const auto& force) { return force.growth(overlap, rate, acceleration); },
+                    law);
 }
 
 }  // namespace slipcheck

@@ -22,32 +22,6 @@ void store(const Vector3& v, double* y) {
   y[2] = v.z();
 }
 
-/// F_T on the first body; `zeta` is the bend of an asperity.
-struct TangentialForceOf {
-  const ContactMode& contact;
-  double normal;
-  const Vector3& slip;
-  const Vector3& zeta;
-
-  Vector3 operator()(const NoTangentialForce&) const { return Vector3::Zero(); }
-  Vector3 operator()(const ViscousForce& law) const {
-    if (!contact.capped) return -law.damping * slip;
-    const double speed = slip.norm();
-    if (!(speed > 0)) return Vector3::Zero();
-    return (-law.friction * contact.force_sign * normal / speed) * slip;
-  }
-  Vector3 operator()(const AsperityForce& law) const {
-    if (law.form == AsperityForce::Form::passive) {
-      if (contact.force_sign < 0) return Vector3::Zero();  // an attraction bends nothing
-      const double stiffness = law.friction / law.size;
-      return contact.growing ? Vector3(-stiffness * zeta) : Vector3(-stiffness * normal * zeta);
-    }
-    const double bend = zeta.norm();
-    if (!(bend > 0)) return Vector3::Zero();
-    return (-law.force(normal, bend, contact.broken) / bend) * zeta;
-  }
-};
-
 }  // namespace
 
 ContactDynamics::ContactDynamics(const ContactScene& scene)
@@ -107,8 +81,8 @@ void ContactDynamics::add_contact(const ContactMode& contact, const Vector3& sub
     return;
   }
   const Vector3 zeta = vector_at(slot + 1);
-  forces.tangential = std::visit(TangentialForceOf{contact, forces.normal, forces.slip, zeta},
-                                 contact.law->tangential);
+  forces.tangential =
+      tangential_force(contact.law->tangential, contact.branch, forces.normal, forces.slip, zeta);
   out.dissipation +=
       (forces.normal - elastic) * forces.closing - forces.tangential.dot(forces.slip);
   const Vector3 force = forces.normal * n + forces.tangential;
@@ -290,8 +264,8 @@ void ContactDynamics::right_side(double t, const double* y, double* rate) {
     // ζ stays in the tangent plane as n turns.
     const Vector3 turning = (dv + f.closing * f.n) / distance;
     const Vector3 zeta = vector_at(y + slot_at(contact.slot) + 1);
-    const bool weighted = asperity->form == AsperityForce::Form::passive && contact.growing;
-    store((weighted ? f.normal : 1.0) * f.slip - zeta.dot(turning) * f.n, out + 1);
+    store(bend_rate(*asperity, contact.branch, f.normal, f.slip) - zeta.dot(turning) * f.n,
+          out + 1);
   }
   rate[dissipated_at()] = scratch_.dissipation;
   rate[work_at()] = scratch_.work;

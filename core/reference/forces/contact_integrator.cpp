@@ -93,7 +93,7 @@ void ContactIntegrator::set_floors() {
     double bend = contact.overlap_scale;
     if (const auto* asperity = std::get_if<AsperityForce>(&contact.law->tangential)) {
       bend = asperity->size;
-      if (asperity->form == AsperityForce::Form::passive && contact.growing)
+      if (asperity->form == AsperityForce::Form::passive && contact.branch.growing)
         bend *= std::visit([&](const auto& law) { return law.elastic(contact.overlap_scale); },
                            contact.law->normal);
     }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "physics/contact/tangential_branch.h"
 #include "physics/vector.h"
 #include "scene/contact_scene.h"
 
@@ -57,10 +58,7 @@ struct ContactMode {
   double overlap_scale = 0;  ///< what the approach speed compresses elastically [m]
   double time_scale = 0;     ///< that over the approach speed [s]
   bool clamped = false;      ///< zero_force: they overlap without a force
-  double force_sign = 1;     ///< of F_N
-  bool capped = false;       ///< viscous: at Coulomb's cap
-  double broken = 0;         ///< asperity: ⌊|ζ|/ζ0⌋
-  bool growing = true;       ///< passive asperity: F_N grows
+  TangentialBranch branch;
 };
 
 }  // namespace slipcheck

@@ -141,9 +141,6 @@ void ContactSolver::Impl::handle_root(const ContactWatch::Item& item, int direct
     case What::spin_begin:
       state_.begin_spin(i);
       break;
-    case What::force_sign:
-      state_.dynamics().contacts[i].force_sign = direction;
-      break;
     case What::force_end:
       state_.clamp_contact(i);
       ends_now_.push_back(i);
@@ -151,17 +148,8 @@ void ContactSolver::Impl::handle_root(const ContactWatch::Item& item, int direct
     case What::force_begin:
       state_.release_contact(i);
       break;
-    case What::cap:
-      state_.dynamics().contacts[i].capped = direction > 0;
-      break;
-    case What::break_forward:
-      state_.break_asperity(i, 1);
-      break;
-    case What::break_back:
-      state_.break_asperity(i, -1);
-      break;
-    case What::growth:
-      state_.switch_growth(i, direction > 0);
+    case What::edge:
+      state_.cross_edge(i, item.edge, direction > 0);
       break;
     case What::contact_end:  // handled last, by handle()
     case What::roll_kink:

@@ -130,13 +130,11 @@ void ContactState::begin_contact(std::size_t i, std::size_t j, double overlap) {
   evaluate();
   ContactMode& made = dynamics_.contacts.back();
   const auto& forces = evaluation_.contacts.back();
-  made.force_sign = forces.normal < 0 ? -1 : 1;
-  if (const auto* viscous = std::get_if<ViscousForce>(&law->tangential))
-    made.capped = viscous->viscous(forces.slip.norm()) > viscous->cap(forces.normal);
+  follow(law->tangential, forces.normal, forces.slip.norm(), made.branch);
   if (overlap == 0) return;
   made.clamped = law->end == ContactEnd::zero_force && forces.normal <= 0;
   const double growth = dynamics_.force_growth(made, forces, y.data());
-  made.growing = growth > 0 || (growth == 0 && forces.closing_rate > 0);
+  made.branch.growing = growth > 0 || (growth == 0 && forces.closing_rate > 0);
 }
 
 void ContactState::end_contact(std::size_t index) {
@@ -154,8 +152,8 @@ void ContactState::clamp_contact(std::size_t index) {
       std::visit([&](const auto& law) { return law.energy(slot[0]); }, contact.law->normal);
   contact.clamped = true;
   slot[1] = slot[2] = slot[3] = 0;
-  contact.broken = 0;
-  contact.growing = true;
+  contact.branch.broken = 0;
+  contact.branch.growing = true;
 }
 
 void ContactState::release_contact(std::size_t index) {
@@ -172,34 +170,22 @@ bool ContactState::reach_caps() {
   for (std::size_t c = 0; c < dynamics_.contacts.size(); ++c) {
     ContactMode& contact = dynamics_.contacts[c];
     const auto* viscous = std::get_if<ViscousForce>(&contact.law->tangential);
-    if (!viscous || contact.clamped || contact.capped) continue;
+    if (!viscous || contact.clamped || contact.branch.capped) continue;
     const auto& forces = evaluation_.contacts[c];
     if (viscous->viscous(forces.slip.norm()) <= kBeyond * viscous->cap(forces.normal)) continue;
-    contact.capped = reached = true;
+    contact.branch.capped = reached = true;
   }
   return reached;
 }
 
-void ContactState::break_asperity(std::size_t index, double change) {
+void ContactState::cross_edge(std::size_t index, TangentialEdge edge, bool rises) {
   ContactMode& contact = dynamics_.contacts[index];
-  const auto& law = std::get<AsperityForce>(contact.law->tangential);
-  if (law.form == AsperityForce::Form::printed) {
-    contact.broken += change;
-  } else {
-    double* slot = y.data() + dynamics_.slot_at(contact.slot);
-    slot[1] = slot[2] = slot[3] = 0;
-  }
-}
-
-void ContactState::switch_growth(std::size_t index, bool growing) {
-  ContactMode& contact = dynamics_.contacts[index];
-  if (contact.growing == growing) return;
-  evaluate();
-  const double force = evaluation_.contacts[index].normal;
+  if (edge == TangentialEdge::growth) evaluate();
   double* slot = y.data() + dynamics_.slot_at(contact.slot);
-  for (int k = 1; k <= 3; ++k)
-    slot[k] = growing ? slot[k] * force : force > 0 ? slot[k] / force : 0;
-  contact.growing = growing;
+  Vector3 bend(slot[1], slot[2], slot[3]);
+  cross(edge, rises, contact.law->tangential, evaluation_.contacts[index].normal, contact.branch,
+        bend);
+  std::copy_n(bend.data(), 3, slot + 1);
 }
 
 // --- impulses ------------------------------------------------------------------------------------

@@ -47,8 +47,8 @@ class ContactState {
   /// A viscous contact that begins at rest has no root at Coulomb's cap: its force and its cap grow
   /// from zero together. Whether one is found beyond its cap, and now is at it; after evaluate().
   bool reach_caps();
-  void break_asperity(std::size_t contact, double change);
-  void switch_growth(std::size_t contact, bool growing);
+  /// Goes on to the next piece of a contact's tangential law.
+  void cross_edge(std::size_t contact, TangentialEdge edge, bool rises);
   /// What counts as nothing between two bodies that rest against each other: a gap [m], a speed
   /// [m/s] and a part of what accelerates them.
   struct Rest {

@@ -73,20 +73,11 @@ void ContactWatch::watch_contact(const ContactState& state, std::size_t index) {
   if (state.evaluation().contacts[index].closing > 1e-9 * state.scales().speed)
     add(What::greatest_overlap, index, kFalls);
   if (contact.law->end == ContactEnd::zero_force) add(What::force_end, index, kFalls);
-  if (std::holds_alternative<ViscousForce>(contact.law->tangential)) {
-    if (contact.law->end == ContactEnd::zero_overlap) add(What::force_sign, index, kEither);
-    add(What::cap, index, kEither);
-  }
-  if (const auto* asperity = std::get_if<AsperityForce>(&contact.law->tangential)) {
-    add(What::break_forward, index, kRises);
-    const bool passive = asperity->form == AsperityForce::Form::passive;
-    if (passive && contact.law->end == ContactEnd::zero_overlap)
-      add(What::force_sign, index, kEither);
-    if (passive)
-      add(What::growth, index, contact.growing ? kFalls : kRises);
-    else if (contact.broken > 0)
-      add(What::break_back, index, kFalls);
-  }
+  for_each_edge(contact.law->tangential, contact.branch, contact.law->end,
+                [&](TangentialEdge edge, int direction) {
+                  add(What::edge, index, direction);
+                  items_.back().edge = edge;
+                });
 }
 
 void ContactWatch::values(const ContactState& state, double t, const double* y,
@@ -119,10 +110,6 @@ void ContactWatch::values(const ContactState& state, double t, const double* y,
       return scratch.contacts[i];
     };
     const auto slot = [&] { return y + dynamics.slot_at(dynamics.contacts[i].slot); };
-    const auto asperity = [&]() -> const AsperityForce& {
-      return std::get<AsperityForce>(dynamics.contacts[i].law->tangential);
-    };
-    const auto bend = [&] { return Vector3(slot()[1], slot()[2], slot()[3]).norm(); };
     switch (item.what) {
       case What::landing:
         value[k] = y[i * kBody + 2];
@@ -165,31 +152,21 @@ void ContactWatch::values(const ContactState& state, double t, const double* y,
         break;
       case What::force_end:
       case What::force_begin:
-      case What::force_sign:
         value[k] = of_contact().normal;
         break;
       case What::greatest_overlap:
         value[k] = of_contact().closing;
         break;
-      case What::cap: {
-        const auto& law = std::get<ViscousForce>(dynamics.contacts[i].law->tangential);
-        value[k] = law.viscous(of_contact().slip.norm()) - law.cap(of_contact().normal);
+      case What::edge: {
+        const ContactMode& contact = dynamics.contacts[i];
+        const auto& forces = of_contact();
+        const double growth =
+            item.edge == TangentialEdge::growth ? dynamics.force_growth(contact, forces, y) : 0;
+        const double bend = Vector3(slot()[1], slot()[2], slot()[3]).norm();
+        value[k] = edge_value(item.edge, contact.law->tangential, contact.branch, forces.normal,
+                              growth, forces.slip.norm(), bend);
         break;
       }
-      case What::break_forward: {
-        const bool passive = asperity().form == AsperityForce::Form::passive;
-        // While F_N grows the passive state is F_N times the bend.
-        const double reach = passive ? (dynamics.contacts[i].growing ? of_contact().normal : 1)
-                                     : dynamics.contacts[i].broken + 1;
-        value[k] = bend() - reach * asperity().size;
-        break;
-      }
-      case What::break_back:
-        value[k] = bend() - dynamics.contacts[i].broken * asperity().size;
-        break;
-      case What::growth:
-        value[k] = dynamics.force_growth(dynamics.contacts[i], of_contact(), y);
-        break;
     }
   }
 }

@@ -25,17 +25,14 @@ class ContactWatch {
     contact_end,
     force_end,         ///< zero_force: F_N falls to zero
     force_begin,       ///< and rises again
-    force_sign,        ///< |F_N| has a corner
     greatest_overlap,  ///< changes no mode
-    cap,               ///< Coulomb's cap of a viscous contact
-    break_forward,
-    break_back,  ///< an asperity breaks, or the saw-tooth is passed backwards
-    growth,      ///< F_N stops to grow, or grows again
+    edge,              ///< of the tangential law
   };
   struct Item {
     What what;
-    std::size_t index;  ///< of the body or the contact
-    double value = 0;   ///< of what the function measures from
+    std::size_t index;                          ///< of the body or the contact
+    double value = 0;                           ///< of what the function measures from
+    TangentialEdge edge = TangentialEdge::cap;  ///< where `what` is one
   };
 
   /// The functions of the present modes.
@@ -50,7 +47,7 @@ class ContactWatch {
   void watch_body(const ContactState& state, std::size_t i);
   void watch_contact(const ContactState& state, std::size_t index);
   void add(What what, std::size_t index, int direction, double value = 0) {
-    items_.push_back({what, index, value});
+    items_.push_back({what, index, value, {}});
     directions_.push_back(direction);
   }
 

@@ -126,8 +126,9 @@ SoftTouch SoftBoxDynamics::touch(std::size_t first, std::size_t partner, const M
   add_body(inertia_[first]);
   if (partner < size()) add_body(inertia_[partner]);
   made.reduced_mass = 1 / mobility;
-  if (made.law->end == ContactEnd::zero_force)
-    made.pushes = !(normal_force(made.law->normal, at.overlap, at.closing) < 0);
+  const bool attracts = normal_force(made.law->normal, at.overlap, at.closing) < 0;
+  if (made.law->end == ContactEnd::zero_force) made.pushes = !attracts;
+  made.branch.force_sign = attracts ? -1 : 1;
   scale(made, at);
   return made;
 }
@@ -152,21 +153,6 @@ void SoftBoxDynamics::scale(SoftTouch& touch, const Meeting& at) const {
       viscous && viscous->friction > 0 && viscous->damping > 0)
     touch.time_scale =
         std::min(touch.time_scale, 6 / (viscous->damping * touch.tangential_mobility));
-}
-
-double SoftBoxDynamics::tangential_force(const SoftTouch& touch, const Forces& forces,
-                                         double bend) const {
-  if (const auto* viscous = std::get_if<ViscousForce>(&touch.law->tangential)) {
-    const double slip = std::abs(forces.at.slip);
-    return -std::copysign(std::min(viscous->viscous(slip), viscous->cap(forces.normal)),
-                          forces.at.slip);
-  }
-  const auto* asperity = std::get_if<AsperityForce>(&touch.law->tangential);
-  if (!asperity) return 0;
-  if (asperity->form == AsperityForce::Form::printed)  // where F_N attracts, F_T drives
-    return (bend > 0 ? -1 : 1) * asperity->force(forces.normal, std::abs(bend), touch.broken);
-  if (!(forces.normal > 0)) return 0;
-  return -asperity->friction / asperity->size * (touch.growing ? 1 : forces.normal) * bend;
 }
 
 void SoftBoxDynamics::evaluate(double t, const State& state, Rates& out) const {
@@ -197,11 +183,13 @@ void SoftBoxDynamics::evaluate(double t, const State& state, Rates& out) const {
       rate.dissipated -= elastic * f.at.closing;
       continue;
     }
-    f.tangential = tangential_force(touch, f, state.bends[c]);
+    TangentialBranch branch = touch.branch;
     if (const auto* asperity = std::get_if<AsperityForce>(&touch.law->tangential))
-      rate.bends[c] = asperity->form == AsperityForce::Form::passive && touch.growing
-                          ? f.normal * f.at.slip
-                          : f.at.slip;
+      rate.bends[c] = bend_rate(*asperity, branch, f.normal, f.at.slip);
+    else
+      follow(touch.law->tangential, f.normal, std::abs(f.at.slip), branch);
+    f.tangential =
+        tangential_force(touch.law->tangential, branch, f.normal, f.at.slip, state.bends[c]);
     rate.dissipated += (f.normal - elastic) * f.at.closing - f.tangential * f.at.slip;
     const double fx = f.normal * f.at.nx + f.tangential * f.at.nz;
     const double fz = f.normal * f.at.nz - f.tangential * f.at.nx;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/contact/tangential_branch.h"
 #include "physics/sphere.h"
 #include "scene/contact_scene.h"
 
@@ -30,8 +31,7 @@ struct SoftTouch {
   double reduced_mass = 0;         ///< m̄ [kg]
   double tangential_mobility = 0;  ///< Σ 1/m + R²/I: slip per tangential impulse [1/kg]
   bool pushes = true;              ///< zero_force: false where they overlap without a force
-  bool growing = true;             ///< passive asperity: F_N grows
-  double broken = 0;               ///< printed asperity: ⌊|ζ|/ζ0⌋
+  TangentialBranch branch;         ///< of an asperity; a viscous force follows its cap
   double energy_speed2 = 0;        ///< for which time_scale holds, ξ̇² + 2 E(ξ)/m̄ [m²/s²]
   double time_scale = 0;           ///< about how long the contact lasts, or its force changes [s]
 };
@@ -108,7 +108,6 @@ class SoftBoxDynamics {
  private:
   const SoftContact& law(std::size_t first, std::size_t partner) const;
   void add(const State& state, double h, const Rates& rates, State& sum) const;
-  double tangential_force(const SoftTouch& touch, const Forces& forces, double bend) const;
 
   struct Inertia {
     double inverse_mass, inverse_inertia, radius;

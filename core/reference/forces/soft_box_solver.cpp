@@ -272,7 +272,7 @@ class SoftBoxSolver::Impl {
         const double at = low + (high - low) * item.low / (item.low - item.high);
         if (at >= first) continue;
         first = at;
-        tolerance = (item.is_corner() ? 1e-3 : 1e-10) * tried;
+        tolerance = (item.is_corner ? 1e-3 : 1e-10) * tried;
       }
       if (!(first < high - tolerance)) break;
       last = count % 8 == 0 ? 0.5 * (low + high) : first + 0.5 * tolerance;
@@ -300,14 +300,14 @@ class SoftBoxSolver::Impl {
     std::vector<Near>& begun = begun_;
     begun.clear();
     for (const SoftBoxWatch::Item& item : watch_.items) {
-      if (item.now > 0 || item.is_corner()) continue;
+      if (item.now > 0 || item.is_corner) continue;
       changed = true;
       if (item.what == What::begin)
         begun.push_back(watched_[item.index]);
       else if (item.what == What::end)
         ended.push_back(item.index);
       else
-        change(item.what, item.index);
+        change(item);
     }
     if (!changed) return;
     for (auto c = ended.rbegin(); c != ended.rend(); ++c) remove_touch(*c);
@@ -316,27 +316,16 @@ class SoftBoxSolver::Impl {
   }
 
   /// The touch goes on by another branch of its laws.
-  void change(What what, std::size_t c) {
-    SoftTouch& touch = dynamics_.touches[c];
-    double& bend = state_.bends[c];
-    const double normal = rates_.forces[c].normal;
-    if (what == What::force) {
+  void change(const SoftBoxWatch::Item& item) {
+    SoftTouch& touch = dynamics_.touches[item.index];
+    double& bend = state_.bends[item.index];
+    if (item.what == What::force) {
       touch.pushes = !touch.pushes;
-      touch.growing = true;
-      touch.broken = bend = 0;
-    } else if (what == What::growth) {
-      touch.growing = !touch.growing;
-      if (touch.growing)
-        bend *= normal;
-      else
-        bend = normal > 0 ? bend / normal : 0;
-    } else if (what == What::back) {
-      touch.broken -= 1;
-    } else if (std::get<AsperityForce>(touch.law->tangential).form ==
-               AsperityForce::Form::printed) {
-      touch.broken += 1;
-    } else {
+      touch.branch = {};
       bend = 0;
+    } else {
+      cross(item.edge, item.turn < 0, touch.law->tangential, rates_.forces[item.index].normal,
+            touch.branch, bend);
     }
   }
 

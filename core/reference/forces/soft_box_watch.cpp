@@ -11,29 +11,25 @@ void SoftBoxWatch::begin(const SoftBoxDynamics& dynamics, const SoftBoxDynamics:
   items.clear();
   for (std::size_t c = 0; c < dynamics.touches.size(); ++c) {
     const SoftTouch& touch = dynamics.touches[c];
-    const auto watch = [&](What what) {
-      Item item{what, c};
-      item.low = value(item, touch, now.forces[c], state.bends[c]);
-      if (item.is_corner() && item.low < 0) {
+    const auto watch = [&](Item item) {
+      item.low = item.turn * value(item, touch, now.forces[c], state.bends[c]);
+      if (item.is_corner && item.low < 0) {
         item.low = -item.low;
         item.turn = -1;
       }
       item.can_be_found = item.low > 0;
       items.push_back(item);
     };
-    watch(What::end);
-    if (touch.law->end == ContactEnd::zero_force) watch(What::force);
-    if (!touch.pushes || std::holds_alternative<NoTangentialForce>(touch.law->tangential)) continue;
-    if (touch.law->end == ContactEnd::zero_overlap) watch(What::sign);
-    if (const auto* asperity = std::get_if<AsperityForce>(&touch.law->tangential)) {
-      watch(What::asperity);
-      if (asperity->form == AsperityForce::Form::passive)
-        watch(What::growth);
-      else if (touch.broken > 0)
-        watch(What::back);
-    } else {
-      watch(What::cap);
-    }
+    watch({.what = What::end, .index = c});
+    if (touch.law->end == ContactEnd::zero_force) watch({.what = What::force, .index = c});
+    if (!touch.pushes) continue;
+    const bool viscous = std::holds_alternative<ViscousForce>(touch.law->tangential);
+    for_each_edge(
+        touch.law->tangential, touch.branch, touch.law->end,
+        [&](TangentialEdge edge, int direction) {
+          const double turn = direction > 0 ? -1 : direction < 0 ? 1 : touch.branch.force_sign;
+          watch({.what = What::edge, .index = c, .turn = turn, .edge = edge, .is_corner = viscous});
+        });
   }
 }
 
@@ -45,26 +41,12 @@ double SoftBoxWatch::value(const Item& item, const SoftTouch& touch,
       return f.at.closing < 0 ? f.at.overlap : std::max(f.at.overlap, 1e-300);
     case What::force:
       return touch.pushes ? f.normal : -f.normal;
-    case What::growth: {
-      const double growth = SoftBoxDynamics::force_growth(touch, f);
-      return touch.growing ? growth : -growth;
+    case What::edge: {
+      const double growth =
+          item.edge == TangentialEdge::growth ? SoftBoxDynamics::force_growth(touch, f) : 0;
+      return edge_value(item.edge, touch.law->tangential, touch.branch, f.normal, growth,
+                        std::abs(f.at.slip), std::abs(bend));
     }
-    case What::asperity: {
-      const auto& law = std::get<AsperityForce>(touch.law->tangential);
-      if (law.form == AsperityForce::Form::printed)
-        return touch.broken + 1 - std::abs(bend) / law.size;
-      return touch.growing ? f.normal * law.size - std::abs(bend) : law.size - std::abs(bend);
-    }
-    case What::back: {
-      const auto& law = std::get<AsperityForce>(touch.law->tangential);
-      return std::abs(bend) / law.size - touch.broken;
-    }
-    case What::cap: {
-      const auto& law = std::get<ViscousForce>(touch.law->tangential);
-      return item.turn * (law.viscous(std::abs(f.at.slip)) - law.cap(f.normal));
-    }
-    case What::sign:
-      return item.turn * f.normal;
     case What::begin:
       break;
   }
@@ -75,8 +57,8 @@ void SoftBoxWatch::look(const SoftBoxDynamics& dynamics, const SoftBoxDynamics::
                         const SoftBoxDynamics::Rates& then) {
   for (Item& item : items)
     if (item.what != What::begin)
-      item.now = value(item, dynamics.touches[item.index], then.forces[item.index],
-                       state.bends[item.index]);
+      item.now = item.turn * value(item, dynamics.touches[item.index], then.forces[item.index],
+                                   state.bends[item.index]);
 }
 
 }  // namespace slipcheck

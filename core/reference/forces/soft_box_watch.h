@@ -13,14 +13,10 @@ namespace slipcheck {
 class SoftBoxWatch {
  public:
   enum class What {
-    begin,     ///< two that are near touch
-    end,       ///< ξ falls to zero
-    force,     ///< zero_force: F_N falls to zero, or rises again
-    growth,    ///< passive asperity: F_N stops to grow, or grows again
-    asperity,  ///< one breaks
-    back,      ///< the printed saw-tooth is passed backwards
-    cap,       ///< viscous: Coulomb's cap; a corner of the force alone
-    sign,      ///< of F_N, where |F_N| or the friction has a corner
+    begin,  ///< two that are near touch
+    end,    ///< ξ falls to zero
+    force,  ///< zero_force: F_N falls to zero, or rises again
+    edge,   ///< of the tangential law
   };
   struct Item {
     What what;
@@ -28,10 +24,12 @@ class SoftBoxWatch {
     double low = 0;            ///< value where nothing has happened yet
     double high = 0;           ///< value at the end of the shortest step in which something has
     double now = 0;            ///< value at the end of the last step tried
-    double turn = 1;           ///< sign with which cap and sign are watched
+    double turn = 1;           ///< sign with which an edge is watched: −1 where it rises
     bool can_be_found = true;  ///< it was positive at first
-    /// A corner shifts the result by the square of what it is missed by, anything else by that.
-    bool is_corner() const { return what == What::cap || what == What::sign; }
+    TangentialEdge edge = TangentialEdge::cap;  ///< where `what` is one
+    /// Of the force of a viscous law, which follows it by itself: it shifts the result by the
+    /// square of what it is missed by, anything else by that.
+    bool is_corner = false;
   };
 
   std::vector<Item> items;

@@ -5,34 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <variant>
+#include <vector>
 
 #include "physics/contact/elastic_pair.h"
+#include "physics/contact/tangential_branch.h"
 #include "scene/ode.h"
 #include "scene/scaled_impact.h"
 
 namespace slipcheck {
 namespace {
-
-/// Has the sign of dF_N/dt at the overlap x, its rate v and that one's rate a. Where F_N has a root
-/// singularity at x = 0, the power of |x| that removes it is multiplied in.
-struct ForceGrowth {
-  double x, v, a;
-
-  double operator()(const LinearForce& f) const { return f.stiffness * v + f.damping * a; }
-  double operator()(const HertzForce&) const { return v; }
-  double operator()(const PowerForce& f) const {
-    if (f.viscosity == 0) return v;
-    // Ḟ = E α x^(α−1) v + η (γ x^(γ−1) v² + x^γ a)
-    const double lowest = std::min(f.alpha, f.gamma), size = std::abs(x);
-    return f.modulus * f.alpha * std::pow(size, f.alpha - lowest) * v +
-           f.viscosity * std::pow(size, f.gamma - lowest) * (f.gamma * v * v + x * a);
-  }
-  double operator()(const ViscoelasticForce& f) const {
-    // Ḟ = (3/2) ρ (√x v + A (v²/(2√x) + √x a))
-    return x * v + f.dissipation_time * (0.5 * v * v + x * a);
-  }
-  double operator()(const CompactViscoelasticForce& f) const { return v + f.dissipation_time * a; }
-};
 
 class Collision {
  public:
@@ -65,7 +46,7 @@ class Collision {
         return parts ? t : std::numeric_limits<double>::infinity();
       }
       for (std::size_t k = 1; k < found.size(); ++k)
-        if (found[k] != 0) change(k);
+        if (found[k] != 0) change(edges_[k - 1], found[k] > 0);
     }
   }
 
@@ -73,18 +54,8 @@ class Collision {
   double slip() const { return y_[kSlip]; }
 
  private:
-  /// ξ, ξ̇, u, and the asperity's displacement: ζ (printed), F_N b (passive, F_N grows), b (F_N
-  /// falls).
+  /// ξ, ξ̇, u, and the state of the asperity.
   enum Part : std::size_t { kOverlap, kRate, kSlip, kBend };
-  enum class Mode {
-    smooth,
-    viscous,     ///< below Coulomb's cap
-    capped,      ///< at it
-    printed,     ///< in the tooth cell_ of the saw-tooth
-    growing,     ///< passive, F_N grows
-    falling,     ///< passive, F_N falls
-    attracting,  ///< passive, F_N < 0
-  };
   static constexpr double kLongest = 1e5;
 
   Ode::Method method() const {
@@ -98,148 +69,59 @@ class Collision {
     return normal_force(contact_.normal, y[kOverlap], y[kRate]);
   }
   double growth(const double* y) const {
-    return std::visit(ForceGrowth{y[kOverlap], y[kRate], -normal(y) / mass_}, contact_.normal);
+    return force_growth(contact_.normal, y[kOverlap], y[kRate], -normal(y) / mass_);
   }
-  const ViscousForce& viscous() const { return std::get<ViscousForce>(contact_.tangential); }
-  const AsperityForce& asperity() const { return std::get<AsperityForce>(contact_.tangential); }
+  const AsperityForce* asperity() const { return std::get_if<AsperityForce>(&contact_.tangential); }
 
   void begin() {
-    const double force = normal(y_.data());
-    if (const auto* law = std::get_if<ViscousForce>(&contact_.tangential)) {
-      mode_ = law->viscous(std::abs(y_[kSlip])) > law->cap(force) ? Mode::capped : Mode::viscous;
-    } else if (const auto* rough = std::get_if<AsperityForce>(&contact_.tangential)) {
-      if (rough->form == AsperityForce::Form::printed)
-        mode_ = Mode::printed;
-      else
-        mode_ = growth(y_.data()) >= 0 ? Mode::growing : Mode::falling;
-    }
+    follow(contact_.tangential, normal(y_.data()), std::abs(y_[kSlip]), branch_);
+    branch_.growing = growth(y_.data()) >= 0;
   }
 
   void right_side(const double* y, double* rate) const {
     const double force = normal(y), u = y[kSlip];
-    double tangential = 0, bend = 0;
-    switch (mode_) {
-      case Mode::smooth:
-      case Mode::attracting:
-        break;
-      case Mode::viscous:
-        tangential = -viscous().damping * u;
-        break;
-      case Mode::capped:
-        tangential = -std::copysign(viscous().friction * force_sign_ * force, u);
-        break;
-      case Mode::printed:
-        tangential = -asperity().friction * force * (y[kBend] / asperity().size - cell_);
-        bend = u;
-        break;
-      case Mode::growing:
-        tangential = -asperity().friction / asperity().size * y[kBend];
-        bend = force * u;
-        break;
-      case Mode::falling:
-        tangential = -asperity().friction / asperity().size * force * y[kBend];
-        bend = u;
-        break;
-    }
     rate[kOverlap] = y[kRate];
     rate[kRate] = -force / mass_;
-    rate[kSlip] = tangential / tangential_mass_;
-    rate[kBend] = bend;
+    rate[kSlip] =
+        tangential_force(contact_.tangential, branch_, force, u, y[kBend]) / tangential_mass_;
+    rate[kBend] = asperity() ? bend_rate(*asperity(), branch_, force, u) : 0;
   }
 
-  /// Where the present mode ends; the first is the contact's own end.
+  /// Where the present piece ends; the first is the contact's own end.
   void roots(const double* y, double* value) const {
     const double force = normal(y);
     value[0] = contact_.end == ContactEnd::zero_force ? force : y[kOverlap];
-    value[1] = value[2] = value[3] = -1;
-    switch (mode_) {
-      case Mode::smooth:
-        break;
-      case Mode::viscous:
-        value[1] = viscous().viscous(std::abs(y[kSlip])) - viscous().cap(force);
-        // The cap falls to 0 and rises again, maybe within one step.
-        value[2] = -force_sign_ * force;
-        break;
-      case Mode::capped:
-        value[1] = viscous().friction * force_sign_ * force - viscous().viscous(std::abs(y[kSlip]));
-        value[2] = -force_sign_ * force;
-        break;
-      case Mode::printed:
-        // The tooth reaches from cell to cell + 1 outwards, the one at 0 to both sides.
-        value[1] = y[kBend] - asperity().size * (cell_ + (cell_ >= 0 ? 1 : 0));
-        value[2] = asperity().size * (cell_ - (cell_ <= 0 ? 1 : 0)) - y[kBend];
-        break;
-      case Mode::growing:
-        value[1] = y[kBend] - asperity().size * force;
-        value[2] = -y[kBend] - asperity().size * force;
-        value[3] = -growth(y);
-        break;
-      case Mode::falling:
-        value[1] = std::abs(y[kBend]) - asperity().size;
-        value[2] = -force;
-        value[3] = growth(y);
-        break;
-      case Mode::attracting:
-        value[1] = force;
-        break;
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      const double rate = edges_[k] == TangentialEdge::growth ? growth(y) : 0;
+      value[k + 1] = edge_value(edges_[k], contact_.tangential, branch_, force, rate,
+                                std::abs(y[kSlip]), std::abs(y[kBend]));
     }
   }
 
-  /// At the root k > 0 of the present mode.
-  void change(std::size_t k) {
-    const double force = normal(y_.data());
-    switch (mode_) {
-      case Mode::smooth:
-        break;
-      case Mode::viscous:
-        force_sign_ = k == 2 ? -force_sign_ : force < 0 ? -1 : 1;
-        mode_ = Mode::capped;
-        break;
-      case Mode::capped:
-        if (k == 1)
-          mode_ = Mode::viscous;
-        else
-          force_sign_ = -force_sign_;
-        break;
-      case Mode::printed:
-        cell_ += k == 1 ? 1 : -1;
-        break;
-      case Mode::growing:
-        if (k == 3) {
-          mode_ = Mode::falling;
-          y_[kBend] /= force;
-        } else {
-          y_[kBend] = 0;
-        }
-        break;
-      case Mode::falling:
-        if (k == 1) {
-          y_[kBend] = 0;
-        } else if (k == 2) {
-          mode_ = Mode::attracting;
-          y_[kBend] = 0;
-        } else {
-          mode_ = Mode::growing;
-          y_[kBend] *= force;
-        }
-        break;
-      case Mode::attracting:
-        mode_ = Mode::growing;
-        break;
-    }
+  void change(TangentialEdge edge, bool rises) {
+    cross(edge, rises, contact_.tangential, normal(y_.data()), branch_, y_[kBend]);
+    // The cap falls to 0 and rises again, maybe within one step.
+    if (edge == TangentialEdge::force_sign) branch_.capped = true;
   }
 
   void restart(double t) {
-    const double bend =
-        mode_ == Mode::growing ? scales_.length * mass_ / (scales_.time * scales_.time) : 1;
-    const double size =
-        std::holds_alternative<AsperityForce>(contact_.tangential) ? asperity().size : 1;
+    const bool weighted =
+        asperity() && asperity()->form == AsperityForce::Form::passive && branch_.growing;
+    const double bend = weighted ? scales_.length * mass_ / (scales_.time * scales_.time) : 1;
+    const double size = asperity() ? asperity()->size : 1;
     std::array<double, 4> floor = {scales_.length, scales_.length / scales_.time, slip_scale_,
                                    bend * size};
     for (double& f : floor) f *= 0.01 * tolerance_;
-    static constexpr std::array<int, 4> kDirection = {-1, 1, 1, 1};
+    edges_.clear();
+    directions_ = {-1};
+    for_each_edge(contact_.tangential, branch_, contact_.end,
+                  [&](TangentialEdge edge, int direction) {
+                    edges_.push_back(edge);
+                    directions_.push_back(direction);
+                  });
     ode_.watch(
-        4, [this](double, const double* y, double* value) { roots(y, value); }, kDirection);
+        directions_.size(), [this](double, const double* y, double* value) { roots(y, value); },
+        directions_);
     ode_.start(t, y_, tolerance_, floor);
   }
 
@@ -247,9 +129,9 @@ class Collision {
   ImpactScales scales_;
   double mass_, tangential_mass_, tolerance_, slip_scale_;
   std::array<double, 4> y_;
-  Mode mode_ = Mode::smooth;
-  double force_sign_ = 1;
-  double cell_ = 0;
+  TangentialBranch branch_;
+  std::vector<TangentialEdge> edges_;
+  std::vector<int> directions_;
   Ode ode_;
 };
 

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "physics/contact/normal_force.h"
-#include "physics/contact/tangential_force.h"
+#include "physics/contact/tangential_branch.h"
 #include "physics/vector.h"
 
 namespace slipcheck {
@@ -75,9 +75,8 @@ struct PrintedAsperityPair {
     bend.advance(half, 1, slip, n);
   }
   Vector3 force(const Bend& bend, double normal, const Vector3&) const {
-    const double size = bend.bend.norm();
-    if (!(size > 0)) return Vector3::Zero();
-    return (-law.force(normal, size, std::floor(size / law.size)) / size) * bend.bend;
+    const TangentialBranch branch{.broken = std::floor(bend.bend.norm() / law.size)};
+    return tangential_force(law, branch, normal, Vector3(), bend.bend);
   }
 };
 
@@ -103,7 +102,7 @@ struct PassiveAsperityPair {
     bend.normal = std::max(normal, 0.0);
   }
   Vector3 force(const Bend& bend, double normal, const Vector3&) const {
-    return (-law.friction / law.size * std::max(normal, 0.0)) * bend.bend;
+    return tangential_force(law, {.growing = false}, std::max(normal, 0.0), Vector3(), bend.bend);
   }
 };
 
