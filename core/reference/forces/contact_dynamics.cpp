@@ -271,17 +271,6 @@ void ContactDynamics::right_side(double t, const double* y, double* rate) {
   rate[work_at()] = scratch_.work;
 }
 
-double ContactDynamics::force_growth(const ContactMode& contact, const ContactForces& forces,
-                                     const double* y) const {
-  const double overlap = y[slot_at(contact.slot)];
-  const double dt = 1e-5 * contact.time_scale;
-  const auto at = [&](double step) {
-    return normal_force(contact.law->normal, overlap + step * forces.closing,
-                        forces.closing + step * forces.closing_rate);
-  };
-  return (at(dt) - at(-dt)) / (2 * dt);
-}
-
 double ContactDynamics::kinetic_energy(double t, const double* y) const {
   double energy = 0;
   for (std::size_t i = 0; i < modes.size(); ++i) {

@@ -94,9 +94,11 @@ class ContactDynamics {
   Vector3 relative_velocity(std::size_t i, double t, const double* y) const;
   /// From the centre of j to that of i [m].
   Vector3 between_centres(std::size_t i, std::size_t j, const double* y) const;
-  /// dF_N/dt in a contact [N/s], for its sign.
-  double force_growth(const ContactMode& contact, const ContactForces& forces,
-                      const double* y) const;
+  /// What has the sign of dF_N/dt in a contact.
+  double growth(const ContactMode& contact, const ContactForces& forces, const double* y) const {
+    return force_growth(contact.law->normal, y[slot_at(contact.slot)], forces.closing,
+                        forces.closing_rate);
+  }
   /// Drilling is coupled to the sliding and takes part in it.
   bool is_coupled(std::size_t i) const { return scene_->hard.on_substrate(i).coupled_radius > 0; }
 

@@ -133,7 +133,7 @@ void ContactState::begin_contact(std::size_t i, std::size_t j, double overlap) {
   follow(law->tangential, forces.normal, forces.slip.norm(), made.branch);
   if (overlap == 0) return;
   made.clamped = law->end == ContactEnd::zero_force && forces.normal <= 0;
-  const double growth = dynamics_.force_growth(made, forces, y.data());
+  const double growth = dynamics_.growth(made, forces, y.data());
   made.branch.growing = growth > 0 || (growth == 0 && forces.closing_rate > 0);
 }
 

@@ -161,7 +161,7 @@ void ContactWatch::values(const ContactState& state, double t, const double* y,
         const ContactMode& contact = dynamics.contacts[i];
         const auto& forces = of_contact();
         const double growth =
-            item.edge == TangentialEdge::growth ? dynamics.force_growth(contact, forces, y) : 0;
+            item.edge == TangentialEdge::growth ? dynamics.growth(contact, forces, y) : 0;
         const double bend = Vector3(slot()[1], slot()[2], slot()[3]).norm();
         value[k] = edge_value(item.edge, contact.law->tangential, contact.branch, forces.normal,
                               growth, forces.slip.norm(), bend);

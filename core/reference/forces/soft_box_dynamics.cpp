@@ -221,15 +221,6 @@ void SoftBoxDynamics::evaluate(double t, const State& state, Rates& out) const {
   }
 }
 
-double SoftBoxDynamics::force_growth(const SoftTouch& touch, const Forces& f) {
-  const double dt = 1e-5 * touch.time_scale;
-  const auto at = [&](double step) {
-    return normal_force(touch.law->normal, f.at.overlap + step * f.at.closing,
-                        f.at.closing + step * f.closing_rate);
-  };
-  return (at(dt) - at(-dt)) / (2 * dt);
-}
-
 void SoftBoxDynamics::add(const State& state, double h, const Rates& rates, State& sum) const {
   for (const std::size_t i : moved) sum.bodies[i] = state.bodies[i].plus(h, rates.rate.bodies[i]);
   for (std::size_t c = 0; c < touches.size(); ++c)

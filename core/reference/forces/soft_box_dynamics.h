@@ -97,8 +97,6 @@ class SoftBoxDynamics {
   void scale(SoftTouch& touch, const Meeting& at) const;
 
   void evaluate(double t, const State& state, Rates& out) const;
-  /// dF_N/dt [N/s].
-  static double force_growth(const SoftTouch& touch, const Forces& forces);
   /// One step h [s] of the classical Runge-Kutta scheme of fourth order from `state` with the rates
   /// `now`; `then`: the rates after it.
   void step(double t, double h, const State& state, const Rates& now, State& after, Rates& then);

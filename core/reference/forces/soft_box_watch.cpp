@@ -43,7 +43,9 @@ double SoftBoxWatch::value(const Item& item, const SoftTouch& touch,
       return touch.pushes ? f.normal : -f.normal;
     case What::edge: {
       const double growth =
-          item.edge == TangentialEdge::growth ? SoftBoxDynamics::force_growth(touch, f) : 0;
+          item.edge == TangentialEdge::growth
+              ? force_growth(touch.law->normal, f.at.overlap, f.at.closing, f.closing_rate)
+              : 0;
       return edge_value(item.edge, touch.law->tangential, touch.branch, f.normal, growth,
                         std::abs(f.at.slip), std::abs(bend));
     }
