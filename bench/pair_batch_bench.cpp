@@ -8,6 +8,7 @@
 
 #include "physics/contact/elastic_pair.h"
 #include "physics/contact/linear_contact.h"
+#include "reference/free_collision.h"
 #include "reference/pair/pair_batch.h"
 
 namespace slipcheck {
@@ -154,9 +155,9 @@ void BM_CollisionsByCvode(benchmark::State& state) {
   Sweep sweep = kondic();
   for (auto _ : state) {
     for (std::size_t k = 0; k < sweep.out.size(); k += 64)
-      benchmark::DoNotOptimize(sweep.out[k] = collide_freely(sweep.contact, sweep.ball, sweep.ball,
-                                                             sweep.normal_speed[k],
-                                                             sweep.tangential_speed[k], 1e-8));
+      benchmark::DoNotOptimize(sweep.out[k] = test::collide_freely(
+                                   sweep.contact, sweep.ball, sweep.ball, sweep.normal_speed[k],
+                                   sweep.tangential_speed[k], 1e-8));
   }
   state.counters["collisions/s"] = benchmark::Counter(
       static_cast<double>(state.iterations() * sweep.out.size() / 64), benchmark::Counter::kIsRate);

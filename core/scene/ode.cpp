@@ -150,7 +150,6 @@ Ode::Stop Ode::step(double limit) {
 double Ode::time() const {
   return memory_->at_limit ? memory_->limit : memory_->origin + memory_->now;
 }
-double Ode::step_start() const { return memory_->origin + memory_->before; }
 
 std::span<const double> Ode::y() const {
   return {N_VGetArrayPointer(memory_->y),

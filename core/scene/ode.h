@@ -38,7 +38,6 @@ class Ode {
   Stop step(double limit);
 
   double time() const;                ///< now [s]
-  double step_start() const;          ///< where the last step began [s]
   std::span<const double> y() const;  ///< now
   /// y at a time inside the last step.
   void dense(double t, std::span<double> y) const;

@@ -10,12 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "free_collision.h"
 #include "physics/contact/elastic_pair.h"
 #include "physics/contact/linear_contact.h"
 #include "scene/scaled_impact.h"
 
 namespace slipcheck {
 namespace {
+
+using test::collide_freely;
 
 using Form = AsperityForce::Form;
 

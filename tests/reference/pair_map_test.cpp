@@ -1,5 +1,3 @@
-#include "reference/pair/pair_map.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "free_collision.h"
 #include "physics/contact/elastic_pair.h"
 #include "physics/contact/linear_contact.h"
 
@@ -55,7 +54,7 @@ TEST(PairMap, B8SolidSpheresHaveTwoSevenths) {
 
 TEST(PairMap, SmoothSpheresKeepTheirSlip) {
   const SoftContact contact{ice_force(0.005), ContactEnd::zero_overlap, NoTangentialForce{}};
-  const PairCollision c = collide_freely(contact, kFirst, kSecond, 0.3, 0.2);
+  const PairCollision c = test::collide_freely(contact, kFirst, kSecond, 0.3, 0.2);
   EXPECT_EQ(c.tangential_restitution, 1);
   EXPECT_LT(c.normal_restitution, 1);
   EXPECT_LT(c.energy_change, 0);
@@ -69,7 +68,7 @@ TEST(PairMap, LinearContactMeetsItsClosedForm) {
     const SoftContact contact{LinearForce{exact.stiffness(), exact.damping_rate() * mass},
                               clamp ? ContactEnd::zero_force : ContactEnd::zero_overlap,
                               NoTangentialForce{}};
-    const PairCollision c = collide_freely(contact, kFirst, kSecond, 0.3, 0.2);
+    const PairCollision c = test::collide_freely(contact, kFirst, kSecond, 0.3, 0.2);
     // 1e-10: some hundred steps at a local error of 1e-12.
     EXPECT_NEAR(c.normal_restitution, 0.7, 1e-10);
     EXPECT_NEAR(c.duration, 1e-4, 1e-14);
@@ -88,7 +87,7 @@ TEST(PairMap, B24SmallDissipationSeries) {
     const double x = dissipation_time * std::pow(viscoelastic_constant(mass, law.modulus), 0.4) *
                      std::pow(0.1, 0.2);
     const SoftContact contact{law, ContactEnd::zero_overlap, NoTangentialForce{}};
-    return (1 - collide_freely(contact, ball, ball, 0.1, 1).normal_restitution) / x;
+    return (1 - test::collide_freely(contact, ball, ball, 0.1, 1).normal_restitution) / x;
   };
   const double coarse = quotient(2e-9), fine = quotient(1e-9);
   // The extrapolation leaves x² ~ 1e-8 and the integration's 1e-12/x ~ 1e-8.
@@ -99,7 +98,7 @@ TEST(PairMap, BA13HertzDuration) {
   const Sphere ball = ice_sphere();
   ViscoelasticForce law = ice_force(0.005);
   const SoftContact contact{HertzForce{law.modulus}, ContactEnd::zero_overlap, NoTangentialForce{}};
-  const PairCollision c = collide_freely(contact, ball, ball, 0.25, 1);
+  const PairCollision c = test::collide_freely(contact, ball, ball, 0.25, 1);
   const double mass = effective_mass(ball, ball);
   EXPECT_NEAR(c.duration / hertz_duration(mass, law.modulus, 0.25), 1, 1e-9);
   EXPECT_NEAR(c.normal_restitution, 1, 1e-9);
@@ -113,7 +112,7 @@ TEST(PairMap, B39ViscousForceBelowTheCapDecaysExponentially) {
   // changes sign; ~1e-9 of the collision.
   const SoftContact contact{LinearForce{exact.stiffness(), exact.damping_rate() * mass},
                             ContactEnd::zero_overlap, ViscousForce{damping, 1e9}};
-  const PairCollision c = collide_freely(contact, kFirst, kSecond, 0.3, 0.2);
+  const PairCollision c = test::collide_freely(contact, kFirst, kSecond, 0.3, 0.2);
   const double expected = std::exp(-damping * slip_mobility(kFirst, kSecond) * 1e-4);
   EXPECT_LT(expected, 0.9);
   EXPECT_NEAR(c.tangential_restitution, expected, 1e-8);
@@ -124,7 +123,7 @@ TEST(PairMap, L5SlidingLimit) {
   const double friction = 0.1, g_n = 0.2, g_t = 0.5;
   for (const ContactEnd end : {ContactEnd::zero_overlap, ContactEnd::zero_force}) {
     const SoftContact contact{HertzForce{1e9}, end, ViscousForce{1e7, friction}};
-    const PairCollision c = collide_freely(contact, kFirst, kSecond, g_n, g_t);
+    const PairCollision c = test::collide_freely(contact, kFirst, kSecond, g_n, g_t);
     const double kappa = 1 / (slip_mobility(kFirst, kSecond) * effective_mass(kFirst, kSecond));
     const double expected = 1 - friction * (1 + c.normal_restitution) * g_n / (kappa * g_t);
     EXPECT_NEAR(c.tangential_restitution, expected, 1e-9);
@@ -133,7 +132,7 @@ TEST(PairMap, L5SlidingLimit) {
 
 TEST(PairMap, DampedSlidingLimitWithAClamp) {
   const SoftContact contact{ice_force(0.005), ContactEnd::zero_force, ViscousForce{1e7, 0.05}};
-  const PairCollision c = collide_freely(contact, kFirst, kSecond, 0.2, 0.5);
+  const PairCollision c = test::collide_freely(contact, kFirst, kSecond, 0.2, 0.5);
   const double kappa = 1 / (slip_mobility(kFirst, kSecond) * effective_mass(kFirst, kSecond));
   const double expected = 1 - 0.05 * (1 + c.normal_restitution) * 0.2 / (kappa * 0.5);
   EXPECT_NEAR(c.tangential_restitution, expected, 1e-9);
@@ -142,7 +141,7 @@ TEST(PairMap, DampedSlidingLimitWithAClamp) {
 TEST(PairMap, StrongViscousForceStopsTheSlip) {
   // The cap holds until the slip is c/(κ m_eff) slow; then it decays within 1e-3 of the collision.
   const SoftContact contact{HertzForce{1e9}, ContactEnd::zero_overlap, ViscousForce{1e5, 0.5}};
-  const PairCollision c = collide_freely(contact, kFirst, kSecond, 0.5, 0.1);
+  const PairCollision c = test::collide_freely(contact, kFirst, kSecond, 0.5, 0.1);
   EXPECT_GE(c.tangential_restitution, -1e-10);
   EXPECT_LT(c.tangential_restitution, 1e-3);
 }
@@ -178,7 +177,7 @@ double printed_by_runge_kutta(const SoftContact& contact, const Sphere& ball, do
 TEST(PairMap, B35PrintedLawCreatesEnergyAsMeasured) {
   const Sphere ball = ice_sphere();
   const SoftContact contact = rough_ice(0.1, 2e-4, Form::printed);
-  const PairCollision c = collide_freely(contact, ball, ball, 1, 0.1);
+  const PairCollision c = test::collide_freely(contact, ball, ball, 1, 0.1);
   // physics-notes.md gives two digits after the point.
   EXPECT_NEAR(c.tangential_restitution, -1.26, 0.005);
   // A break is late by a step of 1e-9 s; ε^T changes by 1e-4 of its size.
@@ -190,7 +189,7 @@ TEST(PairMap, B35PapersFrictionIsPassiveFrom1MillimetreTo1MetrePerSecond) {
   const SoftContact contact = rough_ice(papers_friction(2e-4), 2e-4, Form::printed);
   for (double g_n = 1e-3; g_n < 1.1; g_n *= std::sqrt(10.0))
     for (double g_t = 1e-3; g_t < 1.1; g_t *= std::sqrt(10.0)) {
-      const PairCollision c = collide_freely(contact, ball, ball, g_n, g_t, 1e-10);
+      const PairCollision c = test::collide_freely(contact, ball, ball, g_n, g_t, 1e-10);
       EXPECT_LE(std::abs(c.tangential_restitution), 1) << g_n << ", " << g_t;
     }
 }
@@ -201,17 +200,18 @@ TEST(PairMap, BFig2SlidingAtSmallNormalSpeedReversalAtSmallTangentialSpeed) {
     const double friction = papers_friction(size);
     const SoftContact contact = rough_ice(friction, size, Form::printed);
     // Hundreds of asperities break: on average half of μ F_N acts.
-    const PairCollision sliding = collide_freely(contact, ball, ball, 1e-3, 1, 1e-10);
+    const PairCollision sliding = test::collide_freely(contact, ball, ball, 1e-3, 1, 1e-10);
     const double lost = 0.5 * friction * (1 + sliding.normal_restitution) * 3.5 * 1e-3;
     EXPECT_NEAR((1 - sliding.tangential_restitution) / lost, 1, 0.02) << size;
     // The bent asperity that no slip breaks throws the slip back.
-    EXPECT_LT(collide_freely(contact, ball, ball, 1, 1e-3, 1e-10).tangential_restitution, -0.5)
+    EXPECT_LT(test::collide_freely(contact, ball, ball, 1, 1e-3, 1e-10).tangential_restitution,
+              -0.5)
         << size;
     // From one to the other, ε^T falls with g_N.
     double before = 1;
     for (double g_n : {1e-3, 1e-2, 0.1, 0.4}) {
       const double now =
-          collide_freely(contact, ball, ball, g_n, 3e-3, 1e-10).tangential_restitution;
+          test::collide_freely(contact, ball, ball, g_n, 3e-3, 1e-10).tangential_restitution;
       EXPECT_LT(now, before) << size << ", " << g_n;
       before = now;
     }
@@ -229,7 +229,7 @@ TEST(PairMap, PassiveAsperityThatDoesNotBreakIsASpringWhileTheForceFalls) {
   const double size = 1e-4, friction = 1e-6 * size / 1e-4;
   const SoftContact contact{LinearForce{stiffness, 0}, ContactEnd::zero_overlap,
                             AsperityForce{friction, size, Form::passive}};
-  const PairCollision c = collide_freely(contact, kFirst, kSecond, g_n, g_t);
+  const PairCollision c = test::collide_freely(contact, kFirst, kSecond, g_n, g_t);
   const double lost =
       friction / size * force / (omega * omega) * (M_PI - 1) * slip_mobility(kFirst, kSecond);
   ASSERT_LT(g_t * M_PI / omega, size);
@@ -274,7 +274,7 @@ TEST(PairMap, PassiveFormNeverCreatesEnergy) {
     contact.end = random() % 2 ? ContactEnd::zero_overlap : ContactEnd::zero_force;
     const double size = overlap * within(0.1, 10);
     contact.tangential = AsperityForce{within(0.01, 3), size, Form::passive};
-    const PairCollision c = collide_freely(contact, first, second, g_n, g_t, 1e-10);
+    const PairCollision c = test::collide_freely(contact, first, second, g_n, g_t, 1e-10);
     const double kappa = tangential_mass_ratio(first, second);
     const double energy = 0.5 * mass * (g_n * g_n + kappa * g_t * g_t);
     // 1e-7: up to a thousand breaks of a tolerance of 1e-10 each.
@@ -293,8 +293,9 @@ TEST(PairMap, ToleranceDoesNotMatter) {
   for (const Form form : {Form::printed, Form::passive}) {
     const SoftContact contact = rough_ice(0.1, 2e-4, form);
     const double coarse =
-        collide_freely(contact, ball, ball, 0.3, 0.1, 1e-10).tangential_restitution;
-    const double fine = collide_freely(contact, ball, ball, 0.3, 0.1, 1e-13).tangential_restitution;
+        test::collide_freely(contact, ball, ball, 0.3, 0.1, 1e-10).tangential_restitution;
+    const double fine =
+        test::collide_freely(contact, ball, ball, 0.3, 0.1, 1e-13).tangential_restitution;
     EXPECT_NEAR(coarse, fine, 1e-7);
   }
 }
@@ -304,7 +305,7 @@ TEST(PairMap, EndlessContactIsSaidToBe) {
   const SoftContact contact{LinearForce{1e6, 6 * std::sqrt(1e6 * 0.01)}, ContactEnd::zero_overlap,
                             NoTangentialForce{}};
   const Sphere ball{0.01, 0.02, 0.4};
-  const PairCollision c = collide_freely(contact, ball, ball, 0.1, 0.1);
+  const PairCollision c = test::collide_freely(contact, ball, ball, 0.1, 0.1);
   EXPECT_TRUE(std::isinf(c.duration));
   EXPECT_EQ(c.normal_restitution, 0);
 }

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "../scenes.h"
+#include "../support/deepest_overlap.h"
 #include "../support/extremes.h"
 #include "reference/events/event_solver.h"
 #include "reference/forces/contact_solver.h"
@@ -57,21 +58,6 @@ EventSettings without_cells() {
   EventSettings settings;
   settings.most_without_cells = 10000;
   return settings;
-}
-
-/// The deepest overlap over the sum of the radii, over the nearest images.
-double deepest_overlap(const Scene& scene, const std::vector<BodyState>& states) {
-  double deepest = 0;
-  for (std::size_t i = 0; i < states.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      Vector3 dx = states[i].position - states[j].position;
-      for (int axis : {0, 1})
-        if (const double L = scene.periodic[axis]; L > 0)
-          dx[axis] -= L * std::nearbyint(dx[axis] / L);
-      deepest = test::largest_of(deepest,
-                                 1 - dx.norm() / (scene.bodies[i].radius + scene.bodies[j].radius));
-    }
-  return deepest;
 }
 
 Vector3 momentum(const Scene& scene, const std::vector<BodyState>& states) {
@@ -165,7 +151,7 @@ TEST(RollingGas, FrictionlessPeriodicGasKeepsMomentumAndEnergy) {
             rounding * scale);
   EXPECT_NEAR(kinetic_energy(scene, solver.states()) / energy, 1, 10 * rounding);
   // Positions are rounded to 1e-17 m.
-  EXPECT_LE(deepest_overlap(scene, solver.states()), 1e-12);
+  EXPECT_LE(test::deepest_overlap(scene, solver.states()), 1e-12);
 }
 
 /// Adds up what each contact takes: sliding μ_k m g |u|, whose slip falls linearly; rolling
@@ -227,7 +213,7 @@ TEST(RollingGas, ThousandBallsNeverOverlapAndGiveTheSameBitsAgain) {
     ASSERT_TRUE(run.reached) << run.reason;
     collisions += run.collisions;
     b.run(until_time(0.05 * k), nullptr);
-    EXPECT_LE(deepest_overlap(scene, a.states()), 1e-12);
+    EXPECT_LE(test::deepest_overlap(scene, a.states()), 1e-12);
   }
   EXPECT_GT(collisions, 2000u);
   const std::vector<BodyState> of_a = a.states(), of_b = b.states();
@@ -298,7 +284,7 @@ TEST(RollingGas, ClusterComesToRestAtOnceUnderTheLargestVelocityModel) {
   EXPECT_NEAR(states[0].velocity.x() + states[1].velocity.x() + states[2].velocity.x(), 0.1, 1e-15);
   EXPECT_LE(states[0].velocity.x() - states[1].velocity.x(), 1e-6 * 0.1);
   EXPECT_LE(states[1].velocity.x() - states[2].velocity.x(), 1e-6 * 0.1);
-  EXPECT_LE(deepest_overlap(scene, states), 1e-12);
+  EXPECT_LE(test::deepest_overlap(scene, states), 1e-12);
 }
 
 // --- tilted and moving planes --------------------------------------------------------------------

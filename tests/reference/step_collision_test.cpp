@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
+#include "free_collision.h"
 #include "reference/events/event_solver.h"
 #include "reference/forces/contact_solver.h"
-#include "reference/pair/pair_map.h"
 #include "reference/steps/step_pair.h"
 #include "reference/steps/step_solver.h"
 #include "step_scenes.h"
@@ -160,7 +160,8 @@ TEST(StepSolver, FreeCollisionsMeetThePairMap) {
   };
   for (const Case& c : cases) {
     const SoftContact contact{normal, ContactEnd::zero_overlap, c.law};
-    const PairCollision exact = collide_freely(contact, scene.bodies[0], scene.bodies[1], g_n, g_t);
+    const PairCollision exact =
+        test::collide_freely(contact, scene.bodies[0], scene.bodies[1], g_n, g_t);
     const ContactScene all = with_contact(scene, contact);
     const auto error = [&](int steps) {
       StepSolver solver(all, scene.initial, {kCollisionTime / steps});

@@ -81,14 +81,6 @@ std::string value_name(const Observables& observables, const std::vector<std::st
          kPairScalars[left % kPairScalars.size()].name;
 }
 
-std::vector<std::string> value_names(const Observables& observables,
-                                     const std::vector<std::string>& body_names) {
-  std::vector<std::string> names(kOfBody * observables.bodies.size() +
-                                 kPairScalars.size() * observables.pairs.size());
-  for (std::size_t k = 0; k < names.size(); ++k) names[k] = value_name(observables, body_names, k);
-  return names;
-}
-
 std::vector<double> flat_values(const Observables& observables) {
   std::vector<double> values;
   values.reserve(kOfBody * observables.bodies.size() +

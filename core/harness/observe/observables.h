@@ -62,16 +62,12 @@ struct Observables {
   std::vector<PairObservables> pairs;  ///< that collided, in order of the bodies
 };
 
-/// Full names of all values that these bodies and pairs can have: "i.sliding_time",
+/// The full name of a value that these bodies and pairs can have: "i.sliding_time",
 /// "i.final_velocity.x", "i-j.restitution". A vector's bare name is its length.
-std::vector<std::string> value_names(const Observables& observables,
-                                     const std::vector<std::string>& body_names);
-
-/// One of them alone: of many bodies all names take more room than all values.
 std::string value_name(const Observables& observables, const std::vector<std::string>& body_names,
                        std::size_t index);
 
-/// The values in the order of value_names(), NaN where not observed.
+/// The values in the order of their value_name(), NaN where not observed.
 std::vector<double> flat_values(const Observables& observables);
 
 /// Both together, what is not observed left out.

@@ -123,7 +123,6 @@ class EventScheduler {
   }
   /// Of the body's plan, holding or not [s].
   double collision_time(std::uint32_t i) const { return plan(i).collision; }
-  double own_time(std::uint32_t i) const { return plan(i).own; }
   std::uint32_t partner(std::uint32_t i) const { return plan(i).partner; }
 
  private:

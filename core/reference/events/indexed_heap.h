@@ -17,7 +17,6 @@ class IndexedHeap {
   /// For bodies 0 to n − 1; empty.
   explicit IndexedHeap(std::size_t n) : place_(n, kAbsent) {}
 
-  bool is_empty() const { return heap_.empty(); }
   bool holds(std::uint32_t body) const { return place_[body] != kAbsent; }
   const QueuedEvent& top() const { return heap_.front(); }
 

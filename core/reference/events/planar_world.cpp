@@ -229,21 +229,4 @@ Vector2 PlanarWorld::momentum_at(double now) const {
   return sum;
 }
 
-double PlanarWorld::deepest_overlap(double now) const {
-  double deepest = -kNever;
-  const auto at = [&](const Body& b) {
-    const double dt = now - b.time;
-    return Vector2(b.x + b.vx * dt, b.y + (b.vy - 0.5 * gravity_ * dt) * dt);
-  };
-  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    const Vector2 x = at(bodies_[i]);
-    grid_.for_each_near(i, [&](std::uint32_t j, const CellGrid::Shift& shift) {
-      const double contact = radii_[i] + radii_[j];
-      const double distance = (x - at(bodies_[j]) - Vector2(shift.x, shift.y)).norm();
-      deepest = std::max(deepest, 1 - distance / contact);
-    });
-  }
-  return deepest;
-}
-
 }  // namespace slipcheck

@@ -88,8 +88,6 @@ class PlanarWorld {
   /// Kinetic and potential energy [J], and momentum [kg m/s] in the plane.
   double energy_at(double now) const;
   Vector2 momentum_at(double now) const;
-  /// Deepest overlap of two neighbours over the sum of their radii [-], negative if all are apart.
-  double deepest_overlap(double now) const;
 
  private:
   enum class Own : std::uint8_t { none, left, right, down, up, left_wall, right_wall, floor, lid };

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "physics/sphere.h"
-#include "reference/pair/pair_map.h"
+#include "reference/pair/pair_collision.h"
 #include "scene/contact_scene.h"
 
 namespace slipcheck {
@@ -11,9 +11,15 @@ namespace slipcheck {
 /// Whether collide_batch() has these laws: all but the power law, PowerForce.
 bool can_batch(const SoftContact& contact);
 
-/// Many collisions of two kinds of free spheres, as collide_freely() has them but with steps of
-/// fixed length: for maps ε^T(g^N, g^T), sweeps and tuning. Each is one lane of a SIMD vector; a
-/// lane whose collision ended takes the next one.
+/// Many collisions of two kinds of free spheres: for maps ε^T(g^N, g^T), sweeps and tuning. Each is
+/// one lane of a SIMD vector; a lane whose collision ended takes the next one.
+///
+/// Without substrate and gravity, and in the limit of a contact much shorter than the time in which
+/// the spheres pass each other (B, Sec. IV), the line of centres keeps its direction:
+///   ξ̈ = −F_N/m_eff,  u̇ = F_T/(κ m_eff)  (elastic_pair.h),
+/// from ξ = 0, ξ̇ = g_N, u = g_T to the contact's end. F_T acts on the first body: to F_T/m_eff from
+/// the centres the spins add R²/I F_T each, because −R n×F_T turns both spheres and
+/// d(−RΩ×n)/dt = (R²/I) (n×F_T)×n = (R²/I) F_T.
 ///
 /// steps: in the duration of the collision without damping, >= 8. The first begins at the first
 /// touch, the end is found inside of the last one. All errors are of second order in the step h,

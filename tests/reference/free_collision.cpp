@@ -1,4 +1,4 @@
-#include "reference/pair/pair_map.h"
+#include "free_collision.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include "scene/ode.h"
 #include "scene/scaled_impact.h"
 
-namespace slipcheck {
+namespace slipcheck::test {
 namespace {
 
 class Collision {
@@ -148,4 +148,4 @@ PairCollision collide_freely(const SoftContact& contact, const Sphere& first, co
                         collision.slip() / tangential_speed, duration);
 }
 
-}  // namespace slipcheck
+}  // namespace slipcheck::test
