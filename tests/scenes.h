@@ -40,4 +40,13 @@ inline Scene head_on(double v_i, double v_j, double restitution, double half_dis
   return scene;
 }
 
+/// Two balls far above the plane without gravity or spin; centres at ∓`half_distance`, in touch.
+inline Scene free_pair(double v_i, double v_j, double half_distance = 0.002) {
+  Scene scene = steel_scene(2);
+  scene.gravity = 0;
+  scene.initial[0] = {{-half_distance, 0, 1}, {v_i, 0, 0}, Vector3::Zero()};
+  scene.initial[1] = {{half_distance, 0, 1}, {v_j, 0, 0}, Vector3::Zero()};
+  return scene;
+}
+
 }  // namespace slipcheck::test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "integration.h"
+#include "../support/runge_kutta.h"
 
 namespace slipcheck {
 namespace {
@@ -25,17 +25,17 @@ Slid slide_until_rolling(const BodyState& start, double mu) {
     const Vector3 force = -mu * kBall.mass * kGravity * slip.normalized();
     return test::Rates{force / kBall.mass, lever.cross(force) / kBall.moment_of_inertia()};
   };
+  // With the direction held, so that the law goes on smoothly past the end.
+  const auto held = [&](double, const BodyState&) { return rates(start); };
   const Vector3 u0 = slip_velocity(start, kBall.radius);
   double low = 0, high = 10;
   // Bisection on the sign of the slip along its first direction.
   for (int n = 0; n < 100; ++n) {
     const double t = 0.5 * (low + high);
-    // Integrate with the direction held, so that the law goes on smoothly past the end.
-    const auto held = [&](const BodyState&) { return rates(start); };
     const BodyState s = test::integrate(start, t, 4, held);
     (slip_velocity(s, kBall.radius).dot(u0) > 0 ? low : high) = t;
   }
-  return {low, test::integrate(start, low, 4, [&](const BodyState&) { return rates(start); })};
+  return {low, test::integrate(start, low, 4, held)};
 }
 
 TEST(SlideToRoll, MatchesIntegrationForAnObliqueStart) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "integration.h"
+#include "../support/runge_kutta.h"
 #include "physics/motion/driven_phase.h"
 
 // A sphere on a tilted or moving substrate, followed by phases and by the laws themselves.
@@ -14,7 +14,6 @@
 namespace slipcheck::test {
 
 using Kind = DrivenPhase::Kind;
-using State9 = Eigen::Matrix<double, 9, 1>;
 inline constexpr double kGravity = 9.81;
 inline constexpr double kPi = std::numbers::pi;
 
@@ -78,17 +77,8 @@ inline Rates rates(const Scene& scene, Kind kind, double t, const BodyState& s) 
 /// A phase's kind of motion integrated from a state.
 inline BodyState integrated(const Scene& scene, Kind kind, double time, const BodyState& start,
                             double duration, int steps) {
-  State9 y;
-  y << start.position, start.velocity, start.angular_velocity;
-  const auto rate = [&](double t, const State9& s) {
-    const BodyState state{s.head<3>(), s.segment<3>(3), s.tail<3>()};
-    const Rates r = rates(scene, kind, t, state);
-    State9 out;
-    out << state.velocity, r.acceleration, r.angular_acceleration;
-    return out;
-  };
-  y = integrate(rate, y, time, time + duration, steps);
-  return {y.head<3>(), y.segment<3>(3), y.tail<3>()};
+  return integrate(start, duration, steps,
+                   [&](double t, const BodyState& s) { return rates(scene, kind, time + t, s); });
 }
 
 /// Follows a body by phases.

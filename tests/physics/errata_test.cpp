@@ -7,9 +7,10 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 
-#include "integration.h"
+#include "../support/runge_kutta.h"
 #include "physics/closed_forms.h"
 #include "physics/contact/collision.h"
 #include "physics/contact/elastic_pair.h"
@@ -21,7 +22,9 @@
 namespace slipcheck {
 namespace {
 
+using test::integrated;
 using test::SoftPair;
+using test::SubstrateFriction;
 
 constexpr double kGravity = 9.81;
 constexpr double kRadius = 0.002;
@@ -39,18 +42,6 @@ RollingPair symmetric_pair(double v_rel) {
   pair.confined = true;
   return pair;
 }
-SoftPair in_time(const LinearContact& contact, const RollingPair& pair) {
-  SoftPair soft;
-  soft.m = {kMass, kMass};
-  soft.mu_s = {0.5, 0.5};
-  soft.mu_k = {0.1, 0.1};
-  soft.v = {pair.spheres[0].speed, pair.spheres[1].speed};
-  soft.k = contact.stiffness();
-  soft.c = contact.damping_rate() * contact.reduced_mass();
-  soft.rubbing = pair.rubbing_rate * contact.reduced_mass();
-  soft.g = pair.gravity;
-  return soft;
-}
 
 /// A ball on a substrate that is accelerated, in the substrate's frame: the lowest point sticks as
 /// far as a friction of `viscosity` u, at most `cap`, holds it. Acceleration and slip once that is
@@ -61,7 +52,7 @@ struct OnSubstrate {
 OnSubstrate carried(const Vector3& downhill, const Vector3& substrate, double cap) {
   const double viscosity = 20 * kMass / 1e-3;
   const Vector3 lever = -kRadius * Vector3::UnitZ();
-  const auto rates = [&](const BodyState& s) {
+  const auto rates = [&](double, const BodyState& s) {
     const Vector3 u = s.velocity + s.angular_velocity.cross(lever);
     const double size = u.norm();
     Vector3 force = -viscosity * u;
@@ -100,7 +91,7 @@ TEST(KondicErratum, K33K34SlidingBeginsAtTwiceThePrintedTimeAndOverlap) {
   const LinearContact contact = elastic_steel();
   for (double v : {0.01, 0.03, 0.1}) {
     const RollingPair pair = symmetric_pair(v);
-    const SoftPair::Result seen = in_time(contact, pair).collide(200'000);
+    const SoftPair::Result seen = integrated(contact, pair, SubstrateFriction::on).collide(200'000);
     const SlidingOnset onset = pair_insight(contact, pair).onset;
     const double step = 5e-6 / contact.contact_frequency();
     EXPECT_NEAR(onset.exact_time, seen.slides_from, step);
@@ -117,7 +108,7 @@ TEST(KondicErratum, K36K37TurningByTheSubstrateTakesTheDoubledTime) {
   const LinearContact contact = elastic_steel();
   const RollingPair pair = symmetric_pair(0.006);
   const PairInsight found = pair_insight(contact, pair);
-  const SoftPair::Result seen = in_time(contact, pair).collide(200'000);
+  const SoftPair::Result seen = integrated(contact, pair, SubstrateFriction::on).collide(200'000);
   const double turned = pair.spheres[0].speed - seen.end.w[0];
   EXPECT_NEAR(found.substrate_turning / turned, 1, 2e-3);
   const double printed = 0.5 * found.onset.time;
@@ -134,7 +125,8 @@ TEST(KondicErratum, C1C4SlowestCollisionThatMakesThemSlide) {
   EXPECT_NEAR(v_b, 2 * 3.5 * 0.5 * kGravity / contact.contact_frequency(), 1e-18);
   const double limit = std::sqrt(5.0 / 7) * v_b;
   const auto slides = [&](double v) {
-    return !std::isinf(in_time(contact, symmetric_pair(v)).collide().slides_from);
+    return !std::isinf(
+        integrated(contact, symmetric_pair(v), SubstrateFriction::on).collide().slides_from);
   };
   EXPECT_FALSE(slides(0.5 * v_b));
   EXPECT_FALSE(slides(0.999 * limit));
@@ -150,10 +142,8 @@ TEST(KondicErratum, K55K57E13RubbingIsExponentialInTheDurationOfTheContact) {
       RollingPair pair = symmetric_pair(0.1);
       pair.spheres[1].speed = 0;
       pair.rubbing_rate = rate;
-      pair.rubbing_friction = 1e9;
-      SoftPair soft = in_time(contact, pair);
-      soft.mu_s = soft.mu_k = {0, 0};
-      const SoftPair::State end = soft.collide().end;
+      pair.rubbing_friction = std::numeric_limits<double>::infinity();
+      const SoftPair::State end = integrated(contact, pair, SubstrateFriction::off).collide().end;
       const double share = 1 - end.w[0] / pair.spheres[0].speed;
       const PairInsight found = pair_insight(contact, pair);
       EXPECT_NEAR(found.rubbing_constant, 0.5 * 2.5 * rate * t_col, 1e-12);
@@ -174,7 +164,7 @@ TEST(KondicErratum, AppBCollisionTimeOfSteel) {
     BodyState s;
     s.velocity.x() = v;
     const double h = 2e-10;
-    const auto rates = [&](const BodyState& y) {
+    const auto rates = [&](double, const BodyState& y) {
       return test::Rates{-force.elastic(y.position.x()) / (kMass / 2) * Vector3::UnitX(),
                          Vector3::Zero()};
     };
@@ -208,22 +198,15 @@ struct FreePair {
   template <class Law>
   void collide(double stiffness, double speed, const Law& law) {
     const double m = effective_mass(a, b), omega = std::sqrt(stiffness / m);
-    const int steps = 200000;
-    const double h = M_PI / omega / steps;
-    for (int n = 0; n < steps; ++n) {
-      const auto normal = [&](double t) { return stiffness * speed / omega * std::sin(omega * t); };
-      const auto pushed = [&](FreePair p, double force, double dt) {
-        p.v_a += dt * force / a.mass;
-        p.v_b -= dt * force / b.mass;
-        p.w_a -= dt * a.radius * force / a.moment_of_inertia();
-        p.w_b -= dt * b.radius * force / b.moment_of_inertia();
-        return p;
-      };
-      // Midpoint rule.
-      const double t = n * h;
-      const FreePair middle = pushed(*this, law(slip(), normal(t)), h / 2);
-      *this = pushed(*this, law(middle.slip(), normal(t + h / 2)), h);
-    }
+    const auto rate = [&](double t, const Eigen::Vector4d& s) -> Eigen::Vector4d {
+      const double normal = stiffness * speed / omega * std::sin(omega * t);
+      const double force = law(s[0] - s[1] - a.radius * s[2] - b.radius * s[3], normal);
+      return {force / a.mass, -force / b.mass, -a.radius * force / a.moment_of_inertia(),
+              -b.radius * force / b.moment_of_inertia()};
+    };
+    const Eigen::Vector4d s =
+        test::integrate(rate, Eigen::Vector4d(v_a, v_b, w_a, w_b), 0, M_PI / omega, 100000);
+    v_a = s[0], v_b = s[1], w_a = s[2], w_b = s[3];
   }
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "../support/extremes.h"
+#include "../support/runge_kutta.h"
 
 namespace slipcheck {
 namespace {
@@ -19,29 +20,17 @@ struct Collision {
 };
 Collision integrated(const LinearContact& contact, double v, End end) {
   const double w2 = contact.stiffness() / contact.reduced_mass(), gamma = contact.damping_rate();
-  double x = 0, u = v, t = 0, deepest = 0;
-  double h = 1e-3 / std::sqrt(w2);
-  const auto advance = [&](double dt, double& x1, double& u1) {
-    const auto f = [&](double xx, double uu) { return -w2 * xx - gamma * uu; };
-    const double k1 = u, l1 = f(x, u), k2 = u + dt / 2 * l1,
-                 l2 = f(x + dt / 2 * k1, u + dt / 2 * l1), k3 = u + dt / 2 * l2,
-                 l3 = f(x + dt / 2 * k2, u + dt / 2 * l2), k4 = u + dt * l3,
-                 l4 = f(x + dt * k3, u + dt * l3);
-    x1 = x + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-    u1 = u + dt / 6 * (l1 + 2 * l2 + 2 * l3 + l4);
+  double deepest = 0;
+  const auto rate = [&](double, const Vector3& s) {  // of ξ, ξ̇, t
+    return Vector3(s[1], -w2 * s[0] - gamma * s[1], 1);
   };
-  for (bool first = true; h > 1e-18; first = false) {
-    double x1, u1;
-    advance(h, x1, u1);
-    const bool over = end == End::zero_overlap ? x1 < 0 : w2 * x1 + gamma * u1 < 0;
-    if (over && !first) {
-      h /= 2;
-      continue;
-    }
-    x = x1, u = u1, t += h;
-    deepest = test::largest_of(deepest, x);
-  }
-  return {t, -u / v, deepest};
+  const auto over = [&](const Vector3& s) {
+    return end == End::zero_overlap ? s[0] < 0 : w2 * s[0] + gamma * s[1] < 0;
+  };
+  const auto seen = [&](const Vector3& s) { deepest = test::largest_of(deepest, s[0]); };
+  const Vector3 last =
+      test::integrate_until(over, rate, Vector3(0, v, 0), 1e-3 / std::sqrt(w2), 1e-18, seen);
+  return {last[2], -last[1] / v, deepest};
 }
 
 TEST(LinearContact, CollisionMatchesTheIntegratedForceLaw) {

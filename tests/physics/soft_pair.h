@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "../support/extremes.h"
+#include "../support/runge_kutta.h"
+#include "physics/contact/pair_insight.h"
 
 namespace slipcheck::test {
 
@@ -15,7 +17,7 @@ namespace slipcheck::test {
 /// mode (stick and slip, lift-off, end of contact) fall on steps, which is the error.
 struct SoftPair {
   std::array<double, 2> m{2.6e-4, 2.6e-4}, A{2.5, 2.5}, mu_s{0, 0}, mu_k{0, 0};
-  std::array<double, 2> v{};                             ///< sphere 0 behind; both begin rolling
+  Vector2 v = Vector2::Zero();                           ///< sphere 0 behind; both begin rolling
   double k = 0, c = 0;                                   ///< stiffness, damping γ_N m̄
   double rubbing = 0;                                    ///< γ_S m̄
   double cap = std::numeric_limits<double>::infinity();  ///< ν_s
@@ -25,8 +27,16 @@ struct SoftPair {
 
   struct State {
     double overlap = 0;
-    std::array<double, 2> v{}, w{};  ///< centres, surfaces RΩ
-    double rise = 0;                 ///< velocity of the lifted sphere
+    Vector2 v = Vector2::Zero(), w = Vector2::Zero();  ///< centres, surfaces RΩ
+    double rise = 0;                                   ///< velocity of the lifted sphere
+    double rubbed = 0;                                 ///< impulse of F_R
+
+    State operator+(const State& d) const {
+      return {overlap + d.overlap, v + d.v, w + d.w, rise + d.rise, rubbed + d.rubbed};
+    }
+    friend State operator*(double h, const State& d) {
+      return {h * d.overlap, h * d.v, h * d.w, h * d.rise, h * d.rubbed};
+    }
   };
   struct Result {
     State end;
@@ -34,7 +44,6 @@ struct SoftPair {
     double slides_from = std::numeric_limits<double>::infinity();
     double lifts_from = std::numeric_limits<double>::infinity();
     double largest_rubbing = 0;
-    double rubbed = 0;  ///< impulse of F_R
   };
 
   double force(const State& y) const { return k * y.overlap + c * (y.v[0] - y.v[1]); }
@@ -62,7 +71,7 @@ struct SoftPair {
     const auto normal = [&](const State& s, std::size_t i) {
       return std::max(0.0, m[i] * g + (i == up ? -1 : 1) * rubbing_of(s));
     };
-    const auto slope = [&](const State& s) {
+    const auto slope = [&](double, const State& s) {
       State d;
       d.overlap = s.v[0] - s.v[1];
       const double turn = std::copysign(1, v[0] + v[1]) * rubbing_of(s);
@@ -78,13 +87,8 @@ struct SoftPair {
         d.w[i] = -A[i] * (f + turn) / m[i];
       }
       if (lifted) d.rise = rubbing_of(s) / m[up] - g;
+      d.rubbed = rubbing_of(s);
       return d;
-    };
-    const auto moved = [](State s, const State& d, double dt) {
-      s.overlap += dt * d.overlap;
-      for (std::size_t i : {0u, 1u}) s.v[i] += dt * d.v[i], s.w[i] += dt * d.w[i];
-      s.rise += dt * d.rise;
-      return s;
     };
     double before = 0;
     for (long n = 0;; ++n) {
@@ -104,10 +108,7 @@ struct SoftPair {
         lifted = true;
         out.lifts_from = out.time;
       }
-      const State k1 = slope(y), k2 = slope(moved(y, k1, h / 2)), k3 = slope(moved(y, k2, h / 2)),
-                  k4 = slope(moved(y, k3, h));
-      out.rubbed += h * rubbing_of(moved(y, k1, h / 2));
-      y = moved(moved(moved(moved(y, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
+      y = runge_kutta_step(slope, out.time, y, h);
       out.deepest = test::largest_of(out.deepest, y.overlap);
       out.largest_rubbing = test::largest_of(out.largest_rubbing, rubbing_of(y));
     }
@@ -135,5 +136,31 @@ struct SoftPair {
     return {t, x, v_i};
   }
 };
+
+enum class SubstrateFriction { off, on };
+
+/// A pair for the integration. Without the substrate's friction in the collision, as K's
+/// closed forms for v^f and Ω^f have it, both spheres are free to turn.
+inline SoftPair integrated(const LinearContact& contact, const RollingPair& pair,
+                           SubstrateFriction friction) {
+  SoftPair soft;
+  for (std::size_t i : {0u, 1u}) {
+    const RollingSphere& s = pair.spheres[i];
+    soft.m[i] = s.sphere.mass;
+    soft.A[i] = s.sphere.inverse_shape_factor();
+    soft.v[i] = s.speed;
+    if (friction == SubstrateFriction::on) {
+      soft.mu_s[i] = s.static_friction;
+      soft.mu_k[i] = s.kinetic_friction;
+    }
+  }
+  soft.k = contact.stiffness();
+  soft.c = contact.damping_rate() * contact.reduced_mass();
+  soft.rubbing = pair.rubbing_rate * contact.reduced_mass();
+  soft.cap = pair.rubbing_friction;
+  soft.g = pair.gravity;
+  soft.confined = pair.confined;
+  return soft;
+}
 
 }  // namespace slipcheck::test

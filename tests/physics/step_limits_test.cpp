@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "../support/runge_kutta.h"
+
 namespace slipcheck {
 namespace {
 
@@ -71,13 +73,11 @@ TEST(StepLimit, ExplicitEuler) {
 
 TEST(StepLimit, RungeKutta) {
   expect_limit(runge_kutta_limit(kOmega), [](State& s, double h) {
-    const auto slope = [](const State& y) { return State{y.v, rate(y, 0)}; };
-    const auto moved = [](const State& y, const State& d, double dt) {
-      return State{y.x + dt * d.x, y.v + dt * d.v};
+    const auto slope = [](double, const Vector2& y) {
+      return Vector2(y[1], rate({y[0], y[1]}, 0));
     };
-    const State k1 = slope(s), k2 = slope(moved(s, k1, h / 2)), k3 = slope(moved(s, k2, h / 2)),
-                k4 = slope(moved(s, k3, h));
-    s = moved(moved(moved(moved(s, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
+    const Vector2 next = test::runge_kutta_step(slope, 0, Vector2(s.x, s.v), h);
+    s = {next[0], next[1]};
   });
 }
 

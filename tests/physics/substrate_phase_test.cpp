@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "integration.h"
+#include "../support/runge_kutta.h"
 
 namespace slipcheck {
 namespace {
@@ -45,7 +45,7 @@ TEST(SlidingPhase, ObliqueSlideMatchesIntegration) {
   // Up to 90 % of the slide: the integrator's error there is of order h⁴ and below 1e-12.
   const double t = 0.9 * phase.duration();
   const BodyState expected = test::integrate(
-      state, t, 2000, [&](const BodyState& s) { return sliding_rates(ball, 0.1, s); });
+      state, t, 2000, [&](double, const BodyState& s) { return sliding_rates(ball, 0.1, s); });
   const BodyState found = phase.at(t);
   expect_close(found.position, expected.position, 1e-14);
   expect_close(found.velocity, expected.velocity, 1e-13);
@@ -113,10 +113,11 @@ void expect_table_matches(const RollingFriction& friction, double speed, double 
     left -= phase.duration();
     state = phase.at_end();
   }
-  const BodyState expected = test::integrate(start, duration, 20000, [&](const BodyState& s) {
-    const double v = s.velocity.norm();
-    return test::Rates{-friction(v) * kGravity / v * s.velocity, Vector3::Zero()};
-  });
+  const BodyState expected =
+      test::integrate(start, duration, 20000, [&](double, const BodyState& s) {
+        const double v = s.velocity.norm();
+        return test::Rates{-friction(v) * kGravity / v * s.velocity, Vector3::Zero()};
+      });
   // The kinks of the table cost the integrator its order: h² times the jump of the slope.
   expect_close(state.position, expected.position, 1e-9);
   expect_close(state.velocity, expected.velocity, 1e-9);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../scenario/scenes.h"
+#include "../support/runge_kutta.h"
 #include "physics/contact/elastic_pair.h"
 #include "physics/contact/linear_contact.h"
 #include "scenario/fault.h"
@@ -166,23 +167,13 @@ TEST(ContactScene, ViscousDampingByRateOrRatio) {
 
 /// Slip of two free spheres after F = −c u acted on both for a time, by Runge-Kutta.
 double slip_left(const Sphere& a, const Sphere& b, double damping, double time) {
-  std::array<double, 4> y{1, 0, 0, 0};  // velocities, surface velocities from the spins
-  const auto slope = [&](const std::array<double, 4>& s) {
+  using State = Eigen::Vector4d;  // velocities, surface velocities from the spins
+  const auto slope = [&](double, const State& s) {
     const double force = -damping * (s[0] + s[2] - s[1] - s[3]);
-    return std::array<double, 4>{force / a.mass, -force / b.mass, force / (a.shape_factor * a.mass),
-                                 -force / (b.shape_factor * b.mass)};
+    return State(force / a.mass, -force / b.mass, force / (a.shape_factor * a.mass),
+                 -force / (b.shape_factor * b.mass));
   };
-  const auto moved = [](std::array<double, 4> s, const std::array<double, 4>& d, double dt) {
-    for (std::size_t i = 0; i < s.size(); ++i) s[i] += dt * d[i];
-    return s;
-  };
-  const int steps = 2000;
-  const double h = time / steps;
-  for (int n = 0; n < steps; ++n) {
-    const auto k1 = slope(y), k2 = slope(moved(y, k1, h / 2)), k3 = slope(moved(y, k2, h / 2)),
-               k4 = slope(moved(y, k3, h));
-    y = moved(moved(moved(moved(y, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
-  }
+  const State y = test::integrate(slope, State(1, 0, 0, 0), 0, time, 2000);
   return y[0] + y[2] - y[1] - y[3];
 }
 

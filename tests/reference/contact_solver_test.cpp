@@ -37,18 +37,10 @@ struct Film final : FrameSink {
   }
 };
 
-Scene free_pair(double v_i, double v_j) {
-  Scene scene = test::head_on(v_i, v_j, 0.9);
-  scene.gravity = 0;
-  scene.substrate[0] = {};
-  for (BodyState& state : scene.initial) state.angular_velocity.setZero();
-  return scene;
-}
-
 TEST(ContactSolver, K2FreePairPartsWithItsRestitutionAfterItsTime) {
   // Closed forms of the linear law; the integrator's tolerance sets the error.
   for (const ContactEnd end : {ContactEnd::zero_overlap, ContactEnd::zero_force}) {
-    const ContactScene scene = test::soft(free_pair(0.05, -0.05), 2.55e-5, end);
+    const ContactScene scene = test::soft(test::free_pair(0.05, -0.05, 0.005), 2.55e-5, end);
     ContactSolver solver(scene, scene.hard.initial);
     Film film;
     const SolvedRun run = solver.run(until_time(0.1), &film);
@@ -99,7 +91,7 @@ TEST(ContactSolver, AGapOfRoundOffBesideBallsThatLeanTakesNoTime) {
 }
 
 TEST(ContactSolver, KClampOnTheDampingOfZeroOverlapGives090203) {
-  ContactScene scene = test::soft(free_pair(0.05, -0.05));
+  ContactScene scene = test::soft(test::free_pair(0.05, -0.05, 0.005));
   scene.soft[0]->end = ContactEnd::zero_force;
   ContactSolver solver(scene, scene.hard.initial);
   solver.run(until_time(0.1), nullptr);
@@ -207,7 +199,7 @@ TEST(ContactSolver, HardPairsCollideAtAnInstantAsInTheEventSolver) {
 
 TEST(ContactSolver, AGrazeShorterThanAStepIsNotMissed) {
   // Two balls pass and overlap by a millionth of their radius, for 1e-5 of the flight.
-  Scene hard = free_pair(1, -1);
+  Scene hard = test::free_pair(1, -1);
   const double reach = 2 * 0.002 - 2e-9;
   hard.initial[0].position.y() = reach / 2;
   hard.initial[1].position.y() = -reach / 2;
@@ -246,7 +238,7 @@ TEST(ContactSolver, SpinAboutTheVerticalShearsAnObliqueHit) {
   // Two free balls, sticking never reached: the shear impulse is ν_s times the normal one, against
   // R Ω_z at the contact. L (5)-(12), sliding; the line of centres turns by a little, which sets
   // the error.
-  Scene hard = free_pair(0.1, -0.1);
+  Scene hard = test::free_pair(0.1, -0.1, 0.005);
   hard.initial[0].angular_velocity.z() = 200;
   const ContactScene scene =
       test::soft(hard, 1e-6, ContactEnd::zero_overlap, ViscousForce{1e3, 0.05});

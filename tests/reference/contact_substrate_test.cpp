@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "../physics/integration.h"
+#include "../support/runge_kutta.h"
 #include "physics/contact/coupled_friction.h"
 #include "reference/forces/contact_solver.h"
 #include "soft_scenes.h"

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "../physics/integration.h"
 #include "../scenes.h"
+#include "../support/runge_kutta.h"
 #include "physics/closed_forms.h"
 #include "physics/numbers.h"
 
@@ -119,10 +119,11 @@ TEST(EventSolver, CollisionOnASpeedDependentRollPathIsFoundWhereItIs) {
   scene.substrate[0].rolling = RollingFriction({{0, 0.001}, {1, 0.05}});
   scene.initial = {test::rolling_at(-0.1, 0, 0.5, 0), test::rolling_at(0, 0, 0, 0)};
   const double t = EventSolver(scene, scene.initial).first_contact(10);
-  const BodyState reached = test::integrate(scene.initial[0], t, 4000, [&](const BodyState& s) {
-    const double v = s.velocity.norm();
-    return test::Rates{-(0.001 + 0.049 * v) * 9.81 / v * s.velocity, Vector3::Zero()};
-  });
+  const BodyState reached =
+      test::integrate(scene.initial[0], t, 4000, [&](double, const BodyState& s) {
+        const double v = s.velocity.norm();
+        return test::Rates{-(0.001 + 0.049 * v) * 9.81 / v * s.velocity, Vector3::Zero()};
+      });
   EXPECT_NEAR(reached.position.x(), -0.004, 1e-14);  // the integrator's h⁴ is below rounding
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "../support/runge_kutta.h"
 #include "free_collision.h"
 #include "physics/contact/elastic_pair.h"
 #include "physics/contact/linear_contact.h"
@@ -153,24 +154,15 @@ double printed_by_runge_kutta(const SoftContact& contact, const Sphere& ball, do
   const auto& law = std::get<ViscoelasticForce>(contact.normal);
   const auto& rough = std::get<AsperityForce>(contact.tangential);
   const double mass = effective_mass(ball, ball);
-  using State = std::array<double, 4>;
-  const auto rate = [&](const State& y) {
+  using State = Eigen::Vector4d;
+  const auto rate = [&](double, const State& y) {
     const double normal = law(std::max(0.0, y[0]), y[1]);
     const double bend = y[3] / rough.size;
     const double tooth = bend - std::trunc(bend);
-    return State{y[1], -normal / mass, -3.5 * rough.friction * normal * tooth / mass, y[2]};
+    return State(y[1], -normal / mass, -3.5 * rough.friction * normal * tooth / mass, y[2]);
   };
-  const auto moved = [](const State& y, const State& d, double dt) {
-    State z = y;
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] += dt * d[k];
-    return z;
-  };
-  State y{0, g_n, g_t, 0};
-  while (y[0] >= 0) {
-    const State k1 = rate(y), k2 = rate(moved(y, k1, h / 2)), k3 = rate(moved(y, k2, h / 2)),
-                k4 = rate(moved(y, k3, h));
-    y = moved(moved(moved(moved(y, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
-  }
+  State y(0, g_n, g_t, 0);
+  while (y[0] >= 0) y = test::runge_kutta_step(rate, 0, y, h);
   return y[2] / g_t;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "../support/runge_kutta.h"
 #include "free_collision.h"
 #include "reference/events/event_solver.h"
 #include "reference/forces/contact_solver.h"
@@ -21,7 +22,7 @@ using namespace test;
 /// A bound pair of spinning spheres with all components in play, against Runge-Kutta steps.
 struct Turning {
   double stiffness = 1e5, damping = 0.05, rubbing = 0.03;
-  Scene scene = free_pair(0);
+  Scene scene = free_pair(0, 0);
 
   Turning() {
     // The pair swings about its centre while it is pressed together by nothing but inertia's lack:
@@ -43,47 +44,33 @@ TEST(StepSolver, SecondOrderWithViscousForceAndSpins) {
                                 ViscousForce{pair.rubbing, 100}});
   const double t = 5e-5;
   // Runge-Kutta on the equations written out anew.
-  std::vector<BodyState> exact = pair.scene.initial;
+  using State = Eigen::Matrix<double, 3, 6>;  // positions, velocities, spins of both
   const auto& bodies = pair.scene.bodies;
-  const auto rates = [&](const std::vector<BodyState>& s) {
-    const Vector3 d = s[0].position - s[1].position, n = d.normalized();
-    const Vector3 dv = s[0].velocity - s[1].velocity;
-    const Vector3 u = dv - 0.002 * (s[0].angular_velocity + s[1].angular_velocity).cross(n);
+  const auto rates = [&](double, const State& s) {
+    const Vector3 d = s.col(0) - s.col(1), n = d.normalized();
+    const Vector3 dv = s.col(2) - s.col(3);
+    const Vector3 u = dv - 0.002 * Vector3(s.col(4) + s.col(5)).cross(n);
     const Vector3 tangential = -pair.rubbing * (u - n.dot(u) * n);
     const double normal = pair.stiffness * (0.004 - d.norm()) - pair.damping * n.dot(dv);
-    const Vector3 force = normal * n + tangential;
-    std::vector<BodyState> r(2);
-    for (std::size_t i = 0; i < 2; ++i) {
-      r[i].position = s[i].velocity;
-      r[i].velocity = (i == 0 ? 1 : -1) * force / bodies[i].mass;
-      r[i].angular_velocity = -0.002 * n.cross(tangential) / bodies[i].moment_of_inertia();
-    }
+    const Vector3 force = normal * n + tangential, torque = -0.002 * n.cross(tangential);
+    State r;
+    r << s.col(2), s.col(3), force / bodies[0].mass, -force / bodies[1].mass,
+        torque / bodies[0].moment_of_inertia(), torque / bodies[1].moment_of_inertia();
     return r;
   };
-  const auto moved = [](std::vector<BodyState> s, const std::vector<BodyState>& r, double dt) {
-    for (std::size_t i = 0; i < s.size(); ++i) {
-      s[i].position += dt * r[i].position;
-      s[i].velocity += dt * r[i].velocity;
-      s[i].angular_velocity += dt * r[i].angular_velocity;
-    }
-    return s;
-  };
-  const int fine = 2000;
-  for (int n = 0; n < fine; ++n) {
-    const double h = t / fine;
-    const auto k1 = rates(exact), k2 = rates(moved(exact, k1, h / 2)),
-               k3 = rates(moved(exact, k2, h / 2)), k4 = rates(moved(exact, k3, h));
-    exact = moved(moved(moved(moved(exact, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
-  }
-  ASSERT_LT((exact[0].position - exact[1].position).norm(), 0.004);  // still in contact
+  const BodyState &a = pair.scene.initial[0], &b = pair.scene.initial[1];
+  State exact;
+  exact << a.position, b.position, a.velocity, b.velocity, a.angular_velocity, b.angular_velocity;
+  exact = integrate(rates, exact, 0, t, 2000);
+  ASSERT_LT((exact.col(0) - exact.col(1)).norm(), 0.004);  // still in contact
   const auto error = [&](int steps) {
     StepSolver solver(all, pair.scene.initial, {t / steps});
     solver.run(until_time(t), nullptr);
     const std::vector<BodyState> s = solver.states();
     double e = 0;
     for (std::size_t i = 0; i < 2; ++i)
-      e += (s[i].velocity - exact[i].velocity).norm() +
-           0.002 * (s[i].angular_velocity - exact[i].angular_velocity).norm();
+      e += (s[i].velocity - exact.col(2 + i)).norm() +
+           0.002 * (s[i].angular_velocity - exact.col(4 + i)).norm();
     return e;
   };
   EXPECT_NEAR(order(error, 100), 2, 0.05);
@@ -134,7 +121,7 @@ TEST(StepSolver, BendTurnsWithTheLineOfCentres) {
 
 TEST(StepSolver, FreeCollisionsMeetThePairMap) {
   const double g_n = 1e-3, g_t = 2e-4;
-  Scene scene = free_pair(g_n);
+  Scene scene = free_pair(0.5 * g_n, -0.5 * g_n);
   scene.initial[0].velocity.y() = 0.5 * g_t;
   scene.initial[1].velocity.y() = -0.5 * g_t;
   const double mass = 0.5 * scene.bodies[0].mass, omega = M_PI / kCollisionTime;

@@ -34,17 +34,6 @@ inline SoftContact linear_contact(double mass, double restitution, double collis
   return {LinearForce{law.stiffness(), law.damping_rate() * mass}, end, NoTangentialForce{}};
 }
 
-/// Two spheres far above the plane without gravity, exactly in touch, that approach at g [m/s].
-inline Scene free_pair(double g, double gap = 0) {
-  Scene scene = steel_scene(2);
-  scene.gravity = 0;
-  for (std::size_t i = 0; i < 2; ++i) {
-    scene.initial[i].position = {i == 0 ? -0.002 - gap : 0.002, 0, 1};
-    scene.initial[i].velocity = {i == 0 ? 0.5 * g : -0.5 * g, 0, 0};
-  }
-  return scene;
-}
-
 inline double overlap(const Scene& scene, const std::vector<BodyState>& s) {
   return scene.bodies[0].radius + scene.bodies[1].radius - (s[0].position - s[1].position).norm();
 }

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "../support/extremes.h"
+#include "../support/runge_kutta.h"
 #include "physics/closed_forms.h"
 #include "physics/contact/coupled_friction.h"
 #include "reference/steps/step_solver.h"
@@ -75,19 +76,12 @@ TEST(StepSolver, TurningSlipIsOfSecondOrder) {
   scene.initial[0].velocity = {0.5, 0, 0};
   const ContactScene all = alone(scene);
   const double t = 0.05, A = 2.5, a = 0.1 * 9.81;
-  Vector2 v(0.5, 0), u(0.5, 0);
-  const auto step = [&](Vector2 at) -> Vector2 { return -a * at.normalized(); };
-  const int fine = 4000;
-  for (int n = 0; n < fine; ++n) {
-    // u̇ = downhill − (1+A) a û and v̇ = downhill − a û
-    const double h = t / fine;
-    const Vector2 g(0, -4);
-    const auto du = [&](const Vector2& at) -> Vector2 { return g + (1 + A) * step(at); };
-    const Vector2 k1 = du(u), u2 = u + h / 2 * k1, k2 = du(u2), u3 = u + h / 2 * k2, k3 = du(u3),
-                  u4 = u + h * k3, k4 = du(u4);
-    v += h * g + h / 6 * (step(u) + 2 * step(u2) + 2 * step(u3) + step(u4));
-    u += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-  }
+  // v̇ = downhill − a û and u̇ = downhill − (1+A) a û
+  const auto rate = [&](double, const Eigen::Vector4d& s) -> Eigen::Vector4d {
+    const Vector2 friction = -a * s.tail<2>().normalized();
+    return {friction.x(), friction.y() - 4, (1 + A) * friction.x(), (1 + A) * friction.y() - 4};
+  };
+  const Vector2 v = test::integrate(rate, Eigen::Vector4d(0.5, 0, 0.5, 0), 0, t, 4000).head<2>();
   const auto error = [&](int steps) {
     StepSolver solver(all, scene.initial, {t / steps});
     solver.run(until_time(t), nullptr);
@@ -170,24 +164,14 @@ TEST(StepSolver, CoupledDrillingFollowsTheIntegratedLaw) {
   const ContactScene all = alone(scene);
   // u̇ = −(1+A) μ g f(u, a_c Ω), I Ω̇ = −μ m g a_c t(u, a_c Ω): Runge-Kutta.
   const double t = 0.01, g = 9.81;
-  double v = 0.05, u = 0.05, w = 400;
-  const int fine = 2000;
-  for (int n = 0; n < fine; ++n) {
-    const double h = t / fine;
-    const auto rates = [&](double slip, double spin) {
-      const CoupledFriction c = coupled_friction(DiscPressure::uniform, slip, 2e-4 * spin);
-      return std::pair(-0.1 * g * c.force, -0.1 * g * 2e-4 * c.torque / (0.4 * 0.002 * 0.002));
-    };
-    const auto [a1, b1] = rates(u, w);
-    const auto [a2, b2] = rates(u + 3.5 * a1 * h / 2, w + b1 * h / 2);
-    const auto [a3, b3] = rates(u + 3.5 * a2 * h / 2, w + b2 * h / 2);
-    const auto [a4, b4] = rates(u + 3.5 * a3 * h, w + b3 * h);
-    const double a = (a1 + 2 * a2 + 2 * a3 + a4) / 6;
-    v += h * a;
-    u += 3.5 * h * a;
-    w += h * (b1 + 2 * b2 + 2 * b3 + b4) / 6;
-  }
-  ASSERT_GT(u, 0.001);
+  const auto rate = [&](double, const Vector3& s) {  // of v, u, Ω
+    const CoupledFriction c = coupled_friction(DiscPressure::uniform, s[1], 2e-4 * s[2]);
+    const double a = -0.1 * g * c.force;
+    return Vector3(a, 3.5 * a, -0.1 * g * 2e-4 * c.torque / (0.4 * 0.002 * 0.002));
+  };
+  const Vector3 exact = test::integrate(rate, Vector3(0.05, 0.05, 400), 0, t, 2000);
+  const double v = exact[0], w = exact[2];
+  ASSERT_GT(exact[1], 0.001);
   const auto error = [&](int steps) {
     StepSolver solver(all, scene.initial, {t / steps});
     solver.run(until_time(t), nullptr);
