@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../support/refusal.h"
 #include "baselines.h"
 
 namespace slipcheck {
@@ -21,12 +22,9 @@ std::string replaced(std::string text, const std::string& old, const std::string
 
 /// The message of the fault in a baseline in which `old` was replaced.
 std::string fault(const std::string& old, const std::string& by) {
-  try {
+  return test::refusal_of<BadBaseline>([&] {
     parse_baseline(replaced(baseline_text(meeting_baseline()), old, by), "b/meeting.json");
-  } catch (const BadBaseline& bad) {
-    return bad.what();
-  }
-  return "none";
+  });
 }
 
 TEST(BaselineFile, ReadsBackToTheLastBit) {

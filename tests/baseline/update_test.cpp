@@ -1,10 +1,10 @@
 #include "studies/baseline/update.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
+#include "../support/in_folder.h"
 #include "baselines.h"
 #include "studies/baseline/baseline_json.h"
 
@@ -50,18 +50,16 @@ TEST(Update, ScenesComeAndGoOnlyWhereAllAreThere) {
   EXPECT_TRUE(update_of(kFolder, old, {now}, false).left_over.empty());
 }
 
-TEST(Update, BaselinesAreLoadedByScene) {
-  const fs::path folder =
-      fs::temp_directory_path() / ("slipcheck-update-" + std::to_string(getpid()));
-  fs::create_directories(folder);
-  EXPECT_TRUE(load_baselines(folder / "none").empty());
-  std::ofstream(folder / "meeting.json") << baseline_text(meeting_baseline());
-  EXPECT_EQ(load_baselines(folder).size(), 1u);
-  EXPECT_EQ(load_baselines(folder, {"meeting", "none"}).size(), 1u);
-  std::ofstream(folder / "broken.json") << "{";
-  EXPECT_EQ(load_baselines(folder, {"meeting"}).size(), 1u);
-  EXPECT_THROW(load_baselines(folder), BadBaseline);
-  fs::remove_all(folder);
+using LoadBaselines = test::InFolder;
+
+TEST_F(LoadBaselines, ByScene) {
+  EXPECT_TRUE(load_baselines(folder_ / "none").empty());
+  std::ofstream(folder_ / "meeting.json") << baseline_text(meeting_baseline());
+  EXPECT_EQ(load_baselines(folder_).size(), 1u);
+  EXPECT_EQ(load_baselines(folder_, {"meeting", "none"}).size(), 1u);
+  std::ofstream(folder_ / "broken.json") << "{";
+  EXPECT_EQ(load_baselines(folder_, {"meeting"}).size(), 1u);
+  EXPECT_THROW(load_baselines(folder_), BadBaseline);
 }
 
 }  // namespace

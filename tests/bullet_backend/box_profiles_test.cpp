@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "../support/refusal.h"
 #include "bullet_backend/coefficients.h"
 #include "bullet_box.h"
 
@@ -30,17 +31,6 @@ Scene everything() {
   box.on_wall = {{PowerLawRestitution{}, 0.25, 0}, {PowerLawRestitution{}, 0.25, 0}};
   box.on_lid = {{0.3, 0.15, 0}, {0.3, 0.15, -1}};
   return scene;
-}
-
-double number(const Applied& applied, const std::string& name) {
-  const auto found = applied.settings.find(name);
-  if (found == applied.settings.end()) ADD_FAILURE() << name << " is not among the settings";
-  return found == applied.settings.end() ? std::nan("") : std::get<double>(found->second);
-}
-
-bool lists(const Applied& applied, const std::string& start) {
-  return std::ranges::any_of(applied.not_represented,
-                             [&](const std::string& each) { return each.starts_with(start); });
 }
 
 TEST(BulletBoxProfiles, DefaultAppliesTheNumbersOfEverySurface) {
@@ -107,14 +97,9 @@ TEST(BulletBoxProfiles, ARepeatedPlaneIsRefused) {
   RemoteEngine engine(bullet_executable("double"));
   Scene scene = scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 1)}, {});
   scene.periodic = {0.5, 0};
-  try {
-    engine.configure(scene, kDefault, 1e-3);
-    ADD_FAILURE() << "accepted";
-  } catch (const Refused& refused) {
-    EXPECT_STREQ(refused.what(),
-                 "bullet: the substrate repeats itself, and a Bullet world has no periodic "
-                 "boundaries");
-  }
+  EXPECT_EQ(test::refusal_of<Refused>([&] { engine.configure(scene, kDefault, 1e-3); }),
+            "bullet: the substrate repeats itself, and a Bullet world has no periodic "
+            "boundaries");
   EXPECT_TRUE(engine.alive());
 }
 

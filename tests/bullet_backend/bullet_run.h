@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -85,6 +87,16 @@ inline SubstrateContact ground_with_friction(double mu) {
   return ground;
 }
 
+/// The same with rolling, drilling and rebound, all different.
+inline SubstrateContact rough_ground(const RollingFriction& rolling) {
+  SubstrateContact ground = ground_with_friction(0.1);
+  ground.static_friction = 0.5;
+  ground.rolling = rolling;
+  ground.drilling_length = 2e-5;
+  ground.restitution = 0.4;
+  return ground;
+}
+
 /// The frames of a run from the scene's initial states, with those inside steps.
 inline std::vector<Frame> run(RemoteEngine& engine, const Scene& scene, const Settings& settings,
                               double rate, std::size_t steps) {
@@ -93,6 +105,31 @@ inline std::vector<Frame> run(RemoteEngine& engine, const Scene& scene, const Se
   std::vector<Frame> frames;
   engine.advance(steps, [&](const Frame& frame) { frames.push_back(frame); });
   return frames;
+}
+
+/// A setting that applies; NaN, and the test fails, where it does not.
+inline double number(const Applied& applied, const std::string& name) {
+  const auto found = applied.settings.find(name);
+  if (found == applied.settings.end()) ADD_FAILURE() << name << " is not among the settings";
+  return found == applied.settings.end() ? std::nan("") : std::get<double>(found->second);
+}
+
+/// Whether what is not represented includes something that starts so.
+inline bool lists(const Applied& applied, const std::string& start) {
+  return std::ranges::any_of(applied.not_represented,
+                             [&](const std::string& each) { return each.starts_with(start); });
+}
+
+/// By what friction a ball of 1 cm is braked that slides at 2 m/s on a plane of friction `mu`, over
+/// 20 ms; dv/dt = −μ g.
+inline double braking_friction(double mu, const Settings& settings) {
+  BodyState state;
+  state.position = Vector3(0, 0, 0.01);
+  state.velocity = Vector3(2, 0, 0);
+  RemoteEngine engine(bullet_executable("double"));
+  const auto frames = run(engine, scene_of(steel_ball(0.01), {state}, ground_with_friction(mu)),
+                          settings, 1000, 20);
+  return (2 - frames.back().bodies[0].velocity.x()) / (kGravity * 0.02);
 }
 
 /// Whether two balls touched.

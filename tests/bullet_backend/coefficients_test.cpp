@@ -140,12 +140,7 @@ TEST(BulletCoefficients, FactorsMultiplyWhatTheMapsGive) {
 }
 
 TEST(BulletCoefficients, NaiveTakesTheNumbersStraight) {
-  SubstrateContact ground;
-  ground.static_friction = 0.5;
-  ground.kinetic_friction = 0.1;
-  ground.rolling = RollingFriction({{0, 0.001}, {1, 0.002}});
-  ground.drilling_length = 2e-5;
-  ground.restitution = 0.4;
+  const SubstrateContact ground = rough_ground(RollingFriction({{0, 0.001}, {1, 0.002}}));
   PairContact pair;
   pair.restitution = 0.9;
   const Scene pair_scene = two_balls(steel_ball(0.01), ground, pair);

@@ -9,31 +9,11 @@ namespace slipcheck {
 namespace {
 
 Scene everything() {
-  SubstrateContact ground;
-  ground.static_friction = 0.5;
-  ground.kinetic_friction = 0.1;
-  ground.rolling = RollingFriction({{0, 0.01}, {1, 0.02}});
-  ground.drilling_length = 2e-5;
-  ground.restitution = 0.4;
-  PairContact pair;
-  pair.restitution = 0.9;
-  pair.friction = 0.3;
-  pair.tangential_restitution = 0.5;
-  Scene scene = scene_of(steel_ball(0.01),
-                         {rolling_along_x(0.01, 0, 0), rolling_along_x(0.01, 1, 0)}, ground, pair);
+  Scene scene =
+      scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 0), rolling_along_x(0.01, 1, 0)},
+               rough_ground(RollingFriction({{0, 0.01}, {1, 0.02}})), {0.9, 0.3, 0.5});
   scene.confined = true;
   return scene;
-}
-
-double number(const Applied& applied, const std::string& name) {
-  const auto found = applied.settings.find(name);
-  if (found == applied.settings.end()) ADD_FAILURE() << name << " is not among the settings";
-  return found == applied.settings.end() ? std::nan("") : std::get<double>(found->second);
-}
-
-bool lists(const Applied& applied, const std::string& start) {
-  return std::any_of(applied.not_represented.begin(), applied.not_represented.end(),
-                     [&](const std::string& each) { return each.starts_with(start); });
 }
 
 TEST(BulletProfiles, BothPrecisionsSayWhoTheyAre) {
@@ -93,14 +73,8 @@ TEST(BulletProfiles, NaiveGetsBulletsProducts) {
 }
 
 TEST(BulletProfiles, NaiveSlidesWithTheSquareOfTheFriction) {
-  BodyState state;
-  state.position = Vector3(0, 0, 0.01);
-  state.velocity = Vector3(2, 0, 0);
-  const Scene scene = scene_of(steel_ball(0.01), {state}, ground_with_friction(0.4));
-  RemoteEngine engine(bullet_executable("double"));
-  const auto frames = run(engine, scene, kNaive, 1000, 20);
   // As in BulletSliding.ItIsBrakedByTheFrictionOfTheScene, with μ².
-  EXPECT_NEAR((2 - frames.back().bodies[0].velocity.x()) / (0.16 * kGravity * 0.02), 1, 1e-3);
+  EXPECT_NEAR(braking_friction(0.4, kNaive) / 0.16, 1, 1e-3);
 }
 
 TEST(BulletProfiles, ChangingTheProfileLeavesNothingBehind) {

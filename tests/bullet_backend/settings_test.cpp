@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "../support/refusal.h"
 #include "bullet_run.h"
 
 namespace slipcheck {
@@ -134,14 +135,9 @@ TEST(BulletReach, ScenesBeyondItAreRefusedOrTold) {
                                      "for up to 0.5"});
   const Settings strict = with(limited, {{"beyond_reach", "refuse"}});
   EXPECT_NO_THROW(engine.configure(approach(0.49), strict, 1 / rate));
-  try {
-    engine.configure(approach(0.51), strict, 1 / rate);
-    ADD_FAILURE() << "accepted";
-  } catch (const Refused& refused) {
-    EXPECT_STREQ(refused.what(),
-                 "bullet: bodies approach each other by 0.51 radii in a step, and these settings "
-                 "are for up to 0.5");
-  }
+  EXPECT_EQ(test::refusal_of<Refused>([&] { engine.configure(approach(0.51), strict, 1 / rate); }),
+            "bullet: bodies approach each other by 0.51 radii in a step, and these settings "
+            "are for up to 0.5");
 }
 
 }  // namespace

@@ -1,34 +1,31 @@
 #include "engine/engine_registry.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+
+#include "../support/in_folder.h"
 
 namespace slipcheck {
 namespace {
 
 namespace fs = std::filesystem;
 
-class EngineRegistryTest : public ::testing::Test {
+class EngineRegistryTest : public test::InFolder {
  protected:
   void SetUp() override {
-    root_ = fs::temp_directory_path() / ("slipcheck-registry-" + std::to_string(getpid()));
-    fs::create_directories(root_ / "a");
-    fs::create_directories(root_ / "b");
+    fs::create_directories(folder_ / "a");
+    fs::create_directories(folder_ / "b");
   }
-  void TearDown() override { fs::remove_all(root_); }
 
   fs::path put(const fs::path& name, fs::perms perms = fs::perms::owner_all) {
-    const fs::path path = root_ / name;
+    const fs::path path = folder_ / name;
     std::ofstream(path) << "#!/bin/sh\n";
     fs::permissions(path, perms);
     return path;
   }
-
-  fs::path root_;
 };
 
 TEST_F(EngineRegistryTest, FindsWhatIsNamedLikeAnEngineSortedAndFirstDirectoryFirst) {
@@ -41,9 +38,9 @@ TEST_F(EngineRegistryTest, FindsWhatIsNamedLikeAnEngineSortedAndFirstDirectoryFi
   put("b/slipcheck-engine-double");
   put("b/slipcheck");
   put("b/slipcheck-engine-plain-double", fs::perms::owner_read);
-  fs::create_directories(root_ / "b" / "slipcheck-engine-folder-double");
+  fs::create_directories(folder_ / "b" / "slipcheck-engine-folder-double");
 
-  const auto engines = find_engines({root_ / "a", root_ / "missing", root_ / "b"});
+  const auto engines = find_engines({folder_ / "a", folder_ / "missing", folder_ / "b"});
   ASSERT_EQ(engines.size(), 3u);
   EXPECT_EQ(engines[0].engine, "bullet");
   EXPECT_EQ(engines[0].precision, "single");
@@ -51,18 +48,18 @@ TEST_F(EngineRegistryTest, FindsWhatIsNamedLikeAnEngineSortedAndFirstDirectoryFi
   EXPECT_EQ(engines[1].engine, "my-own");
   EXPECT_EQ(engines[1].path, hyphens);
   EXPECT_EQ(engines[2].path, ode);
-  EXPECT_TRUE(find_engine("ode", "double", {root_ / "a"}).has_value());
-  EXPECT_FALSE(find_engine("ode", "single", {root_ / "a"}).has_value());
+  EXPECT_TRUE(find_engine("ode", "double", {folder_ / "a"}).has_value());
+  EXPECT_FALSE(find_engine("ode", "single", {folder_ / "a"}).has_value());
 }
 
 TEST_F(EngineRegistryTest, TheEnvironmentComesBeforeTheProgramsOwnFolder) {
-  const std::string path = (root_ / "b").string() + "::" + (root_ / "a").string();
+  const std::string path = (folder_ / "b").string() + "::" + (folder_ / "a").string();
   setenv("SLIPCHECK_ENGINE_PATH", path.c_str(), 1);
   const auto directories = engine_directories();
   unsetenv("SLIPCHECK_ENGINE_PATH");
   ASSERT_EQ(directories.size(), 4u);
-  EXPECT_EQ(directories[0], root_ / "b");
-  EXPECT_EQ(directories[1], root_ / "a");
+  EXPECT_EQ(directories[0], folder_ / "b");
+  EXPECT_EQ(directories[1], folder_ / "a");
   EXPECT_TRUE(fs::exists(directories[2] / "test_engine"));
   EXPECT_EQ(directories[3], directories[2].parent_path() / "libexec" / "slipcheck");
 }

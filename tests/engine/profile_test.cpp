@@ -1,10 +1,11 @@
 #include "engine/profile.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
+#include "../support/in_folder.h"
+#include "../support/refusal.h"
 #include "some_scene.h"
 
 namespace slipcheck {
@@ -16,11 +17,8 @@ const std::string kHead = "slipcheck-profile: 1\nengine: bullet\nname: mine\n";
 
 std::vector<std::string> faults_of(const std::string& text) {
   std::vector<std::string> messages;
-  try {
-    parse_profile(text, "p.yaml");
-  } catch (const BadScenario& bad) {
-    for (const Fault& fault : bad.faults()) messages.push_back(fault.message());
-  }
+  for (const Fault& fault : test::faults_of([&] { parse_profile(text, "p.yaml"); }))
+    messages.push_back(fault.message());
   return messages;
 }
 
@@ -133,19 +131,16 @@ TEST(Profile, WhatIsWrittenReadsBackAsTheSame) {
             "slipcheck-profile: 1\nengine: bullet\nname: default\n");
 }
 
-class ProfileFilesTest : public ::testing::Test {
+class ProfileFilesTest : public test::InFolder {
  protected:
   void SetUp() override {
-    root_ = fs::temp_directory_path() / ("slipcheck-profiles-" + std::to_string(getpid()));
-    fs::create_directories(root_ / "profiles/bullet");
-    fs::create_directories(root_ / "profiles/ode");
+    fs::create_directories(folder_ / "profiles/bullet");
+    fs::create_directories(folder_ / "profiles/ode");
   }
-  void TearDown() override { fs::remove_all(root_); }
-  void put(const std::string& name) { std::ofstream(root_ / "profiles" / name) << kHead; }
+  void put(const std::string& name) { std::ofstream(folder_ / "profiles" / name) << kHead; }
 
-  fs::path root_;
   EngineExecutable executable() const {
-    return {"bullet", "double", root_ / "slipcheck-engine-bullet-double"};
+    return {"bullet", "double", folder_ / "slipcheck-engine-bullet-double"};
   }
 };
 
@@ -154,7 +149,7 @@ TEST_F(ProfileFilesTest, ShippedOnesAreFoundByName) {
                            "bullet/Draft.yaml", "ode/other.yaml"})
     put(name);
   EXPECT_EQ(profile_names(executable()), (std::vector<std::string>{"default", "naive"}));
-  EXPECT_EQ(find_profile(executable(), "naive", "/scenes"), root_ / "profiles/bullet/naive.yaml");
+  EXPECT_EQ(find_profile(executable(), "naive", "/scenes"), folder_ / "profiles/bullet/naive.yaml");
   for (const char* none : {"other", "tuned", "", "Draft", ".."})
     EXPECT_FALSE(find_profile(executable(), none, "/scenes")) << none;
   EXPECT_TRUE(profile_names({"none", "double", "/nowhere/x"}).empty());
@@ -169,9 +164,9 @@ TEST_F(ProfileFilesTest, PathsAreTakenFromTheirFolder) {
 
 TEST_F(ProfileFilesTest, AFileIsLoadedOrRefused) {
   put("bullet/mine.yaml");
-  EXPECT_EQ(load_profile(root_ / "profiles/bullet/mine.yaml").name, "mine");
-  EXPECT_THROW(load_profile(root_ / "profiles/bullet/none.yaml"), BadScenario);
-  EXPECT_THROW(load_profile(root_), BadScenario);
+  EXPECT_EQ(load_profile(folder_ / "profiles/bullet/mine.yaml").name, "mine");
+  EXPECT_THROW(load_profile(folder_ / "profiles/bullet/none.yaml"), BadScenario);
+  EXPECT_THROW(load_profile(folder_), BadScenario);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "../support/refusal.h"
 #include "engine/fields.h"
 #include "some_scene.h"
 
@@ -49,12 +50,7 @@ json changed(std::size_t which, const char* key, const json& value) {
 }
 
 void expect_rubbish(const json& list, const std::string& reason) {
-  try {
-    setting_infos_from_json(list);
-    ADD_FAILURE() << "accepted, not: " << reason;
-  } catch (const Rubbish& rubbish) {
-    EXPECT_EQ(rubbish.what(), reason);
-  }
+  EXPECT_EQ(test::refusal_of<Rubbish>([&] { setting_infos_from_json(list); }), reason);
 }
 
 TEST(SettingJson, InfosThatContradictThemselvesAreRubbish) {

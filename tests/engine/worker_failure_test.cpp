@@ -13,6 +13,7 @@
 #include <sstream>
 #include <thread>
 
+#include "../support/refusal.h"
 #include "engine/remote_engine.h"
 #include "some_scene.h"
 
@@ -237,28 +238,17 @@ TEST_F(WorkerFailureTest, NanStatesAreDataNotRubbish) {
 
 TEST_F(WorkerFailureTest, ARefusalLeavesTheWorkerAlive) {
   RemoteEngine engine(faulty_engine());
-  EXPECT_THROW(
-      {
-        try {
-          engine.configure(some_scene(), {{"fault", "refuse"}}, 1e-3);
-        } catch (const Refused& refused) {
-          EXPECT_STREQ(refused.what(), "does not like the scene");
-          throw;
-        }
-      },
-      Refused);
+  EXPECT_EQ(test::refusal_of<Refused>([&] {
+              engine.configure(some_scene(), {{"fault", "refuse"}}, 1e-3);
+            }),
+            "does not like the scene");
   run(engine, "ok");
 }
 
 TEST_F(WorkerFailureTest, SettingsThatTheEngineDoesNotTakeAreRefused) {
   RemoteEngine engine(faulty_engine());
-  const auto reason = [&](const Settings& settings) -> std::string {
-    try {
-      engine.configure(some_scene(), settings, 1e-3);
-      return "";
-    } catch (const Refused& refused) {
-      return refused.what();
-    }
+  const auto reason = [&](const Settings& settings) {
+    return test::refusal_of<Refused>([&] { engine.configure(some_scene(), settings, 1e-3); });
   };
   EXPECT_EQ(reason({}), "");
   EXPECT_EQ(reason({{"pause", 5.0}}), "");

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "../scenes.h"
+#include "../support/bundled.h"
 #include "../support/extremes.h"
 #include "harness/observe/motion_quantities.h"
 #include "harness/observe/motion_recorder.h"
@@ -311,8 +312,7 @@ TEST(MotionQuantities, AreOverTheSubstrate) {
 // --- scenes --------------------------------------------------------------------------------------
 
 std::vector<SceneRecord> run_recorded(const std::string& engines, bool record_motion = true) {
-  setenv("SLIPCHECK_ENGINE_PATH",
-         (std::string(SLIPCHECK_BINARY_DIR) + ":" + SLIPCHECK_BINARY_DIR + "/faulty").c_str(), 1);
+  test::use_test_engines();
   RunOptions options;
   options.phases = 8;
   options.limits.reply = 4;

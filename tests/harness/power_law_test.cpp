@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "../support/refusal.h"
 #include "series.h"
 
 namespace slipcheck {
@@ -121,12 +122,7 @@ TEST(PowerLaw, ItsErrorsAreThoseOfManyFits) {
 
 std::string message(const std::vector<double>& x, const std::vector<double>& y,
                     const std::vector<double>& error = {}) {
-  try {
-    fit_power_law(x, y, error);
-  } catch (const std::invalid_argument& fault) {
-    return fault.what();
-  }
-  return "accepted";
+  return test::refusal_of<std::invalid_argument>([&] { fit_power_law(x, y, error); });
 }
 
 TEST(PowerLaw, RefusesWhatHasNoLogarithmOrNoLaw) {

@@ -1,12 +1,13 @@
 #include "harness/run/requested_runs.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "../support/in_folder.h"
+#include "../support/refusal.h"
 #include "engine/protocol.h"
 #include "harness/run/engine_grid.h"
 #include "scenario/fault.h"
@@ -17,17 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class RequestedRunsTest : public ::testing::Test {
+class RequestedRunsTest : public test::InFolder {
  protected:
   void SetUp() override {
     setenv("SLIPCHECK_ENGINE_PATH", SLIPCHECK_BINARY_DIR "/faulty", 1);
-    root_ = fs::temp_directory_path() / ("slipcheck-requested-" + std::to_string(getpid()));
-    fs::create_directories(root_ / "scenes");
+    fs::create_directories(folder_ / "scenes");
   }
-  void TearDown() override { fs::remove_all(root_); }
 
   void put(const std::string& name, const std::string& text) const {
-    std::ofstream(root_ / name) << text;
+    std::ofstream(folder_ / name) << text;
   }
 
   /// A ball at rest that is held against these engines, one in each line from line 12 on.
@@ -44,7 +43,7 @@ run: {until: 1}
 compare:
   engines:
 )" + engines,
-                          (root_ / "scenes/ball.yaml").string());
+                          (folder_ / "scenes/ball.yaml").string());
   }
 
   std::vector<EngineRecord> runs(const std::string& engines) const {
@@ -54,20 +53,15 @@ compare:
   std::vector<std::string> faults(const std::vector<Scenario>& scenarios,
                                   const Settings& settings = {}) const {
     std::vector<std::string> messages;
-    try {
-      requested_runs(scenarios, {}, nullptr, settings);
-    } catch (const BadScenario& bad) {
-      for (const Fault& fault : bad.faults()) {
-        std::string message = fault.message();
-        for (std::size_t at; (at = message.find(root_.string() + "/")) != std::string::npos;)
-          message.erase(at, root_.string().size() + 1);
-        messages.push_back(message);
-      }
+    for (const Fault& fault :
+         test::faults_of([&] { requested_runs(scenarios, {}, nullptr, settings); })) {
+      std::string message = fault.message();
+      for (std::size_t at; (at = message.find(folder_.string() + "/")) != std::string::npos;)
+        message.erase(at, folder_.string().size() + 1);
+      messages.push_back(message);
     }
     return messages;
   }
-
-  fs::path root_;
 };
 
 TEST_F(RequestedRunsTest, EachEngineHasARunAtEachOfItsRates) {
@@ -123,10 +117,10 @@ TEST_F(RequestedRunsTest, APathIsTakenFromTheScenesFolder) {
   put("mine.yaml", "slipcheck-profile: 1\nengine: faulty\nname: mine\nsettings: {pause: 7}\n");
   const Settings mine = {{"pause", 7.0}};
   EXPECT_EQ(runs("    - {engine: faulty, rate: 60, profile: ../mine.yaml}\n")[0].settings, mine);
-  EXPECT_EQ(
-      runs("    - {engine: faulty, rate: 60, profile: " + (root_ / "mine.yaml").string() + "}\n")[0]
-          .settings,
-      mine);
+  EXPECT_EQ(runs("    - {engine: faulty, rate: 60, profile: " + (folder_ / "mine.yaml").string() +
+                 "}\n")[0]
+                .settings,
+            mine);
 }
 
 TEST_F(RequestedRunsTest, SettingsByHandStandOverThoseOfEveryProfile) {
@@ -202,14 +196,9 @@ TEST_F(RequestedRunsTest, MoreBodiesThanAMessageHoldsAreRefused) {
   scenario.compare.engines.resize(1);
   scenario.compare.engines[0].engine = "bullet";
   scenario.compare.engines[0].rates = {240};
-  try {
-    requested_runs({scenario});
-    FAIL() << "not refused";
-  } catch (const BadScenario& bad) {
-    EXPECT_STREQ(bad.what(),
-                 "s.yaml:7:12: compare.engines: must be [] with more than 400000 bodies, the "
-                 "reference alone: no message to an engine holds more, got 400001 bodies");
-  }
+  EXPECT_EQ(test::refusal_of<BadScenario>([&] { requested_runs({scenario}); }),
+            "s.yaml:7:12: compare.engines: must be [] with more than 400000 bodies, the "
+            "reference alone: no message to an engine holds more, got 400001 bodies");
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "../support/bundled.h"
+#include "../support/refusal.h"
 #include "engine/profile.h"
 #include "scenario/fault.h"
 #include "scenario/load.h"
@@ -15,6 +17,8 @@
 
 namespace slipcheck {
 namespace {
+
+using test::use_test_engines;
 
 std::string pair_scene(const std::string& engines, double speed = 15) {
   return R"(slipcheck: 1
@@ -41,12 +45,6 @@ compare:
 )";
 }
 
-/// Both workers: the program's directory holds Bullet's, its folder `faulty` the one that fails.
-void use_test_engines() {
-  setenv("SLIPCHECK_ENGINE_PATH",
-         (std::string(SLIPCHECK_BINARY_DIR) + ":" + SLIPCHECK_BINARY_DIR + "/faulty").c_str(), 1);
-}
-
 std::vector<SceneRecord> run(const std::string& text, std::size_t phases = 8) {
   use_test_engines();
   RunOptions options;
@@ -61,8 +59,7 @@ TEST(SceneRun, AnOverlapAtTheStartIsRunOnce) {
   use_test_engines();
   RunOptions options;
   options.phases = 8;
-  const auto scenes = run_scenes(
-      {load_scenario(SLIPCHECK_SOURCE_DIR "/scenarios/extreme/overlap-start-half.yaml")}, options);
+  const auto scenes = run_scenes({test::bundled("extreme/overlap-start-half")}, options);
   EXPECT_EQ(scenes[0].reference.first_contact, 0);
   const EngineRecord& engine = scenes[0].runs[0];
   EXPECT_EQ(engine.phases, 1u);
@@ -252,15 +249,12 @@ TEST(SceneRun, APreparedSceneServesAnySettings) {
 }
 
 TEST(SceneRun, AnUnknownEngineIsRefusedAtItsPlace) {
-  try {
-    run(pair_scene("{engine: bulet, precision: double, rate: 240}"));
-    FAIL() << "accepted";
-  } catch (const BadScenario& bad) {
-    ASSERT_EQ(bad.faults().size(), 1u);
-    EXPECT_EQ(bad.faults()[0].key, "compare.engines[0].engine");
-    EXPECT_GT(bad.faults()[0].location.line, 0);
-    EXPECT_NE(bad.faults()[0].rule.find("bullet"), std::string::npos);
-  }
+  const auto faults =
+      test::faults_of([] { run(pair_scene("{engine: bulet, precision: double, rate: 240}")); });
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].key, "compare.engines[0].engine");
+  EXPECT_GT(faults[0].location.line, 0);
+  EXPECT_NE(faults[0].rule.find("bullet"), std::string::npos);
 }
 
 TEST(SceneRun, AModelWithoutASolverIsRefusedByName) {
@@ -270,14 +264,9 @@ TEST(SceneRun, AModelWithoutASolverIsRefusedByName) {
   };
   replace("{density: 7.85}", "{density: 7.85, young_modulus: 2.06e12, poisson_ratio: 0.28}");
   replace("restitution: 0.9", "restitution: viscoelastic");
-  try {
-    run(text);
-    FAIL() << "accepted";
-  } catch (const Unsupported& unsupported) {
-    const std::string what = unsupported.what();
-    EXPECT_NE(what.find("contacts[0].normal.restitution"), std::string::npos) << what;
-    EXPECT_NE(what.find("materials.steel.dissipation_time"), std::string::npos) << what;
-  }
+  const std::string what = test::refusal_of<Unsupported>([&] { run(text); });
+  EXPECT_NE(what.find("contacts[0].normal.restitution"), std::string::npos) << what;
+  EXPECT_NE(what.find("materials.steel.dissipation_time"), std::string::npos) << what;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/bundled.h"
 #include "../support/extremes.h"
 #include "harness/run/scene_run.h"
 #include "scenario/load.h"
@@ -25,8 +26,7 @@ constexpr std::size_t kPhases = 64;
 
 SceneRecord run(const std::string& scene, const std::string& profile) {
   setenv("SLIPCHECK_ENGINE_PATH", SLIPCHECK_BINARY_DIR, 1);
-  Scenario scenario =
-      load_scenario(std::string(SLIPCHECK_SOURCE_DIR) + "/scenarios/" + scene + ".yaml");
+  Scenario scenario = test::bundled(scene);
   EngineRequest request;
   request.engine = "bullet";
   request.profile = profile;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/bundled.h"
 #include "harness/run/engine_run.h"
 #include "harness/run/reference_run.h"
 #include "reference/reference_solver.h"
@@ -13,9 +14,7 @@
 namespace slipcheck {
 namespace {
 
-Scenario bundled(const std::string& name) {
-  return load_scenario(SLIPCHECK_SOURCE_DIR "/scenarios/" + name + ".yaml");
-}
+using test::bundled;
 
 ReferenceResult reference(const Scenario& scenario, const ReferenceSettings& settings) {
   const ContactScene scene = make_contact_scene(scenario);

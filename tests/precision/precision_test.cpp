@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "../support/bundled.h"
+#include "../support/refusal.h"
 #include "scenario/fault.h"
 #include "scenario/load.h"
 #include "studies/precision/precision_errors.h"
@@ -16,14 +18,8 @@ namespace {
 using Kind = Convergence::Kind;
 using Method = MethodCurve::Kind;
 
-Scenario bundled(const std::string& name) {
-  return load_scenario(SLIPCHECK_SOURCE_DIR "/scenarios/" + name + ".yaml");
-}
-
-/// Bullet's workers and the one that fails, which has its own folder.
-void use_test_engines() {
-  setenv("SLIPCHECK_ENGINE_PATH", SLIPCHECK_BINARY_DIR ":" SLIPCHECK_BINARY_DIR "/faulty", 1);
-}
+using test::bundled;
+using test::use_test_engines;
 
 /// Next to nothing: tests add what they look at.
 PrecisionGrid small_grid(std::vector<std::string> engines, std::vector<std::string> profiles) {
@@ -189,15 +185,12 @@ TEST(Precision, InterruptedItSaysSo) {
 }
 
 TEST(Precision, BoxesAreRefusedAtTheirPlace) {
-  try {
-    run_precision({bundled("box-one-ball")}, small_grid({}, {}), small_options(1));
-    FAIL() << "accepted";
-  } catch (const BadScenario& bad) {
-    ASSERT_EQ(bad.faults().size(), 1u);
-    EXPECT_EQ(bad.faults()[0].key, "container");
-    EXPECT_GT(bad.faults()[0].location.line, 0);
-    EXPECT_NE(bad.faults()[0].rule.find("not in boxes"), std::string::npos);
-  }
+  const auto faults = test::faults_of(
+      [] { run_precision({bundled("box-one-ball")}, small_grid({}, {}), small_options(1)); });
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].key, "container");
+  EXPECT_GT(faults[0].location.line, 0);
+  EXPECT_NE(faults[0].rule.find("not in boxes"), std::string::npos);
 }
 
 TEST(Precision, FloorsAreOfRoundingUncertaintyAndTolerance) {

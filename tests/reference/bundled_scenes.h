@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/bundled.h"
 #include "harness/observe/observer.h"
 #include "harness/run/reference_run.h"
 #include "reference/events/event_solver.h"
@@ -22,10 +23,6 @@ inline std::vector<std::filesystem::path> bundled_files() {
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
-}
-
-inline Scenario bundled(const std::string& name) {
-  return load_scenario(SLIPCHECK_SOURCE_DIR "/scenarios/" + name + ".yaml");
 }
 
 /// One run of the reference and what it shows.

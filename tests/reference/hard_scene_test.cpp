@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "../scenario/scenes.h"
+#include "../support/refusal.h"
 #include "scene/contact_scene.h"
 
 namespace slipcheck {
@@ -17,12 +18,7 @@ Scene hard_scene(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    hard_scene(text);
-  } catch (const Unsupported& unsupported) {
-    return unsupported.what();
-  }
-  return "";
+  return test::refusal_of<Unsupported>([&] { hard_scene(text); });
 }
 
 TEST(Scene, HasTheNumbersOfTheScenario) {

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "../support/extremes.h"
+#include "../support/refusal.h"
+#include "../support/runge_kutta.h"
 #include "physics/contact/elastic_pair.h"
 #include "physics/contact/linear_contact.h"
 #include "scene/asperity_passivity.h"
@@ -26,38 +28,25 @@ const ContactEnd kEnds[] = {ContactEnd::zero_overlap, ContactEnd::zero_force};
 /// end is found by halving the last step.
 Impact integrated(const NormalForce& law, double m, double v, ContactEnd end, int steps) {
   const double length = impact_scales(law, m, v).length;
-  double y = 0, rate = v, t = 0, h = 4 * std::sqrt(length) / v / steps;
+  const double unit = std::sqrt(length) / v;
   Impact found;
-  struct State {
-    double y, rate, t;
+  const auto slope = [&](double, const Vector3& s) {  // of y, ξ̇, t
+    const double force = normal_force(law, std::copysign(s[0] * s[0], s[0]), s[1]);
+    return Vector3(s[1], -2 * s[0] * force / m, 2 * s[0]);
   };
-  const auto slope = [&](const State& s) {
-    const double force = normal_force(law, std::copysign(s.y * s.y, s.y), s.rate);
-    return State{s.rate, -2 * s.y * force / m, 2 * s.y};
+  const auto over = [&](const Vector3& s) {
+    return end == ContactEnd::zero_overlap ? s[0] < 0
+                                           : s[1] < 0 && normal_force(law, s[0] * s[0], s[1]) < 0;
   };
-  const auto moved = [](const State& s, const State& d, double dt) {
-    return State{s.y + dt * d.y, s.rate + dt * d.rate, s.t + dt * d.t};
+  const auto seen = [&](const Vector3& s) {
+    if (s[0] * s[0] <= found.largest_overlap) return;
+    found.largest_overlap = s[0] * s[0];
+    found.largest_overlap_at = s[2];
   };
-  for (bool first = true; h > 1e-13 * std::sqrt(length) / v; first = false) {
-    State s{y, rate, t};
-    const State k1 = slope(s), k2 = slope(moved(s, k1, h / 2)), k3 = slope(moved(s, k2, h / 2)),
-                k4 = slope(moved(s, k3, h));
-    s = moved(moved(moved(moved(s, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
-    const bool over = end == ContactEnd::zero_overlap
-                          ? s.y < 0
-                          : s.rate < 0 && normal_force(law, s.y * s.y, s.rate) < 0;
-    if (over && !first) {
-      h /= 2;
-      continue;
-    }
-    y = s.y, rate = s.rate, t = s.t;
-    if (y * y > found.largest_overlap) {
-      found.largest_overlap = y * y;
-      found.largest_overlap_at = t;
-    }
-  }
-  found.restitution = -rate / v;
-  found.duration = t;
+  const Vector3 last =
+      test::integrate_until(over, slope, Vector3(0, v, 0), 4 * unit / steps, 1e-13 * unit, seen);
+  found.restitution = -last[1] / v;
+  found.duration = last[2];
   return found;
 }
 
@@ -267,12 +256,8 @@ TEST(WithRestitution, IsReachedByEveryLawUnderBothRules) {
 }
 
 std::string refusal(const NormalForce& law, double restitution, ContactEnd end) {
-  try {
-    with_restitution(law, 2e-3, restitution, 0.1, end);
-  } catch (const std::domain_error& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal_of<std::domain_error>(
+      [&] { with_restitution(law, 2e-3, restitution, 0.1, end); });
 }
 
 TEST(WithRestitution, TellsTheReachableRange) {
@@ -329,21 +314,14 @@ TEST(RestitutionCurve, HasLimitsAtSpeedsOfNothing) {
 
 /// ζ'(end)/ζ'(0) of an unbroken asperity over an elastic collision, by Runge-Kutta in time.
 double slip_ratio(double alpha, double lambda) {
-  std::vector<double> y = {0, 1, 0, 1};
-  const auto slope = [&](const std::vector<double>& s) {
+  using State = Eigen::Vector4d;
+  State y(0, 1, 0, 1);
+  const auto slope = [&](double, const State& s) {
     const double force = s[0] > 0 ? std::pow(s[0], alpha) : 0;
-    return std::vector<double>{s[1], -force, s[3], -lambda * force * s[2]};
+    return State(s[1], -force, s[3], -lambda * force * s[2]);
   };
-  const auto moved = [](std::vector<double> s, const std::vector<double>& d, double dt) {
-    for (std::size_t i = 0; i < s.size(); ++i) s[i] += dt * d[i];
-    return s;
-  };
-  const double h = 1e-4;
-  do {
-    const auto k1 = slope(y), k2 = slope(moved(y, k1, h / 2)), k3 = slope(moved(y, k2, h / 2)),
-               k4 = slope(moved(y, k3, h));
-    y = moved(moved(moved(moved(y, k1, h / 6), k2, h / 3), k3, h / 3), k4, h / 6);
-  } while (y[0] > 0);  // the force vanishes there: a step too far does nothing
+  do y = test::runge_kutta_step(slope, 0, y, 1e-4);
+  while (y[0] > 0);  // the force vanishes there: a step too far does nothing
   return y[3];
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/refusal.h"
 #include "free_collision.h"
 #include "physics/contact/elastic_pair.h"
 #include "physics/contact/linear_contact.h"
@@ -363,12 +364,7 @@ TEST(PairBatch, EndlessContactsAreSaidToBe) {
 /// What collide_batch() throws for one collision.
 template <class Exception>
 std::string refusal(const SoftContact& contact, int steps) {
-  try {
-    Speeds({0.3}, {0.2}).collide(contact, steps);
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal_of<Exception>([&] { Speeds({0.3}, {0.2}).collide(contact, steps); });
 }
 
 TEST(PairBatch, RefusesWhatItCannotDo) {

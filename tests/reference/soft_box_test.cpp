@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "../support/extremes.h"
+#include "../support/refusal.h"
 #include "soft_box_scenes.h"
 
 namespace slipcheck {
@@ -243,12 +244,7 @@ TEST(SoftBox, RefusesWhatIsHard) {
   const auto message = [&](const auto& spoil) {
     ContactScene scene = good;
     spoil(scene);
-    try {
-      SoftBoxSolver(scene, scene.hard.initial);
-    } catch (const Unsupported& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return test::refusal_of<Unsupported>([&] { SoftBoxSolver(scene, scene.hard.initial); });
   };
   EXPECT_EQ(message([](ContactScene&) {}), "");
   EXPECT_NE(message([](ContactScene& s) { s.soft[0].reset(); }).find("bodies 0 and 1 is hard"),

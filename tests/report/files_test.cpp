@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -11,25 +10,17 @@
 #include <sstream>
 #include <thread>
 
-#include "../as_nobody.h"
+#include "../support/as_nobody.h"
+#include "../support/in_folder.h"
+#include "../support/refusal.h"
 
 namespace slipcheck::testing {
 namespace {
 
 namespace fs = std::filesystem;
 
-class WriteFile : public ::testing::Test {
+class WriteFile : public test::InFolder {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "slipcheck-files-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override {
-    fs::permissions(folder_, fs::perms::owner_all);
-    fs::remove_all(folder_);
-  }
-
   std::size_t files() const {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
@@ -40,15 +31,8 @@ class WriteFile : public ::testing::Test {
     return text.str();
   }
   static std::string failure(const fs::path& path) {
-    try {
-      write_file_atomically(path, "new");
-    } catch (const WriteFailure& failure) {
-      return failure.what();
-    }
-    return "";
+    return test::refusal_of<WriteFailure>([&] { write_file_atomically(path, "new"); });
   }
-
-  fs::path folder_;
 };
 
 TEST_F(WriteFile, WritesEveryByteAndNothingElse) {

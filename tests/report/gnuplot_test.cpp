@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -11,6 +10,8 @@
 #include <sstream>
 #include <string>
 
+#include "../support/in_folder.h"
+#include "../support/refusal.h"
 #include "records.h"
 #include "report/charts/gnuplot_charts.h"
 #include "report/files/files.h"
@@ -23,18 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Gnuplot : public ::testing::Test {
+class Gnuplot : public test::InFolder {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "slipcheck-gnuplot-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    path_ = std::getenv("PATH");
-  }
-  void TearDown() override {
-    ::setenv("PATH", path_.c_str(), 1);
-    fs::remove_all(folder_);
-  }
+  void SetUp() override { path_ = std::getenv("PATH"); }
+  void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
 
   fs::path charts() const { return folder_ / "charts"; }
   /// Draws and gives a chart back.
@@ -46,15 +39,9 @@ class Gnuplot : public ::testing::Test {
     return document;
   }
   std::string failure(const ReportContent& content) const {
-    try {
-      write_gnuplot_charts(charts(), content);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "no failure";
+    return test::refusal_of<std::runtime_error>([&] { write_gnuplot_charts(charts(), content); });
   }
 
-  fs::path folder_;
   std::string path_;
 };
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "../support/refusal.h"
 #include "records.h"
 #include "report/files/extended_xyz.h"
 #include "report/files/vtk_files.h"
@@ -163,12 +164,8 @@ TEST(MotionJson, ABadFileIsRefusedAtItsPlace) {
     Json json = good;
     json[Json::json_pointer(bad.pointer)] = Json::parse(bad.value);
     SceneRecord scene = testing::lottery_scene();
-    try {
-      read_motions(json, scene);
-      ADD_FAILURE() << bad.pointer;
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), bad.message);
-    }
+    EXPECT_EQ(test::refusal_of<std::runtime_error>([&] { read_motions(json, scene); }),
+              bad.message);
     EXPECT_FALSE(scene.reference.motion);
   }
   SceneRecord scene = testing::lottery_scene();

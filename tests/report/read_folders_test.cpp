@@ -1,13 +1,14 @@
 #include "report/json/read_folders.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <string>
 
-#include "../as_nobody.h"
+#include "../support/as_nobody.h"
+#include "../support/in_folder.h"
+#include "../support/refusal.h"
 #include "read_records.h"
 #include "report/json/json_report.h"
 #include "report/json/motion_json.h"
@@ -22,15 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-class ReadFolders : public ::testing::Test {
+class ReadFolders : public test::InFolder {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "slipcheck-folders-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
@@ -41,12 +35,7 @@ class ReadFolders : public ::testing::Test {
 
   /// What reading says, without the folder's path.
   std::string refusal(const std::vector<fs::path>& paths) const {
-    try {
-      read_folders(paths);
-    } catch (const BadResults& bad) {
-      return without_folder(bad.what());
-    }
-    return "is read";
+    return without_folder(test::refusal_of<BadResults>([&] { read_folders(paths); }));
   }
   std::string refusal() const { return refusal({folder_}); }
 
@@ -55,8 +44,6 @@ class ReadFolders : public ::testing::Test {
     for (std::size_t at; (at = text.find(path)) != std::string::npos;) text.erase(at, path.size());
     return text;
   }
-
-  fs::path folder_;
 };
 
 /// The lottery under another name.

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "../support/refusal.h"
 #include "read_records.h"
 #include "report/json/json_report.h"
 #include "report/json/precision_json.h"
@@ -29,12 +30,7 @@ SceneRecord read_back(const SceneRecord& scene) {
 /// What reading this file says.
 std::string refusal(const Json& json,
                     const std::function<void(const JsonNode&)>& read = read_result) {
-  try {
-    read(JsonNode(json, kFile));
-  } catch (const BadResults& bad) {
-    return bad.what();
-  }
-  return "is read";
+  return test::refusal_of<BadResults>([&] { read(JsonNode(json, kFile)); });
 }
 
 TEST(ReadResult, GivesTheSameFileAgain) {

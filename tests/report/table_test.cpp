@@ -8,6 +8,7 @@
 #include "records.h"
 #include "report/terminal/brief.h"
 #include "report/terminal/text.h"
+#include "text_search.h"
 
 namespace slipcheck::testing {
 namespace {
@@ -23,10 +24,6 @@ std::string line_with(const std::string& text, const std::string& part) {
   for (const std::string& line : lines(text))
     if (line.find(part) != std::string::npos) return line;
   return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 const TableStyle kWide{.colour = false, .width = 120};

@@ -6,9 +6,12 @@
 #include "report/json/tuning_json.h"
 #include "report/rows/context.h"
 #include "report/terminal/tuning_table.h"
+#include "text_search.h"
 
 namespace slipcheck {
 namespace {
+
+using testing::contains;
 
 /// Fitted to one scene at two rates with one held out; the error falls from 40 to 0.5, and to 0.75
 /// where it was not fitted.
@@ -50,10 +53,6 @@ TuningRecord tuned() {
   record.result.evaluations = 34;
   record.result.converged = true;
   return record;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST(TuningProfile, TellsSettingsAndWhereTheyComeFrom) {

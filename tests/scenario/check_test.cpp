@@ -10,14 +10,7 @@
 namespace slipcheck {
 namespace {
 
-using testing::expect_fault;
-using testing::kContainer;
-using testing::kExample;
-using testing::kHard;
-using testing::messages;
-using testing::with;
-
-const std::vector<std::string> kNoFaults;
+using namespace testing;
 
 std::string with_body(const std::string& body) {
   return with(kHard, "run: ", "  - {material: steel, sphere: {radius: 0.1}, " + body + "}\nrun: ");

@@ -5,13 +5,7 @@
 namespace slipcheck {
 namespace {
 
-using testing::expect_fault;
-using testing::kContainer;
-using testing::kHard;
-using testing::messages;
-using testing::with;
-
-const std::vector<std::string> kNoFaults;
+using namespace testing;
 
 /// `scene` with an engine of which this is expected, from column 11 of its last line on.
 std::string expecting(const std::string& expect, const std::string& scene = kHard) {

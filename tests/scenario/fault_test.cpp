@@ -7,11 +7,7 @@
 namespace slipcheck {
 namespace {
 
-using testing::expect_fault;
-using testing::kExample;
-using testing::kHard;
-using testing::messages;
-using testing::with;
+using namespace testing;
 
 TEST(Fault, ReadsAsPlaceKeyRuleValue) {
   EXPECT_EQ((Fault{"f.yaml", {3, 7}, "a.b", "must be > 0 m", "-1"}.message()),
@@ -180,11 +176,8 @@ TEST(Fault, AllFaultsInOneGo) {
                 "s.yaml:15:12: bodies[1].name: must be unique, but is also bodies[0], got a",
                 "s.yaml:15:25: bodies[1].material: must be one of the materials (did you mean "
                 "steel?), got steal"}));
-  try {
-    parse_scenario(text, "s.yaml");
-  } catch (const BadScenario& bad) {
-    EXPECT_EQ(std::count(bad.what(), bad.what() + std::string(bad.what()).size(), '\n'), 5);
-  }
+  const auto all = test::refusal_of<BadScenario>([&] { parse_scenario(text, "s.yaml"); });
+  EXPECT_EQ(std::ranges::count(all, '\n'), 5);
 }
 
 }  // namespace

@@ -5,11 +5,7 @@
 namespace slipcheck {
 namespace {
 
-using testing::expect_fault;
-using testing::kContainer;
-using testing::kHard;
-using testing::messages;
-using testing::with;
+using namespace testing;
 
 const std::string kGas = R"(slipcheck: 1
 name: gas

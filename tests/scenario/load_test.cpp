@@ -9,10 +9,7 @@
 namespace slipcheck {
 namespace {
 
-using testing::kContainer;
-using testing::kExample;
-using testing::kHard;
-using testing::with;
+using namespace testing;
 
 constexpr double kDegree = std::numbers::pi / 180;
 

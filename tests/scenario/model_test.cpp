@@ -5,8 +5,7 @@
 namespace slipcheck {
 namespace {
 
-using testing::kHard;
-using testing::with;
+using namespace testing;
 
 Scenario with_materials(std::string text) {
   return parse_scenario(

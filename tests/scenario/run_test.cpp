@@ -5,13 +5,8 @@
 namespace slipcheck {
 namespace {
 
-using testing::expect_fault;
-using testing::kContainer;
-using testing::kHard;
-using testing::messages;
-using testing::with;
+using namespace testing;
 
-const std::vector<std::string> kNoFaults;
 const std::string kWritten = "{periods: 2000, discard: 500, sample: phase_zero}";
 
 slipcheck::Run run_of(const std::string& run) {

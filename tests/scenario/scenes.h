@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "../support/refusal.h"
 #include "scenario/load.h"
 
 namespace slipcheck::testing {
@@ -97,14 +98,13 @@ inline std::string with(std::string text, std::string_view from, std::string_vie
   return text;
 }
 
+inline const std::vector<std::string> kNoFaults;
+
 /// The messages of all faults, as the file "s.yaml"; none if the text is a scene.
 inline std::vector<std::string> messages(std::string_view text) {
   std::vector<std::string> result;
-  try {
-    parse_scenario(text, "s.yaml");
-  } catch (const BadScenario& bad) {
-    for (const Fault& fault : bad.faults()) result.push_back(fault.message());
-  }
+  for (const Fault& fault : test::faults_of([&] { parse_scenario(text, "s.yaml"); }))
+    result.push_back(fault.message());
   return result;
 }
 

@@ -8,13 +8,7 @@
 namespace slipcheck {
 namespace {
 
-using testing::expect_fault;
-using testing::kExample;
-using testing::kHard;
-using testing::messages;
-using testing::with;
-
-const std::vector<std::string> kNoFaults;
+using namespace testing;
 
 std::string scene(const std::string& tolerance) {
   return kHard + "compare: {tolerance: {" + tolerance + "}}\n";

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "../support/bundled.h"
 #include "studies/stability/closed_contact.h"
 #include "studies/stability/fixed_step_limits.h"
 #include "studies/stability/outcome_map.h"
@@ -125,8 +126,7 @@ TEST(OutcomeMaps, FixedStepsGainEnergyBeyondTheory) {
 
 /// Few trials: what is found is known to a factor of 2.
 LimitGrid coarse(std::vector<std::string> profiles) {
-  setenv("SLIPCHECK_ENGINE_PATH",
-         (std::string(SLIPCHECK_BINARY_DIR) + ":" + SLIPCHECK_BINARY_DIR + "/faulty").c_str(), 1);
+  test::use_test_engines();
   LimitGrid grid;
   grid.engines = {{"bullet"}, {"double"}, std::move(profiles)};
   grid.ratio = 2;

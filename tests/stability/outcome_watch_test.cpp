@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../support/bundled.h"
 #include "watched_runs.h"
 
 namespace slipcheck {
@@ -62,12 +63,9 @@ TEST(OutcomeWatch, TheReferenceItselfHasNoFault) {
         "slope-up-and-back", "slope-shaken", "belt-carries", "shaker-slips", "shaker-sticks",
         "collision-on-shaker", "hertz-10cms", "overlapping", "rubbing-capped", "spin-to-rest",
         "target-at-rest", "haff-werner"}) {
-    const PreparedScene scene =
-        std::string(name) == "overlapping"
-            ? meeting("{model: linear, restitution: 1, stiffness: 20000}")
-            : std::move(prepare_scenes({load_scenario(fmt::format("{}/scenarios/{}.yaml",
-                                                                  SLIPCHECK_SOURCE_DIR, name))})
-                            .front());
+    const PreparedScene scene = std::string(name) == "overlapping"
+                                    ? meeting("{model: linear, restitution: 1, stiffness: 20000}")
+                                    : std::move(prepare_scenes({bundled(name)}).front());
     const ReferencePath path(scene);
     for (const double rate : {60.0, 1000.0})
       for (const bool soft : {true, false}) {

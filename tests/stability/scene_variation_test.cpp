@@ -5,15 +5,14 @@
 #include <cmath>
 #include <string>
 
+#include "../support/bundled.h"
 #include "harness/run/prepared_scene.h"
 #include "scenario/load.h"
 
 namespace slipcheck {
 namespace {
 
-std::string bundled(const std::string& name) {
-  return std::string(SLIPCHECK_SOURCE_DIR) + "/scenarios/" + name + ".yaml";
-}
+using test::bundled;
 
 ReferenceResult reference_of(const Scenario& scenario) {
   return prepare_scenes({scenario}).front().reference;
@@ -63,18 +62,17 @@ TEST(SceneVariation, ScaledScenesAreSimilarInTheReference) {
   // Exact phases: rounding alone, and what it moves a root by.
   for (const char* name :
        {"symmetric-30cms", "rolling-friction-table", "bouncing-ball", "oblique", "spin-to-rest"})
-    for (const double lambda : {1e-6, 7.3, 1e3})
-      expect_similar(load_scenario(bundled(name)), lambda, 1e-9);
+    for (const double lambda : {1e-6, 7.3, 1e3}) expect_similar(bundled(name), lambda, 1e-9);
 }
 
 TEST(SceneVariation, ScaledForcesAreSimilarInTheReference) {
   // Integrated at a relative tolerance of 1e-13 in metres; the worst scene asks for ten digits.
   for (const char* name : {"jump-resolved", "power-law", "ice-viscoelastic", "asperities-passive"})
-    expect_similar(load_scenario(bundled(name)), 3.7, 1e-7);
+    expect_similar(bundled(name), 3.7, 1e-7);
 }
 
 TEST(SceneVariation, WhatHasAUnitScalesToo) {
-  Scenario scenario = load_scenario(bundled("symmetric-30cms"));
+  Scenario scenario = bundled("symmetric-30cms");
   scenario.compare.tolerance["sliding_time"] = {0.002, true};
   scenario.compare.tolerance["sliding_distance"] = {0.003, true};
   scenario.compare.tolerance["effective_restitution"] = {0.004, false};
@@ -93,7 +91,7 @@ TEST(SceneVariation, WhatHasAUnitScalesToo) {
 TEST(SceneVariation, MassRatioChangesTheSharesOfTheImpulse) {
   // A ball at 0.3 m/s strikes one of q times its mass at rest, e_n = 0.9:
   // v_i = v (1 − q e)/(1 + q), v_j = v (1 + e)/(1 + q).
-  const Scenario scenario = load_scenario(bundled("target-at-rest"));
+  const Scenario scenario = bundled("target-at-rest");
   for (const double q : {1.0, 7.0, 1e6}) {
     const ReferenceResult seen = reference_of(with_mass_ratio(scenario, q));
     EXPECT_NEAR(value(seen, "i.velocity_after_collision.x"), 0.3 * (1 - 0.9 * q) / (1 + q), 1e-12);
@@ -104,7 +102,7 @@ TEST(SceneVariation, MassRatioChangesTheSharesOfTheImpulse) {
 TEST(SceneVariation, SpeedKeepsTheTimeOfMeeting) {
   // K (21): balls that meet at ±v and roll slide for 2 v (1 + e_n)/(7 μ g) after it, and e_eff does
   // not depend on v.
-  const Scenario scenario = load_scenario(bundled("symmetric-30cms"));
+  const Scenario scenario = bundled("symmetric-30cms");
   for (const double speed : {1e-3, 0.3, 10.0}) {
     const Scenario varied = with_speed(scenario, speed);
     const ReferenceResult seen = reference_of(varied);
@@ -118,17 +116,17 @@ TEST(SceneVariation, SpeedKeepsTheTimeOfMeeting) {
 }
 
 TEST(SceneVariation, RestitutionOfHardAndLinearContacts) {
-  const Scenario hard = load_scenario(bundled("symmetric-30cms"));
+  const Scenario hard = bundled("symmetric-30cms");
   for (const double e : {0.5, 1.0})
     EXPECT_NEAR(value(reference_of(with_restitution(hard, e)), "i-j.restitution"), e, 1e-12);
-  const Scenario linear = load_scenario(bundled("unlike-masses"));
+  const Scenario linear = bundled("unlike-masses");
   EXPECT_NEAR(value(reference_of(with_restitution(linear, 0.6)), "i-j.restitution"), 0.6, 2e-4);
 }
 
 TEST(SceneVariation, StiffnessSetsTheContactTime) {
   // π/ω with ω² = k/m̄ − γ²/4 and e_n = exp(−γ t/2): t = √((π² + ln² e_n) m̄/k). The substrate's
   // friction takes 1e-4 of it.
-  const Scenario scenario = load_scenario(bundled("unlike-masses"));
+  const Scenario scenario = bundled("unlike-masses");
   const double m = scenario.bodies[0].sphere.mass, other = scenario.bodies[1].sphere.mass;
   const double reduced = m * other / (m + other);
   for (const double k : {1e5, 4e6}) {

@@ -8,11 +8,15 @@
 #include <set>
 #include <string>
 
+#include "../support/bundled.h"
+#include "../support/refusal.h"
 #include "studies/stability/phase_comparison.h"
 #include "watched_runs.h"
 
 namespace slipcheck {
 namespace {
+
+using test::use_test_engines;
 
 /// Two balls that meet at 30 cm/s without friction: e_n alone.
 std::string pair_scene(const std::string& name = "pair", const std::string& tolerance = "0.01") {
@@ -23,12 +27,6 @@ std::string pair_scene(const std::string& name = "pair", const std::string& tole
 }
 
 Scenario scene_of(const std::string& text) { return parse_scenario(text, "scene.yaml"); }
-
-/// Both workers: the program's directory holds Bullet's, its folder `faulty` the one that fails.
-void use_test_engines() {
-  setenv("SLIPCHECK_ENGINE_PATH",
-         (std::string(SLIPCHECK_BINARY_DIR) + ":" + SLIPCHECK_BINARY_DIR + "/faulty").c_str(), 1);
-}
 
 RunOptions quick(std::size_t phases = 4) {
   RunOptions options;
@@ -110,9 +108,8 @@ TEST(Stability, BulletsLotteryGrowsAndItsCureIsAccurate) {
   // Default: e_n between 0.90 and 1.10, even over the phases (scene_run_test.cpp); rolling keeps
   // 2/7 of the energy, so that e_n > √(1 + 0.05·7/5) = 1.034 counts: a third of 16 phases.
   use_test_engines();
-  const auto cases =
-      run_stability({load_scenario(SLIPCHECK_SOURCE_DIR "/scenarios/symmetric-30cms.yaml")},
-                    grid_of("bullet", {"default", "tuned"}), quick(16));
+  const auto cases = run_stability({test::bundled("symmetric-30cms")},
+                                   grid_of("bullet", {"default", "tuned"}), quick(16));
   ASSERT_EQ(cases.size(), 1u);
   EXPECT_TRUE(cases[0].reference.accurate);
   ASSERT_EQ(cases[0].runs.size(), 2u);
@@ -203,15 +200,11 @@ TEST(Stability, ShortRunsAndNoRunsWork) {
 }
 
 TEST(Stability, BoxesAreRefusedAtOnce) {
-  try {
-    run_stability({load_scenario(SLIPCHECK_SOURCE_DIR "/scenarios/box-one-ball.yaml")}, {},
-                  quick());
-    FAIL() << "accepted";
-  } catch (const BadScenario& bad) {
-    ASSERT_EQ(bad.faults().size(), 1u);
-    EXPECT_EQ(bad.faults()[0].key, "container");
-    EXPECT_NE(bad.faults()[0].message().find("takes scenes on a substrate"), std::string::npos);
-  }
+  const auto faults =
+      test::faults_of([] { run_stability({test::bundled("box-one-ball")}, {}, quick()); });
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].key, "container");
+  EXPECT_NE(faults[0].message().find("takes scenes on a substrate"), std::string::npos);
 }
 
 TEST(Stability, AnInterruptedRunSaysSo) {

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <limits>
 
+#include "../support/refusal.h"
+
 namespace slipcheck {
 namespace {
 
@@ -23,12 +25,7 @@ struct Journal : testing::Test {
   ~Journal() override { fs::remove(file); }
 
   std::string refusal() const {
-    try {
-      const TuningJournal journal(file);
-    } catch (const BadJournal& bad) {
-      return bad.what();
-    }
-    return "";
+    return test::refusal_of<BadJournal>([&] { const TuningJournal journal(file); });
   }
 };
 

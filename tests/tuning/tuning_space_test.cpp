@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "../support/refusal.h"
 #include "tuning_synthetic.h"
 
 namespace slipcheck {
@@ -21,15 +22,12 @@ TEST(TuningSpace, VariesWhatTheEngineHasSomethingToTryFor) {
 
 TEST(TuningSpace, RefusesSettingsWithNothingToTry) {
   for (const std::string name : {"fixed", "nonsense"}) {
-    try {
+    const std::string what = test::refusal_of<std::invalid_argument>([&] {
       tuning_space(synthetic_engine(), {}, {"erp", name});
-      FAIL() << "accepted";
-    } catch (const std::invalid_argument& bad) {
-      const std::string what = bad.what();
-      EXPECT_NE(what.find("(body, erp, threshold, solver, warm, split, idle), got " + name),
-                std::string::npos)
-          << what;
-    }
+    });
+    EXPECT_NE(what.find("(body, erp, threshold, solver, warm, split, idle), got " + name),
+              std::string::npos)
+        << what;
   }
 }
 
