@@ -6,8 +6,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "base/in_parallel.h"
 #include "harness/observe/box_observer.h"
-#include "harness/run/in_parallel.h"
 #include "reference/events/planar_solver.h"
 
 namespace slipcheck {

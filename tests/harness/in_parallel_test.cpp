@@ -1,4 +1,4 @@
-#include "harness/run/in_parallel.h"
+#include "base/in_parallel.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "../support/bundled.h"
+#include "../support/refusal.h"
 #include "harness/run/scene_run.h"
 #include "scenario/load.h"
 
@@ -26,15 +28,12 @@ TEST(InParallel, EachIsCalledOnceOnAnyNumberOfThreads) {
 TEST(InParallel, TheLowestFailureIsThrownAfterAllTheRest) {
   for (const std::size_t threads : {1, 4}) {
     std::atomic<std::size_t> calls = 0;
-    try {
-      in_parallel(kCalls, threads, [&](std::size_t k) {
-        ++calls;
-        if (k % 10 == 7) throw std::runtime_error(std::to_string(k));
-      });
-      FAIL() << "nothing thrown";
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), "7");
-    }
+    const auto fail = [&](std::size_t k) {
+      ++calls;
+      if (k % 10 == 7) throw std::runtime_error(std::to_string(k));
+    };
+    EXPECT_EQ(test::refusal_of<std::runtime_error>([&] { in_parallel(kCalls, threads, fail); }),
+              "7");
     EXPECT_EQ(calls, kCalls);
   }
 }
@@ -42,9 +41,8 @@ TEST(InParallel, TheLowestFailureIsThrownAfterAllTheRest) {
 std::vector<SceneRecord> run(const std::vector<std::string>& names, std::size_t workers) {
   setenv("SLIPCHECK_ENGINE_PATH", SLIPCHECK_BINARY_DIR, 1);
   std::vector<Scenario> scenarios(names.size());
-  in_parallel(names.size(), workers, [&](std::size_t k) {
-    scenarios[k] = load_scenario(SLIPCHECK_SOURCE_DIR "/scenarios/" + names[k] + ".yaml");
-  });
+  in_parallel(names.size(), workers,
+              [&](std::size_t k) { scenarios[k] = test::bundled(names[k]); });
   RunOptions options;
   options.phases = 5;
   options.workers = workers;

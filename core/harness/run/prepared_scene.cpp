@@ -3,9 +3,9 @@
 #include <exception>
 #include <utility>
 
+#include "base/in_parallel.h"
 #include "base/stop_scope.h"
 #include "harness/run/box_reference.h"
-#include "harness/run/in_parallel.h"
 
 namespace slipcheck {
 namespace {

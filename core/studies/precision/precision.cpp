@@ -5,10 +5,10 @@
 #include <optional>
 #include <utility>
 
+#include "base/in_parallel.h"
 #include "base/stop_scope.h"
 #include "engine/engine_registry.h"
 #include "engine/remote_engine.h"
-#include "harness/run/in_parallel.h"
 #include "harness/run/phases.h"
 #include "harness/run/prepared_scene.h"
 #include "harness/run/requested_runs.h"

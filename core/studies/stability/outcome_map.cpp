@@ -6,7 +6,7 @@
 #include <functional>
 #include <utility>
 
-#include "harness/run/in_parallel.h"
+#include "base/in_parallel.h"
 #include "harness/run/prepared_scene.h"
 #include "reference/steps/step_solver.h"
 #include "scenario/contact_models.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <memory>
 
-#include "harness/run/in_parallel.h"
+#include "base/in_parallel.h"
 #include "studies/stability/outcome_watch.h"
 #include "studies/stability/phase_comparison.h"
 #include "studies/stability/stability.h"

@@ -7,8 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include "base/in_parallel.h"
 #include "base/stop_scope.h"
-#include "harness/run/in_parallel.h"
 #include "harness/run/requested_runs.h"
 #include "scenario/fault.h"
 
