@@ -124,20 +124,7 @@ void ReferenceSolver::choose_on_plane() {
 }
 
 std::vector<std::string> ReferenceSolver::loop() const {
-  const Scene& hard = scene().hard;
-  if (is_stepped())
-    return StepSolver(scene(), hard.initial, {.step = step_, .general = settings_.general})
-        .features();
-  if (hard.box && resolved_) return {"free flight, and steps for bodies that touch"};
-  if (hard.box) {
-    std::vector<std::string> loop = {"bodies on parabolas between walls"};
-    for (const std::string& left :
-         PlanarSolver(hard, hard.initial, planar_settings(settings_)).left_out())
-      loop.push_back("without " + left);
-    return loop;
-  }
-  if (!phases_) return {"all bodies in one system, integrated from event to event"};
-  return EventSolver::features(hard, event_settings(settings_));
+  return at_start(scene(), {}, {})->features();
 }
 
 // --- what runs -----------------------------------------------------------------------------------

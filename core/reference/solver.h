@@ -78,6 +78,8 @@ class Solver {
   /// All bodies' states now.
   virtual std::vector<BodyState> states() const = 0;
   virtual double now() const = 0;  ///< [s]
+  /// What its loop was made for, in a few words each: "phases on a level, still plane", ...
+  virtual std::vector<std::string> features() const = 0;
 };
 
 /// One that looks ahead: when bodies will meet. What it tells ends where it looks.

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 
-#include "harness/compare/box_features.h"
 #include "harness/compare/contact_kinds.h"
+#include "reference/events/planar_world.h"
+#include "reference/reference_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -13,10 +14,6 @@ namespace {
 ContactKinds pair_kinds(const ContactScene& scene) {
   if (scene.hard.bodies.size() < 2) return {};
   return contact_kinds(scene.hard.pairs, scene.soft);
-}
-
-bool any_substrate(const Scene& scene, bool (*has)(const SubstrateContact&)) {
-  return std::any_of(scene.substrate.begin(), scene.substrate.end(), has);
 }
 
 bool starts_above(const Scene& scene) {
@@ -27,10 +24,78 @@ bool starts_above(const Scene& scene) {
   return false;
 }
 
-bool unlike_radii(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Sphere& sphere) {
-    return sphere.radius != scene.bodies.front().radius;
-  });
+/// Largest radius over smallest.
+double spread_of_radii(const Scene& scene) {
+  const auto [small, large] = std::ranges::minmax_element(scene.bodies, {}, &Sphere::radius);
+  return large->radius / small->radius;
+}
+
+std::string collapse_rule(const CollapseRule& rule) {
+  switch (rule.model) {
+    case CollapseRule::Model::contact_time:
+      return fmt::format("TC model: no loss within {:g} s of a collision", rule.contact_time);
+    case CollapseRule::Model::largest_velocity:
+      return fmt::format("of a cluster within {:g} s the fastest pair first", rule.contact_time);
+    case CollapseRule::Model::slowest_rebound:
+      break;
+  }
+  return "the slowest collisions keep their speed";
+}
+
+Feature collisions_of(const Scene& scene) {
+  const std::size_t bodies = scene.bodies.size();
+  return {"collisions of two bodies", bodies > 1,
+          bodies > 1 ? fmt::format("{} bodies", bodies) : "one body"};
+}
+
+Feature lasting(const ContactKinds& kinds) {
+  return {"contacts that last", kinds.any_soft,
+          kinds.any_soft ? "forces over overlap and slip" : "collisions take no time"};
+}
+
+Feature by_speed(const ContactKinds& kinds) {
+  return {"restitution over the impact speed", kinds.speed_law,
+          kinds.speed_law  ? "a law of hard contacts"
+          : kinds.any_soft ? "it follows from the forces"
+                           : "one number for all speeds"};
+}
+
+std::vector<Feature> box_features(const ContactScene& contacts) {
+  const Scene& scene = contacts.hard;
+  const Box& box = *scene.box;
+  const SoftBox& soft = contacts.soft_box;
+  const ContactKinds pairs = pair_kinds(contacts);
+  ContactKinds surfaces =
+      contact_kinds(box.on_floor, soft.on_floor) | contact_kinds(box.on_wall, soft.on_wall);
+  if (box.lid) surfaces = surfaces | contact_kinds(box.on_lid, soft.on_lid);
+  const ContactKinds all = pairs | surfaces;
+
+  const double spread = spread_of_radii(scene);
+  const bool unlike = PlanarWorld::features(scene).radii;
+  const bool shaken = !box.floor.is_still();
+  const bool walls_move = box.moving_walls && shaken;
+  const bool collapses = all.dissipates && !all.any_soft;
+  return {
+      collisions_of(scene),
+      {"bodies of unlike size", unlike,
+       unlike ? fmt::format("radii differ by up to a factor {:.3g}", spread) : "one radius"},
+      lasting(all),
+      by_speed(all),
+      {"rubbing at collisions", pairs.rubs(), pairs.rubbing()},
+      {"rubbing at floor, walls and lid", surfaces.rubs(), surfaces.rubbing()},
+      {"vibrating floor", shaken,
+       shaken ? "impacts at the roots of its sine" : "at rest: it gives no energy"},
+      {"moving walls", walls_move,
+       walls_move         ? "up and down with the floor"
+       : box.moving_walls ? "they move with a floor at rest"
+                          : "fixed"},
+      {"lid", box.lid.has_value(),
+       box.lid ? fmt::format("{:g} m over the floor", *box.lid) : "open at the top"},
+      {"rule for inelastic collapse", collapses,
+       collapses      ? collapse_rule(scene.collapse)
+       : all.any_soft ? "contacts that last cannot collapse"
+                      : "elastic bodies cannot collapse"},
+  };
 }
 
 }  // namespace
@@ -41,40 +106,29 @@ std::vector<Feature> scene_features(const ContactScene& contacts) {
   const ContactKinds kinds = pair_kinds(contacts);
   const bool collisions = scene.bodies.size() > 1;
   const bool rubbing = kinds.rubs();
-  const bool sliding =
-      any_substrate(scene, [](const SubstrateContact& c) { return c.kinetic_friction > 0; });
-  const bool rolling =
-      any_substrate(scene, [](const SubstrateContact& c) { return !c.rolling.is_zero(); });
-  const bool table =
-      any_substrate(scene, [](const SubstrateContact& c) { return !c.rolling.is_constant(); });
-  const bool drilling =
-      any_substrate(scene, [](const SubstrateContact& c) { return c.drilling_length > 0; });
-  const bool coupled =
-      any_substrate(scene, [](const SubstrateContact& c) { return c.coupled_radius > 0; });
-  const bool rolls_sliding = any_substrate(scene, [](const SubstrateContact& c) {
-    return c.rolling_while_sliding && !c.rolling.is_zero();
-  });
+  const auto any = [&](const auto& has) { return std::ranges::any_of(scene.substrate, has); };
+  const bool sliding = any([](const auto& c) { return c.kinetic_friction > 0; });
+  const bool rolling = any([](const auto& c) { return !c.rolling.is_zero(); });
+  const bool table = any([](const auto& c) { return !c.rolling.is_constant(); });
+  const bool drilling = any([](const auto& c) { return c.drilling_length > 0; });
+  const bool coupled = any([](const auto& c) { return c.coupled_radius > 0; });
+  const bool rolls_sliding =
+      any([](const auto& c) { return c.rolling_while_sliding && !c.rolling.is_zero(); });
   const bool tilted = !scene.downhill.isZero(0), moving = !scene.motion.is_still();
-  const bool exact = !tilted && !moving && !coupled && !rolls_sliding;
   const bool periodic = scene.periodic != Vector2::Zero();
-  const bool bounces =
-      any_substrate(scene, [](const SubstrateContact& c) { return c.restitution > 0; });
-  const bool jumps = !scene.confined && (starts_above(scene) || bounces ||
-                                         (collisions && (rubbing || unlike_radii(scene))));
+  const bool bounces = any([](const auto& c) { return c.restitution > 0; });
+  const bool jumps =
+      !scene.confined && (starts_above(scene) || bounces ||
+                          (collisions && (rubbing || PlanarWorld::features(scene).radii)));
   return {
-      {"collisions of two bodies", collisions,
-       collisions ? fmt::format("{} bodies", scene.bodies.size()) : "one body"},
-      {"contacts that last", kinds.any_soft,
-       kinds.any_soft ? "forces over overlap and slip" : "collisions take no time"},
-      {"restitution over the impact speed", kinds.speed_law,
-       kinds.speed_law  ? "a law of hard contacts"
-       : kinds.any_soft ? "it follows from the forces"
-                        : "one number for all speeds"},
+      collisions_of(scene),
+      lasting(kinds),
+      by_speed(kinds),
       {"rubbing at collisions", rubbing, kinds.rubbing()},
       {"sliding friction on the substrate", sliding,
-       !sliding ? "what slides goes on sliding"
-       : exact  ? "straight slip, parabolic paths"
-                : "Coulomb's, with the stick limit"},
+       !sliding                  ? "what slides goes on sliding"
+       : has_exact_phases(scene) ? "straight slip, parabolic paths"
+                                 : "Coulomb's, with the stick limit"},
       {"rolling friction", rolling,
        rolling ? (table ? "from a table over the speed" : "one coefficient")
                : "rolling bodies keep their speed"},

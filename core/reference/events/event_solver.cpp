@@ -74,6 +74,11 @@ class EventSolver::EngineOf final : public Engine {
 
   std::unique_ptr<Engine> copy() const override { return std::make_unique<EngineOf>(*this); }
   double now() const override { return now_; }
+  std::vector<std::string> features() const override {
+    return {World::kIsStill ? "phases on a level, still plane" : "phases on any plane",
+            World::kHasCells ? "neighbours in cells, a calendar queue"
+                             : "all pairs, a scan for the next event"};
+  }
   std::vector<BodyState> states() const override {
     std::vector<BodyState> states(world_.size());
     for (std::uint32_t i = 0; i < states.size(); ++i) states[i] = world_.state_at(i, now_);
@@ -201,27 +206,10 @@ class EventSolver::EngineOf final : public Engine {
   std::size_t certain_collisions_ = 0;  ///< so many there will be before the limit
 };
 
-namespace {
-
-bool needs_cells(const Scene& scene, const EventSettings& settings) {
-  return scene.bodies.size() > settings.most_without_cells || scene.periodic != Vector2::Zero();
-}
-bool has_plain_phases(const Scene& scene, const EventSettings& settings) {
-  return EventSolver::is_exact(scene) && !settings.general;
-}
-
-}  // namespace
-
-std::vector<std::string> EventSolver::features(const Scene& scene, const EventSettings& settings) {
-  return {
-      has_plain_phases(scene, settings) ? "phases on a level, still plane" : "phases on any plane",
-      needs_cells(scene, settings) ? "neighbours in cells, a calendar queue"
-                                   : "all pairs, a scan for the next event"};
-}
-
 EventSolver::EventSolver(const Scene& scene, std::span<const BodyState> initial,
                          const EventSettings& settings) {
-  const bool has_cells = needs_cells(scene, settings);
+  const bool has_cells =
+      scene.bodies.size() > settings.most_without_cells || scene.periodic != Vector2::Zero();
   const LeastSpeeds least = least_speeds(scene, initial, settings);
   const auto make = [&]<class Phase>(std::type_identity<Phase>) -> std::unique_ptr<Engine> {
     if (has_cells)
@@ -230,8 +218,8 @@ EventSolver::EventSolver(const Scene& scene, std::span<const BodyState> initial,
     return std::make_unique<EngineOf<SubstrateWorld<Phase, AllPairs>, ScanQueue>>(
         scene, initial, settings, least, settings.start);
   };
-  engine_ = has_plain_phases(scene, settings) ? make(std::type_identity<SubstratePhase>{})
-                                              : make(std::type_identity<DrivenPhase>{});
+  engine_ = is_exact(scene) && !settings.general ? make(std::type_identity<SubstratePhase>{})
+                                                 : make(std::type_identity<DrivenPhase>{});
 }
 
 EventSolver::EventSolver(const EventSolver& other) : engine_(other.engine_->copy()) {}
@@ -261,5 +249,6 @@ double EventSolver::next_collision(double limit, double slowest) {
 }
 std::vector<BodyState> EventSolver::states() const { return engine_->states(); }
 double EventSolver::now() const { return engine_->now(); }
+std::vector<std::string> EventSolver::features() const { return engine_->features(); }
 
 }  // namespace slipcheck

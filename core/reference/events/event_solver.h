@@ -74,8 +74,7 @@ class EventSolver final : public LookingSolver {
 
   std::vector<BodyState> states() const override;
   double now() const override;
-  /// What the loop for this scene is made for: "phases on a level, still plane", ...
-  static std::vector<std::string> features(const Scene& scene, const EventSettings& settings);
+  std::vector<std::string> features() const override;
 
  private:
   class Engine;

@@ -60,6 +60,13 @@ std::vector<std::string> PlanarSolver::left_out() const {
       loop_);
 }
 
+std::vector<std::string> PlanarSolver::features() const {
+  std::vector<std::string> features = {scene_->box ? "bodies on parabolas between walls"
+                                                   : "bodies on straight lines in a plane"};
+  for (const std::string& left : left_out()) features.push_back("without " + left);
+  return features;
+}
+
 void PlanarSolver::show(double time, FrameSink* sink) {
   if (!sink) return;
   frame_.bodies.resize(world_.size());

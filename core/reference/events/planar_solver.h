@@ -40,6 +40,7 @@ class PlanarSolver final : public Solver {
 
   std::vector<BodyState> states() const override;
   double now() const override { return now_; }
+  std::vector<std::string> features() const override;
   const PlanarWorld& world() const { return world_; }
   /// What the loop over events leaves out because the scene lacks it, in words; maybe nothing.
   std::vector<std::string> left_out() const;

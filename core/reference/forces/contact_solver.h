@@ -37,6 +37,9 @@ class ContactSolver final : public LookingSolver {
   double next_collision(double limit, double slowest) override;
   std::vector<BodyState> states() const override;
   double now() const override;
+  std::vector<std::string> features() const override {
+    return {"all bodies in one system, integrated from event to event"};
+  }
   EnergyBalance balance() const;
 
  private:

@@ -46,6 +46,9 @@ class SoftBoxSolver final : public Solver {
 
   std::vector<BodyState> states() const override;
   double now() const override;
+  std::vector<std::string> features() const override {
+    return {"free flight, and steps for bodies that touch"};
+  }
   std::size_t body_steps() const;  ///< steps so far times the bodies that took part
   /// Kinetic energy and that of gravity and of the overlaps, now [J].
   double energy() const;

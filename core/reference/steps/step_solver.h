@@ -58,8 +58,7 @@ class StepSolver final : public Solver {
   double now() const override;
   /// Kinetic energy and that of gravity and of elastic contacts, now [J].
   double energy() const;
-  /// What the loop was made for: "linear normal force", ...
-  std::vector<std::string> features() const;
+  std::vector<std::string> features() const override;
 
  private:
   class Impl;
