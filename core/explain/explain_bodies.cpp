@@ -1,10 +1,9 @@
-#include "app/explain/explain_bodies.h"
-
 #include <fmt/format.h>
 
 #include <vector>
 
-#include "app/explain/explain_rows.h"
+#include "explain/explain_parts.h"
+#include "report/terminal/text.h"
 
 namespace slipcheck {
 namespace {
@@ -28,20 +27,15 @@ Cells cells_of(const Scene& scene, std::size_t i) {
   return cells;
 }
 
-void print_cells(const std::string& name, const Cells& cells) {
-  constexpr std::size_t kWidths[] = {11, 12, 20, 12, 13, 13};
-  std::string line = padded(shortened(name, 14), 14);
-  for (std::size_t c = 0; c < cells.size(); ++c) line += padded(cells[c], kWidths[c], true);
-  fmt::print("    {}\n", line);
-}
-
 }  // namespace
 
-void explain_bodies(const Scenario& scenario, const Scene& scene) {
-  fmt::print("\n  Bodies\n");
-  Cells head{"R", "m", "I", "A = mR²/I", "speed"};
-  if (!scene.box) head.emplace_back("slip");
-  print_cells("", head);
+ExplainSection explain_bodies(const Scenario& scenario, const Scene& scene) {
+  ExplainSection section{
+      .title = "Bodies",
+      .label_width = 14,
+      .columns = {{"R", 11}, {"m", 12}, {"I", 20}, {"A = mR²/I", 12}, {"speed", 13}},
+      .gap = 0};
+  if (!scene.box) section.columns.push_back({"slip", 13});
   const std::size_t count = scene.bodies.size();
   std::size_t rows = 0, first = 0;
   for (; first < count && rows < kMostRows; ++rows) {
@@ -49,10 +43,12 @@ void explain_bodies(const Scenario& scenario, const Scene& scene) {
     std::size_t last = first;
     while (last + 1 < count && cells_of(scene, last + 1) == cells) ++last;
     const std::string& name = scenario.bodies[first].name;
-    print_cells(last == first ? name : name + " … " + scenario.bodies[last].name, cells);
+    const std::string names = last == first ? name : name + " … " + scenario.bodies[last].name;
+    section.rows.push_back({shortened(names, section.label_width), cells, {}});
     first = last + 1;
   }
-  if (first < count) fmt::print("    and {} more\n", count - first);
+  if (first < count) section.add(fmt::format("and {} more", count - first));
+  return section;
 }
 
 }  // namespace slipcheck

@@ -1,12 +1,8 @@
-#include "app/explain/explain_gas.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "app/explain/explain_rows.h"
+#include "explain/explain_parts.h"
 #include "physics/closed_forms.h"
 #include "reference/reference_solver.h"
 
@@ -33,7 +29,7 @@ double rms_speed(const Scene& scene) {
 }
 
 /// K (44) at the root mean square of the speed at which two bodies of the gas pass each other.
-void print_sliding(const Scene& scene, double path) {
+void add_sliding(ExplainSection& section, const Scene& scene, double path) {
   const double mu = scene.on_substrate(0).kinetic_friction;
   const double v_rel = std::numbers::sqrt2 * rms_speed(scene);
   const bool alike = std::ranges::all_of(scene.bodies, [&](const Sphere& sphere) {
@@ -46,24 +42,24 @@ void print_sliding(const Scene& scene, double path) {
   hit.A = scene.bodies[0].inverse_shape_factor();
   hit.restitution = restitution_at(scene.between(0, 1).restitution, v_rel);
   const double s = std::abs(hit.symmetric_sliding_distance(v_rel, mu, scene.gravity));
-  print_row("v_rel", quantity(v_rel, kVelocity),
-            "√2 times the root mean square of the speeds at the start");
-  print_row("s", quantity(s, kLength),
-            "slid by each of two that meet head-on at v_rel and roll, K (44)");
-  print_row("e_eff", pure(hit.effective_restitution()), "of these two, once both roll");
-  print_row("l/s", pure(path / s),
-            "well above 1 they roll before they meet again; near 1 and below they still slide");
+  section.add("v_rel", quantity(v_rel, kVelocity),
+              "√2 times the root mean square of the speeds at the start");
+  section.add("s", quantity(s, kLength),
+              "slid by each of two that meet head-on at v_rel and roll, K (44)");
+  section.add("e_eff", pure(hit.effective_restitution()), "of these two, once both roll");
+  section.add("l/s", pure(path / s),
+              "well above 1 they roll before they meet again; near 1 and below they still slide");
 }
 
 }  // namespace
 
-void explain_gas(const Scene& scene) {
-  if (scene.periodic == Vector2::Zero()) return;
-  fmt::print("\n  Periodic cell\n");
-  print_row("L_x", quantity(scene.periodic.x(), kLength), "length in x");
-  print_row("L_y", quantity(scene.periodic.y(), kLength), "length in y");
+ExplainSections explain_gas(const Scene& scene) {
+  if (scene.periodic == Vector2::Zero()) return {};
+  ExplainSection section{.title = "Periodic cell"};
+  section.add("L_x", quantity(scene.periodic.x(), kLength), "length in x");
+  section.add("L_y", quantity(scene.periodic.y(), kLength), "length in y");
   const double area = scene.periodic.x() * scene.periodic.y();
-  if (!(area > 0) || scene.bodies.size() < 2) return;
+  if (!(area > 0) || scene.bodies.size() < 2) return {section};
   double diameters = 0, disks = 0;
   for (const Sphere& sphere : scene.bodies) {
     diameters += 2 * sphere.radius;
@@ -72,9 +68,10 @@ void explain_gas(const Scene& scene) {
   const auto bodies = static_cast<double>(scene.bodies.size());
   const double covered = disks / area;
   const double path = mean_free_path(bodies / area, diameters / bodies, covered);
-  print_row("φ", pure(covered), "share of the cell that the bodies cover");
-  print_row("l", quantity(path, kLength), "mean free path of a gas of hard disks, 1/(2√2 n d χ)");
-  print_sliding(scene, path);
+  section.add("φ", pure(covered), "share of the cell that the bodies cover");
+  section.add("l", quantity(path, kLength), "mean free path of a gas of hard disks, 1/(2√2 n d χ)");
+  add_sliding(section, scene, path);
+  return {section};
 }
 
 }  // namespace slipcheck

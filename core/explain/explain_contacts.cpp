@@ -1,11 +1,9 @@
-#include "app/explain/explain_contacts.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/explain/explain_rows.h"
+#include "explain/explain_parts.h"
 #include "physics/contact/elastic_pair.h"
 #include "physics/contact/quasistatic.h"
 #include "physics/contact/step_limits.h"
@@ -73,77 +71,85 @@ std::optional<Partners> partners(const Scenario& scenario, const ContactScene& s
   return std::nullopt;
 }
 
-void print_restitution_and_time(double e, double duration, double overlap, double speed) {
+void add_restitution_and_time(ExplainSection& section, double e, double duration, double overlap,
+                              double speed) {
   const std::string at = "at " + quantity(speed, kVelocity);
-  print_row("e_n", pure(e), "restitution " + at);
-  print_row("t_col", quantity(duration, kTime),
-            std::isinf(duration) ? "the spheres never part" : "duration of a collision " + at);
-  print_row("x_max", quantity(overlap, kLength), "largest overlap " + at);
+  section.add("e_n", pure(e), "restitution " + at);
+  section.add("t_col", quantity(duration, kTime),
+              std::isinf(duration) ? "the spheres never part" : "duration of a collision " + at);
+  section.add("x_max", quantity(overlap, kLength), "largest overlap " + at);
 }
 
 /// Laws of which no closed form is known: one collision is integrated.
-void print_integrated(const SoftContact& soft, double mass, double speed) {
+void add_integrated(ExplainSection& section, const SoftContact& soft, double mass, double speed) {
   const Impact found = impact(soft.normal, mass, speed, soft.end);
-  print_restitution_and_time(found.restitution, found.duration, found.largest_overlap, speed);
+  add_restitution_and_time(section, found.restitution, found.duration, found.largest_overlap,
+                           speed);
 }
 
-void print_normal(const LinearForce& law, const SoftContact& soft, double mass, double speed) {
+void add_normal(ExplainSection& section, const LinearForce& law, const SoftContact& soft,
+                double mass, double speed) {
   const LinearContact c(mass, law.stiffness, law.damping / mass, soft.end);
   const double omega0 = c.contact_frequency(), gamma = c.damping_rate();
-  print_restitution_and_time(c.restitution(), c.collision_time(), c.largest_overlap(speed), speed);
-  print_row("k", in_unit(c.stiffness(), "N/m"), "stiffness");
-  print_row("γ_N", in_unit(gamma, "1/s"), "normal damping");
-  print_row("ω0", in_unit(omega0, "1/s"), "contact frequency √(k/m̄)");
-  print_row("ε", pure(c.damping_ratio()), "damping ratio γ_N/ω0; the critical one is 2");
-  print_row("Δt", quantity(symplectic_euler_limit(omega0, gamma), kTime),
-            "largest stable step of symplectic Euler");
-  print_row("", quantity(velocity_verlet_limit(omega0), kTime), "of velocity Verlet, undamped");
-  print_row("", quantity(runge_kutta_limit(omega0), kTime), "of Runge-Kutta 4, undamped");
-  print_row("", quantity(explicit_euler_limit(omega0, gamma), kTime), "of explicit Euler");
+  add_restitution_and_time(section, c.restitution(), c.collision_time(), c.largest_overlap(speed),
+                           speed);
+  section.add("k", in_unit(c.stiffness(), "N/m"), "stiffness");
+  section.add("γ_N", in_unit(gamma, "1/s"), "normal damping");
+  section.add("ω0", in_unit(omega0, "1/s"), "contact frequency √(k/m̄)");
+  section.add("ε", pure(c.damping_ratio()), "damping ratio γ_N/ω0; the critical one is 2");
+  section.add("Δt", quantity(symplectic_euler_limit(omega0, gamma), kTime),
+              "largest stable step of symplectic Euler");
+  section.add("", quantity(velocity_verlet_limit(omega0), kTime), "of velocity Verlet, undamped");
+  section.add("", quantity(runge_kutta_limit(omega0), kTime), "of Runge-Kutta 4, undamped");
+  section.add("", quantity(explicit_euler_limit(omega0, gamma), kTime), "of explicit Euler");
 }
 
-void print_normal(const HertzForce& law, const SoftContact& soft, double mass, double speed) {
-  print_integrated(soft, mass, speed);
-  print_row("ρ", in_unit(law.modulus, "N/m^1.5"), "F = ρ ξ^(3/2)");
+void add_normal(ExplainSection& section, const HertzForce& law, const SoftContact& soft,
+                double mass, double speed) {
+  add_integrated(section, soft, mass, speed);
+  section.add("ρ", in_unit(law.modulus, "N/m^1.5"), "F = ρ ξ^(3/2)");
 }
 
-void print_normal(const PowerForce& law, const SoftContact& soft, double mass, double speed) {
-  print_integrated(soft, mass, speed);
-  print_row("E", in_unit(law.modulus, fmt::format("N/m^{:g}", law.alpha)),
-            fmt::format("F = E ξ^{:g} + η ξ^{:g} ξ̇", law.alpha, law.gamma));
-  print_row("η", in_unit(law.viscosity, fmt::format("N s/m^{:g}", 1 + law.gamma)), "viscosity");
+void add_normal(ExplainSection& section, const PowerForce& law, const SoftContact& soft,
+                double mass, double speed) {
+  add_integrated(section, soft, mass, speed);
+  section.add("E", in_unit(law.modulus, fmt::format("N/m^{:g}", law.alpha)),
+              fmt::format("F = E ξ^{:g} + η ξ^{:g} ξ̇", law.alpha, law.gamma));
+  section.add("η", in_unit(law.viscosity, fmt::format("N s/m^{:g}", 1 + law.gamma)), "viscosity");
 }
 
-void print_viscoelastic(double modulus, double dissipation_time, const char* form,
-                        const SoftContact& soft, double mass, double speed) {
-  print_integrated(soft, mass, speed);
-  print_row("ρ", in_unit(modulus, "N/m^1.5"), form);
-  print_row("A", quantity(dissipation_time, kTime), "dissipation time");
+void add_viscoelastic(ExplainSection& section, double modulus, double dissipation_time,
+                      const char* form, const SoftContact& soft, double mass, double speed) {
+  add_integrated(section, soft, mass, speed);
+  section.add("ρ", in_unit(modulus, "N/m^1.5"), form);
+  section.add("A", quantity(dissipation_time, kTime), "dissipation time");
   const double t_c = hertz_duration(mass, modulus, speed);
-  print_row("A/t_c", pure(dissipation_time / t_c), "far below 1 where the law holds, B (12)");
+  section.add("A/t_c", pure(dissipation_time / t_c), "far below 1 where the law holds, B (12)");
 }
-void print_normal(const ViscoelasticForce& law, const SoftContact& soft, double mass,
-                  double speed) {
-  print_viscoelastic(law.modulus, law.dissipation_time, "F = ρ (ξ^(3/2) + (3/2) A √ξ ξ̇)", soft,
-                     mass, speed);
+void add_normal(ExplainSection& section, const ViscoelasticForce& law, const SoftContact& soft,
+                double mass, double speed) {
+  add_viscoelastic(section, law.modulus, law.dissipation_time, "F = ρ (ξ^(3/2) + (3/2) A √ξ ξ̇)",
+                   soft, mass, speed);
 }
-void print_normal(const CompactViscoelasticForce& law, const SoftContact& soft, double mass,
-                  double speed) {
-  print_viscoelastic(law.modulus, law.dissipation_time, "F = ρ (ξ + A ξ̇)^(3/2)", soft, mass, speed);
+void add_normal(ExplainSection& section, const CompactViscoelasticForce& law,
+                const SoftContact& soft, double mass, double speed) {
+  add_viscoelastic(section, law.modulus, law.dissipation_time, "F = ρ (ξ + A ξ̇)^(3/2)", soft, mass,
+                   speed);
 }
 
-void print_tangential(const NoTangentialForce&, double) {}
-void print_tangential(const ViscousForce& law, double mass) {
-  print_row("γ_S", in_unit(law.damping / mass, "1/s"), "tangential damping");
-  print_row("ν_s", pure(law.friction), "Coulomb's cap on it");
+void add_tangential(ExplainSection&, const NoTangentialForce&, double) {}
+void add_tangential(ExplainSection& section, const ViscousForce& law, double mass) {
+  section.add("γ_S", in_unit(law.damping / mass, "1/s"), "tangential damping");
+  section.add("ν_s", pure(law.friction), "Coulomb's cap on it");
 }
-void print_tangential(const AsperityForce& law, double) {
-  print_row("μ", pure(law.friction), "friction at which asperities break");
-  print_row("ζ0", quantity(law.size, kLength), "size of asperities");
+void add_tangential(ExplainSection& section, const AsperityForce& law, double) {
+  section.add("μ", pure(law.friction), "friction at which asperities break");
+  section.add("ζ0", quantity(law.size, kLength), "size of asperities");
 }
 
 /// B (11), for laws made from the materials.
-void print_sound(const Scenario& scenario, const BodyContact& contact, double speed) {
+void add_sound(ExplainSection& section, const Scenario& scenario, const BodyContact& contact,
+               double speed) {
   double slowest = HUGE_VAL;
   for (const std::string& name : {contact.first, contact.second}) {
     const auto found = scenario.materials.find(name);
@@ -153,17 +159,17 @@ void print_sound(const Scenario& scenario, const BodyContact& contact, double sp
       slowest = std::min(slowest, sound_speed(*material.young_modulus, *material.density));
   }
   if (std::isfinite(slowest))
-    print_row("g/c", pure(speed / slowest),
-              fmt::format("impact speed over that of sound, {}; far below 1, B (11)",
-                          quantity(slowest, kVelocity)));
+    section.add("g/c", pure(speed / slowest),
+                fmt::format("impact speed over that of sound, {}; far below 1, B (11)",
+                            quantity(slowest, kVelocity)));
 }
 
-void print_hard(const PairContact& contact, double speed) {
-  print_row("e_n", pure(restitution_at(contact.restitution, speed)),
-            "restitution at " + quantity(speed, kVelocity));
+void add_hard(ExplainSection& section, const PairContact& contact, double speed) {
+  section.add("e_n", pure(restitution_at(contact.restitution, speed)),
+              "restitution at " + quantity(speed, kVelocity));
   if (contact.friction == 0) return;
-  print_row("μ", pure(contact.friction), "friction");
-  print_row("β0", pure(contact.tangential_restitution), "tangential restitution where it sticks");
+  section.add("μ", pure(contact.friction), "friction");
+  section.add("β0", pure(contact.tangential_restitution), "tangential restitution where it sticks");
 }
 
 const char* end_name(ContactEnd end) {
@@ -182,30 +188,35 @@ std::optional<LinearContact> linear_contact_between(const ContactScene& scene, s
   return LinearContact(mass, linear->stiffness, linear->damping / mass, soft->end);
 }
 
-void explain_contacts(const Scenario& scenario, const ContactScene& scene,
-                      const std::optional<Meeting>& meeting, double typical_speed) {
+ExplainSections explain_contacts(const Scenario& scenario, const ContactScene& scene,
+                                 const std::optional<Meeting>& meeting, double typical_speed) {
   constexpr const char* kNormal[] = {"linear", "hertz", "power", "viscoelastic, expanded",
                                      "viscoelastic, compact"};
   constexpr const char* kTangential[] = {"no rubbing", "viscous rubbing", "asperities"};
+  ExplainSections sections;
   for (const BodyContact& contact : scenario.contacts) {
     const auto found = partners(scenario, scene, contact, meeting, typical_speed);
     if (!found) continue;
     const double speed = found->speed, mass = found->mass;
-    fmt::print("\n  Contact {} on {} ({}): ", contact.first, contact.second, found->names);
+    ExplainSection& section = sections.emplace_back();
+    section.title =
+        fmt::format("Contact {} on {} ({}): ", contact.first, contact.second, found->names);
     const std::optional<SoftContact>& soft = *found->soft;
     if (!soft) {
-      fmt::print("hard\n");
-      print_hard(*found->hard, speed);
+      section.title += "hard";
+      add_hard(section, *found->hard, speed);
       continue;
     }
-    fmt::print("{}, {}, {}\n", kNormal[soft->normal.index()], end_name(soft->end),
-               kTangential[soft->tangential.index()]);
-    std::visit([&](const auto& law) { print_normal(law, *soft, mass, speed); }, soft->normal);
-    std::visit([&](const auto& law) { print_tangential(law, mass); }, soft->tangential);
+    section.title += fmt::format("{}, {}, {}", kNormal[soft->normal.index()], end_name(soft->end),
+                                 kTangential[soft->tangential.index()]);
+    std::visit([&](const auto& law) { add_normal(section, law, *soft, mass, speed); },
+               soft->normal);
+    std::visit([&](const auto& law) { add_tangential(section, law, mass); }, soft->tangential);
     if (!std::holds_alternative<LinearForce>(soft->normal) &&
         !std::holds_alternative<PowerForce>(soft->normal))
-      print_sound(scenario, contact, speed);
+      add_sound(section, scenario, contact, speed);
   }
+  return sections;
 }
 
 }  // namespace slipcheck

@@ -1,4 +1,4 @@
-#include "app/explain/first_meeting.h"
+#include "explain/first_meeting.h"
 
 #include <cmath>
 

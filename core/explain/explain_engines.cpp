@@ -1,0 +1,68 @@
+#include "explain/explain_engines.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <variant>
+
+#include "engine/engine_registry.h"
+#include "engine/remote_engine.h"
+
+namespace slipcheck {
+namespace {
+
+std::string text_of(const Setting& setting) {
+  if (const bool* flag = std::get_if<bool>(&setting)) return *flag ? "true" : "false";
+  if (const double* number = std::get_if<double>(&setting)) return fmt::format("{:g}", *number);
+  return std::get<std::string>(setting);
+}
+
+/// Asks the engine of a run what it would make of the scene; takes no step.
+void ask(ExplainSection& section, const EngineRecord& run, const Scene& scene,
+         const std::atomic<bool>* stop) {
+  const auto executable = find_engine(run.engine, run.precision);
+  if (!executable) {
+    section.add("not installed");
+    return;
+  }
+  if (!run.reason.empty()) {
+    section.add("skipped: " + run.reason);
+    return;
+  }
+  for (const auto& [name, setting] : run.settings)
+    section.add(fmt::format("the profile sets {:<32} {}", name, text_of(setting)));
+  try {
+    RemoteEngine engine(executable->path, {}, stop);
+    const Applied applied = engine.configure(scene, run.settings, 1 / run.rate);
+    for (const std::string& missing : applied.not_represented)
+      section.add("not represented: " + missing);
+    for (const std::string& text : applied.left_out) section.add("left out: " + text);
+    for (const auto& [name, setting] : applied.settings) section.add(name, text_of(setting));
+  } catch (const Refused& refused) {
+    section.add(std::string("refused: ") + refused.what());
+  } catch (const WorkerFailure& failure) {
+    section.add(std::string("failed: ") + failure.what());
+  }
+}
+
+}  // namespace
+
+ExplainSections explain_engines(const Scenario& scenario, const Scene& scene,
+                                const std::vector<EngineRecord>& runs,
+                                const std::atomic<bool>* stop) {
+  ExplainSections sections;
+  std::size_t first = 0;
+  for (const EngineRequest& request : scenario.compare.engines) {
+    const EngineRecord& run = runs[first];
+    ExplainSection& section = sections.emplace_back();
+    section.title = fmt::format("Engine {} {}, profile {}, {} Hz", run.engine, run.precision,
+                                run.profile, fmt::join(request.rates, ", "));
+    section.label_width = 36;
+    ask(section, run, scene, stop);
+    first += request.rates.size();
+  }
+  return sections;
+}
+
+}  // namespace slipcheck
