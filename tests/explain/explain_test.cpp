@@ -144,6 +144,17 @@ TEST(Explain, EachFeatureIsNeededOrLeftOut) {
   EXPECT_EQ(bodies->rows[0].values.at(4), "150.0 mm/s");
 }
 
+TEST(Explain, TheLoopIsTheOneThatRuns) {
+  const Scenario scenario = bundled("symmetric-30cms");
+  const ContactScene scene = make_contact_scene(scenario);
+  for (const bool general : {false, true}) {
+    const Explanation told = explain_scene(scenario, scene, general);
+    EXPECT_EQ(told.sections.at(0).title, "Loop");
+    EXPECT_EQ(told.sections[0].rows.at(0).remark,
+              general ? "phases on any plane" : "phases on a level, still plane");
+  }
+}
+
 TEST(Explain, AVibratedBox) {
   const Explained seen(bundled("box-rough-moving-walls"));
   EXPECT_TRUE(seen.solver.starts_with("event (every contact is hard")) << seen.solver;
