@@ -158,8 +158,8 @@ Explanation explain_scene(const Scenario& scenario, const ContactScene& scene, b
   Explanation all{solver_text(scene, solver), {loop_section(solver.loop())}};
   append(all.sections, features(solver.scene()));
   append(all.sections, {explain_bodies(scenario, scene.hard)});
-  append(all.sections, scene.hard.box ? in_box(scenario, scene)
-                                      : on_substrate(scenario, scene, solver));
+  append(all.sections,
+         scene.hard.box ? in_box(scenario, scene) : on_substrate(scenario, scene, solver));
   if (scene.warnings.empty()) return all;
   ExplainSection& section = all.sections.emplace_back();
   section.title = "Warnings";
