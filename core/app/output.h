@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "report/rows/table_style.h"
+#include "report/terminal/table_style.h"
 
 namespace slipcheck {
 

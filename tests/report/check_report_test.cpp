@@ -80,7 +80,7 @@ TEST(CheckRows, OfEachRunTheMostSevereChangeIsShown) {
   ASSERT_EQ(all.size(), 4u);
   EXPECT_EQ(all[3].before, "27.60");
   EXPECT_EQ(all[3].now, "27.20 ms");
-  EXPECT_EQ(all[3].direction, "better");
+  EXPECT_EQ(all[3].direction.text, "better");
 }
 
 TEST(CheckRows, AChangeThatGatesGoesBeforeOneThatDoesNot) {

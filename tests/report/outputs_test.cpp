@@ -171,7 +171,7 @@ TEST(Markdown, TextIsLiteral) {
 }
 
 TEST(Markdown, ATableHasOneLineARowAndItsCells) {
-  EXPECT_EQ(markdown_table({"a", "b"}, {{"x|y", "1"}, {"line\nbreak", "2"}}, {1}),
+  EXPECT_EQ(markdown_table({{{"a"}, {"b", true}}, {{{"x|y"}, {"1"}}, {{"line\nbreak"}, {"2"}}}}),
             "| a | b |\n| --- | ---: |\n| x\\|y | 1 |\n| line break | 2 |\n");
 }
 

@@ -78,20 +78,28 @@ TestOutcome outcome_of(const SceneCheck& scene, const std::string& label, const 
   return outcome;
 }
 
-std::vector<std::vector<std::string>> table_rows(const CheckReport& report) {
-  std::vector<std::vector<std::string>> rows;
+TextTable changes_of(const CheckReport& report) {
+  TextTable table{{{"scene"},
+                   {"run"},
+                   {"observable"},
+                   {"of"},
+                   {"baseline", true},
+                   {"now", true},
+                   {"may move by", true},
+                   {""}}};
   for (const SceneCheck& scene : report.scenes)
     for (const ChangeRow& row : change_rows(scene, false)) {
       const std::string more = row.others > 0 ? fmt::format(", + {} more", row.others) : "";
-      rows.push_back({(scene.is_green() ? "✓ " : "✗ ") + scene.scene, row.part,
-                      row.observable.empty() ? row.note : row.observable, row.statistic, row.before,
-                      row.now, row.allowed,
-                      (!row.gates              ? "told only"
-                       : row.direction.empty() ? "moved"
-                                               : row.direction) +
-                          more});
+      table.rows.push_back({{(scene.is_green() ? "✓ " : "✗ ") + scene.scene},
+                            {row.part},
+                            {row.what},
+                            {row.statistic},
+                            {row.before},
+                            {row.now},
+                            {row.allowed},
+                            {row.direction.text + more}});
     }
-  return rows;
+  return table;
 }
 
 }  // namespace
@@ -139,18 +147,14 @@ std::string markdown_of(const CheckReport& report, std::size_t most) {
     remarks += fmt::format("- {}\n", markdown_escaped(remark));
   if (!remarks.empty()) remarks = '\n' + remarks;
 
-  std::vector<std::vector<std::string>> rows = table_rows(report);
+  TextTable changes = changes_of(report);
+  auto& rows = changes.rows;
   if (rows.empty()) return head + remarks;
   const std::size_t count = rows.size();
-  const auto table = [&] {
-    return '\n' + markdown_table(
-                      {"scene", "run", "observable", "of", "baseline", "now", "may move by", ""},
-                      rows, {4, 5, 6});
-  };
-  std::string text = table();
+  std::string text = '\n' + markdown_table(changes);
   while (!rows.empty() && head.size() + text.size() + remarks.size() + kRoom > most) {
     rows.resize(rows.size() * 4 / 5);
-    text = table();
+    text = '\n' + markdown_table(changes);
   }
   if (rows.size() < count)
     text += fmt::format("\n… and {}; there is no room for them here.\n",

@@ -16,7 +16,7 @@ namespace slipcheck {
 namespace {
 
 constexpr std::size_t kWorst = 5;
-constexpr std::size_t kMostRows = 8;  // of one run
+constexpr std::size_t kMostOfRun = 8;
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80) != 0; }
 
@@ -30,76 +30,66 @@ bool begins_block(std::string_view text, std::size_t at) {
          text.find_first_not_of("0123456789") == at;
 }
 
-std::string plural(std::size_t count, const char* noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 std::string head_of(const std::vector<SceneRecord>& scenes) {
   const AllVerdicts all = count_verdicts(scenes);
   const std::size_t bad = all.scenes.of(Verdict::undecided) + all.scenes.of(Verdict::deviates) +
                           all.scenes.of(Verdict::failed);
   const std::size_t good = all.scenes.of(Verdict::within);
   const std::string verdict =
-      bad > 0    ? fmt::format("{} of {} not within tolerance", bad, plural(scenes.size(), "scene"))
+      bad > 0 ? fmt::format("{} of {} not within tolerance", bad, counted(scenes.size(), "scene"))
       : good > 0 ? "all within tolerance"
                  : "nothing was judged";
   std::string text = fmt::format("## {} Slipcheck: {}\n\n{}: {}",
                                  bad > 0    ? "✗"
                                  : good > 0 ? "✓"
                                             : "–",
-                                 verdict, plural(scenes.size(), "scene"), all.scenes.list());
+                                 verdict, counted(scenes.size(), "scene"), all.scenes.list());
   if (all.scenes_alone > 0) text += fmt::format(", {} of the reference alone", all.scenes_alone);
-  return text + fmt::format("  \n{}: {}\n", plural(all.run_count, "engine run"), all.runs.list());
+  return text + fmt::format("  \n{}: {}\n", counted(all.run_count, "engine run"), all.runs.list());
 }
 
 std::string worst_part(const std::vector<SceneRecord>& scenes) {
   const std::vector<Finding> findings = worst_findings(scenes, kWorst);
   if (findings.empty()) return {};
-  std::vector<std::vector<std::string>> rows;
+  TextTable table{comparison_columns({{"scene"}, {"run"}})};
   for (const Finding& finding : findings)
-    rows.push_back({finding.scene->scenario.name, run_label(*finding.run), finding.row.name,
-                    finding.row.reference, finding.row.median, finding.row.spread,
-                    finding.row.worst, finding.row.tolerance});
-  return "\n### Worst deviations\n\n" +
-         markdown_table({"scene", "run", "observable", "reference", "median", "min … max",
-                         "max error", "tolerance"},
-                        rows, {3, 4, 5, 6, 7});
+    table.rows.push_back(
+        comparison_cells(finding.row, {{finding.scene->scenario.name}, {run_label(*finding.run)}}));
+  return "\n### Worst deviations\n\n" + markdown_table(table);
 }
 
 /// A run that is not within, as rows of its scene's table; the worst of its observables.
-void add_rows(const SceneRecord& scene, const EngineRecord& run,
-              std::vector<std::vector<std::string>>& rows) {
-  const std::string label = run_label(run);
-  const auto mark = [](Verdict verdict) { return std::string(symbol_of(verdict)) + " "; };
-  const bool ok = run.status == RunStatus::ok;
-  if (!ok || (run.expect && run.expect->status)) {
-    rows.push_back({mark(run.verdict()) + label, finding_text(scene, run), "", "", "", "", ""});
+void add_rows(const SceneRecord& scene, const EngineRecord& run, TextTable& table) {
+  const auto whose = [label = run_label(run)](Verdict verdict) {
+    return Cell{std::string(symbol_of(verdict)) + " " + label};
+  };
+  const Cell bad = whose(Verdict::deviates);
+  if (run.status != RunStatus::ok || (run.expect && run.expect->status)) {
+    table.rows.push_back({whose(run.verdict()), {finding_text(scene, run)}});
     return;
   }
   for (const ExpectationRow& row : expectation_rows(run))
     if (!row.met)
-      rows.push_back({"✗ " + label, row.name + " " + row.statistic, "expected " + row.limits,
-                      row.value, "", "", ""});
-  std::vector<ComparisonRow> bad = comparison_rows(scene, run, shown_observables(scene, false));
-  std::erase_if(bad, [](const ComparisonRow& row) {
+      table.rows.push_back(
+          {bad, {row.name + " " + row.statistic}, {"expected " + row.limits}, {row.value}});
+  std::vector<ComparisonRow> rows = comparison_rows(scene, run, shown_observables(scene, false));
+  std::erase_if(rows, [](const ComparisonRow& row) {
     return row.verdict != Verdict::deviates && row.verdict != Verdict::undecided;
   });
-  const std::size_t count = bad.size();
-  bad = most_severe(std::move(bad), kMostRows);
-  for (const ComparisonRow& row : bad)
-    rows.push_back({mark(row.verdict) + label,
-                    row.note.empty() ? row.name : row.name + " (" + row.note + ")", row.reference,
-                    row.median, row.spread, row.worst, row.tolerance});
-  if (bad.size() < count)
-    rows.push_back({"✗ " + label, fmt::format("{} more", count - bad.size()), "", "", "", "", ""});
+  const std::size_t count = rows.size();
+  for (ComparisonRow& row : most_severe(std::move(rows), kMostOfRun)) {
+    if (!row.note.empty()) row.name += " (" + row.note + ")";
+    table.rows.push_back(comparison_cells(row, {whose(row.verdict)}));
+  }
+  if (count > kMostOfRun) table.rows.push_back({bad, {fmt::format("{} more", count - kMostOfRun)}});
 }
 
 std::string scene_part(const SceneRecord& scene) {
-  std::vector<std::vector<std::string>> rows;
+  TextTable table{comparison_columns({{"run"}})};
   VerdictCounts counts;
   for (const EngineRecord& run : scene.runs) {
     counts.add(run.verdict());
-    if (run.verdict() > Verdict::within) add_rows(scene, run, rows);
+    if (run.verdict() > Verdict::within) add_rows(scene, run, table);
   }
   std::string text = fmt::format("\n### {} {}\n\n", symbol_of(scene.verdict()),
                                  markdown_escaped(scene.scenario.name));
@@ -108,11 +98,9 @@ std::string scene_part(const SceneRecord& scene) {
   if (!scene.reference.run.reached)
     text += fmt::format("The reference did not end: {}. ",
                         markdown_escaped(scene.reference.run.reason));
-  if (rows.empty()) return text + "\n";
-  return text + fmt::format("{}: {}.\n\n", plural(scene.runs.size(), "run"), counts.list()) +
-         markdown_table(
-             {"run", "observable", "reference", "median", "min … max", "max error", "tolerance"},
-             rows, {2, 3, 4, 5, 6});
+  if (table.rows.empty()) return text + "\n";
+  return text + fmt::format("{}: {}.\n\n", counted(scene.runs.size(), "run"), counts.list()) +
+         markdown_table(table);
 }
 
 /// The names of those scenes of which there is nothing more to say.
@@ -148,20 +136,20 @@ std::string markdown_escaped(const std::string& text) {
   return result;
 }
 
-std::string markdown_table(const std::vector<std::string>& headers,
-                           const std::vector<std::vector<std::string>>& rows,
-                           const std::vector<std::size_t>& right) {
-  const auto line = [](const std::vector<std::string>& cells) {
-    std::string text = "|";
-    for (const std::string& cell : cells) text += " " + markdown_escaped(cell) + " |";
-    return text + "\n";
-  };
-  std::string text = line(headers) + "|";
-  for (std::size_t k = 0; k < headers.size(); ++k)
-    text += std::find(right.begin(), right.end(), k) == right.end() ? " --- |" : " ---: |";
-  text += "\n";
-  for (const std::vector<std::string>& row : rows) text += line(row);
-  return text;
+std::string markdown_table(const TextTable& table) {
+  const auto cell = [](const std::string& text) { return " " + markdown_escaped(text) + " |"; };
+  std::string heads = "|", rules = "|", rows;
+  for (const Column& column : table.columns) {
+    heads += cell(column.header);
+    rules += column.right ? " ---: |" : " --- |";
+  }
+  for (const auto& row : table.rows) {
+    rows += "|";
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      rows += cell(c < row.size() ? row[c].text : "");
+    rows += "\n";
+  }
+  return heads + "\n" + rules + "\n" + rows;
 }
 
 std::string markdown_of(const std::vector<SceneRecord>& scenes, std::size_t most) {
@@ -177,7 +165,7 @@ std::string markdown_of(const std::vector<SceneRecord>& scenes, std::size_t most
   if (shown < parts.size())
     text += fmt::format(
         "\n… and {} that deviate, are undecided or failed; there is no room for them here.\n",
-        plural(parts.size() - shown, "more scene"));
+        counted(parts.size() - shown, "more scene"));
   const std::string good = good_part(scenes);
   return text.size() + good.size() <= most ? text + good : text;
 }

@@ -4,17 +4,15 @@
 #include <vector>
 
 #include "harness/compare/record.h"
+#include "report/rows/text_table.h"
 
 namespace slipcheck {
 
 /// Text as Markdown shows it literally, inside a table too.
 std::string markdown_escaped(const std::string& text);
 
-/// A table of GitHub-flavoured Markdown; cells are escaped. Columns in `right` are set to the
-/// right.
-std::string markdown_table(const std::vector<std::string>& headers,
-                           const std::vector<std::vector<std::string>>& rows,
-                           const std::vector<std::size_t>& right = {});
+/// A table of GitHub-flavoured Markdown; cells are escaped, those that a row lacks are empty.
+std::string markdown_table(const TextTable& table);
 
 /// What a pull request's comment or a job's summary says of a run: verdicts, the worst deviations,
 /// then what failed or deviates, scene by scene, within `most` characters (GitHub's limit of a

@@ -100,30 +100,26 @@ Settings SharedSettings::others(const EngineRecord& run, const SceneRecord& scen
 }
 
 std::string SharedSettings::html() const {
-  std::vector<HtmlCell> headers = {{"setting", ""}};
+  TextTable table{{{"setting"}}, {}, "Settings as applied in all runs"};
   std::set<std::string> names;
   for (const auto& [method, settings] : shared_) {
-    headers.push_back({method, ""});
+    table.columns.push_back({method});
     for (const auto& [name, setting] : settings) names.insert(name);
   }
   if (names.empty()) return {};
-  std::vector<std::vector<HtmlCell>> rows;
   for (const std::string& name : names) {
-    std::vector<HtmlCell> row = {{name, ""}};
+    std::vector<Cell>& row = table.rows.emplace_back(1, Cell{name});
     for (const auto& [method, settings] : shared_) {
       const auto found = settings.find(name);
-      if (found == settings.end())
-        row.push_back({"–", "faint"});
-      else
-        row.push_back({setting_text(found->second), ""});
+      row.push_back(found == settings.end() ? Cell{"–", Tone::faint}
+                                            : Cell{setting_text(found->second)});
     }
-    rows.push_back(std::move(row));
   }
   return html_details(
       "Settings as applied in all runs [SI]",
       html_paragraph("faint", "",
                      "What differs from scene to scene or from run to run, –, stands there.") +
-          html_table("Settings as applied in all runs", headers, rows));
+          html_table(table));
 }
 
 std::string html_lacks(const std::vector<SceneRecord>& scenes) {
@@ -137,24 +133,18 @@ std::string html_lacks(const std::vector<SceneRecord>& scenes) {
         lacks[kind_of(lack)][method].insert(k);
     }
   if (lacks.empty()) return {};
-  std::vector<HtmlCell> headers = {{"what the scene needs", ""}};
+  TextTable table{{{"what the scene needs"}}, {}, "What engines cannot represent"};
   for (const auto& [method, where] : tried)
-    headers.push_back({fmt::format("{}, of {}", method, where.size()), "n"});
-  std::vector<std::vector<HtmlCell>> rows;
+    table.columns.push_back({fmt::format("{}, of {}", method, where.size()), true});
   for (const auto& [lack, by_method] : lacks) {
-    std::vector<HtmlCell> row = {{lack, ""}};
+    std::vector<Cell>& row = table.rows.emplace_back(1, Cell{lack});
     for (const auto& [method, where] : tried) {
       const auto found = by_method.find(method);
-      if (found == by_method.end())
-        row.push_back({"·", "faint"});
-      else
-        row.push_back({std::to_string(found->second.size()), ""});
+      row.push_back(count_cell(found == by_method.end() ? 0 : found->second.size()));
     }
-    rows.push_back(std::move(row));
   }
   return "<h2>What engines cannot represent</h2>\n" +
-         html_paragraph("faint", "", "The number of scenes that need it.") +
-         html_table("What engines cannot represent", headers, rows);
+         html_paragraph("faint", "", "The number of scenes that need it.") + html_table(table);
 }
 
 }  // namespace slipcheck

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "report/html/html_text.h"
 #include "report/rows/comparison_rows.h"
 #include "report/rows/expectation_rows.h"
@@ -13,64 +11,12 @@
 namespace slipcheck {
 namespace {
 
-// Keeps the page of a scene of many bodies readable; the result file has everything.
-constexpr std::size_t kMostRows = 20;
-
-/// The style of a verdict's word.
-const char* ink_of(Verdict verdict) {
-  return verdict == Verdict::within ? "good" : verdict == Verdict::unjudged ? "faint" : "bad";
-}
-
-std::string run_table(std::vector<ComparisonRow> comparison) {
-  const std::size_t count = comparison.size();
-  comparison = most_severe(std::move(comparison), kMostRows);
-  std::vector<std::vector<HtmlCell>> rows;
+std::string noted_part(const TextTable& table) {
+  if (table.rows.empty()) return {};
   std::vector<std::string> notes;
-  for (const ComparisonRow& row : comparison) {
-    rows.push_back(
-        {{row.name, ""},
-         {row.reference, ""},
-         {row.median, ""},
-         {row.spread, ""},
-         {row.worst, row.verdict == Verdict::deviates ? "bad" : ""},
-         {row.tolerance, ""},
-         {std::string(symbol_of(row.verdict)) + " " + word_of(row.verdict), ink_of(row.verdict)}});
-    if (!row.note.empty()) notes.push_back(row.name + ": " + row.note);
-  }
-  if (count > rows.size())
-    notes.push_back(fmt::format("{} rows more, none more severe", count - rows.size()));
-  if (rows.empty()) return {};
-  return html_table("",
-                    {{"observable", ""},
-                     {"reference", "n"},
-                     {"median", "n"},
-                     {"min … max", "n"},
-                     {"max error", "n"},
-                     {"tolerance", "n"},
-                     {"verdict", ""}},
-                    rows) +
-         html_list("faint", "Notes", notes);
-}
-
-std::string expectations_table(const EngineRecord& run) {
-  std::vector<std::vector<HtmlCell>> rows;
-  std::vector<std::string> notes;
-  for (const ExpectationRow& row : expectation_rows(run)) {
-    rows.push_back({{row.name, ""},
-                    {row.statistic, ""},
-                    {row.value, row.met ? "" : "bad"},
-                    {row.limits, ""},
-                    {std::string(symbol_of(row.met ? Verdict::within : Verdict::deviates)) + " " +
-                         expectation_word(row.met),
-                     row.met ? "good" : "bad"}});
-    if (!row.note.empty()) notes.push_back(row.name + ": " + row.note);
-  }
-  if (rows.empty()) return {};
-  return html_table(
-             "What is expected of " + run_name(run),
-             {{"of this engine", ""}, {"", ""}, {"value", "n"}, {"expected", "n"}, {"verdict", ""}},
-             rows) +
-         html_list("faint", "Notes", notes);
+  for (const auto& [name, note] : table.notes)
+    notes.push_back(name.empty() ? note : name + ": " + note);
+  return html_table(table) + html_list("faint", "Notes", notes);
 }
 
 /// "i-j.effective_restitution off by up to 0.141", of what is worst by its tolerance.
@@ -98,12 +44,14 @@ std::string html_run(const SceneRecord& scene, std::size_t k, const std::vector<
       "<span class=\"{}\">{} {}</span></h4> <span class=\"faint\">{}</span></summary>\n",
       k, escaped(run.engine), escaped(run.precision), escaped(run.profile), run.rate,
       class_of(verdict), verdict <= Verdict::within ? "" : " open=\"\"", escaped(run_name(run)),
-      ink_of(verdict), symbol_of(verdict), escaped(outcome_text(run)), escaped(worst_text(rows)));
+      class_of(tone_of(verdict)), symbol_of(verdict), escaped(outcome_text(run)),
+      escaped(worst_text(rows)));
   if (ok) {
-    std::string cost = fmt::format("{} phase{}", run.phases, run.phases == 1 ? "" : "s");
+    std::string cost = counted(run.phases, "phase");
     if (const std::string each = step_cost(run); !each.empty()) cost += ", " + each;
-    html +=
-        html_paragraph("faint", "", cost) + run_table(std::move(rows)) + expectations_table(run);
+    html += html_paragraph("faint", "", cost) +
+            noted_part(comparison_table(std::move(rows), kMostRows)) +
+            noted_part(expectation_table(run));
   } else {
     html += html_paragraph("reason", status_text(run.status) + ":",
                            run.reason.empty() ? "not known why" : run.reason);

@@ -16,33 +16,15 @@
 namespace slipcheck {
 namespace {
 
-// Keeps the page of a scene of many bodies readable; the result file has everything.
-constexpr std::size_t kMostRows = 20;
-
 std::string reference_part(const SceneRecord& scene, const std::vector<std::string>& names) {
   const ReferenceResult& reference = scene.reference;
-  const auto absent = absent_observables(scene);
-  std::vector<std::vector<HtmlCell>> rows;
-  for (const std::string& name : names) {
-    if (rows.size() == kMostRows) break;
-    const QuantityFormat format = format_for(scene, name, nullptr);
-    const auto reason = absent.find(name);
-    rows.push_back(
-        {{name, ""},
-         {reference_text(scene, name, format), ""},
-         {reason != absent.end() ? reason->second : closed_form_text(reference, name, format),
-          "faint"}});
-  }
+  TextTable table = reference_table(scene, names, kMostRows);
+  if (!reference.closed_form.empty() || !absent_observables(scene).empty())
+    table.columns[2].header = "closed form";
   std::string html = "<div class=\"reference\"><h3>The reference</h3>\n" +
-                     html_paragraph("faint", "", reference_summary(reference));
-  html += html_table("Reference values",
-                     {{"observable", ""},
-                      {"value", "n"},
-                      {reference.closed_form.empty() && absent.empty() ? "" : "closed form", ""}},
-                     rows);
-  if (names.size() > rows.size())
-    html += html_paragraph("faint", "",
-                           fmt::format("… {} observables more", names.size() - rows.size()));
+                     html_paragraph("faint", "", reference_summary(reference)) + html_table(table);
+  if (const std::size_t left_out = names.size() - table.rows.size(); left_out > 0)
+    html += html_paragraph("faint", "", fmt::format("… {} observables more", left_out));
   return html + html_list("warnings", "Warnings", reference.warnings) + "</div>\n";
 }
 

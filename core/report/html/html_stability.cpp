@@ -14,13 +14,6 @@
 namespace slipcheck {
 namespace {
 
-const char* class_of(Outcome outcome) {
-  return outcome == Outcome::accurate  ? "good"
-         : outcome == Outcome::refused ? "faint"
-         : is_usable(outcome)          ? ""
-                                       : "bad";
-}
-
 /// What a class means, with the limits that were used.
 std::string meaning_of(Outcome outcome, const OutcomeCriteria& criteria) {
   switch (outcome) {
@@ -53,41 +46,31 @@ std::string meaning_of(Outcome outcome, const OutcomeCriteria& criteria) {
   return "";
 }
 
-HtmlCell outcome_cell(Outcome outcome) {
-  return {look_of(outcome).letter, fmt::format("o{}", static_cast<int>(outcome))};
+Cell outcome_cell(Outcome outcome) {
+  return {look_of(outcome).letter, Tone::plain, "", fmt::format("o{}", static_cast<int>(outcome))};
 }
 
+/// A cell of sentences.
+Cell reason_cell(const std::string& text) { return {text, Tone::plain, "", "reason"}; }
+
 std::string criteria_part(const OutcomeCriteria& criteria) {
-  std::vector<std::vector<HtmlCell>> rows;
+  TextTable table{{{"class"}, {""}, {"what it means"}}, {}, "Classes"};
   for (std::size_t k = 0; k < kOutcomes; ++k) {
     const auto outcome = static_cast<Outcome>(k);
-    rows.push_back({{name_of(outcome), class_of(outcome)},
-                    outcome_cell(outcome),
-                    {meaning_of(outcome, criteria), "reason"}});
+    table.rows.push_back({{name_of(outcome), tone_of(outcome)},
+                          outcome_cell(outcome),
+                          reason_cell(meaning_of(outcome, criteria))});
   }
   return html_details(
       "How a run can come out, from good to bad; an ensemble counts as its worst phase does",
-      html_table("Classes", {{"class", ""}, {"", ""}, {"what it means", ""}}, rows));
+      html_table(table));
 }
 
 std::string totals_part(const StabilityOverview& overview) {
-  std::vector<HtmlCell> headers = {{"method", ""}};
-  for (std::size_t k = 0; k < kOutcomes; ++k)
-    headers.push_back({name_of(static_cast<Outcome>(k)), "n"});
-  std::vector<std::vector<HtmlCell>> rows;
-  for (std::size_t m = 0; m < overview.methods.size(); ++m) {
-    std::vector<HtmlCell> row = {{overview.methods[m].label(), ""}};
-    for (std::size_t k = 0; k < kOutcomes; ++k) {
-      const std::size_t count = overview.totals[m][k];
-      const std::string css_class = class_of(static_cast<Outcome>(k));
-      row.push_back({count > 0 ? std::to_string(count) : "·", count > 0 ? css_class : ""});
-    }
-    rows.push_back(std::move(row));
-  }
   return html_paragraph("", "The reference:",
                         fmt::format("{} accurate, {} refused with the reason, {} failed",
                                     overview.accurate, overview.refused, overview.failed)) +
-         (rows.empty() ? "" : html_table("Runs by class", headers, rows));
+         (overview.methods.empty() ? "" : html_table(totals_table(overview, Tone::plain)));
 }
 
 std::string case_id(std::size_t k) { return fmt::format("case-{}", k + 1); }
@@ -102,7 +85,7 @@ std::string catalogue_part(const std::vector<StabilityCase>& cases,
     html += fmt::format("<th>{}</th>", escaped(method.label()));
   html += "</tr></thead><tbody>\n";
   const auto cell = [&](Outcome outcome) {
-    const HtmlCell made = outcome_cell(outcome);
+    const Cell made = outcome_cell(outcome);
     html += fmt::format("<td class=\"{}\">{}</td>", made.css_class, made.text);
   };
   for (const StabilityRow& row : overview.rows) {
@@ -139,7 +122,14 @@ std::string case_part(const StabilityCase& scene, std::size_t k) {
   html += html_paragraph(scene.reference.accurate ? "faint" : "reason", "The reference:",
                          fmt::format("{}{}{}", word_of(scene.reference),
                                      scene.reference.why.empty() ? "" : ": ", scene.reference.why));
-  std::vector<std::vector<HtmlCell>> rows;
+  TextTable table{{{"method"},
+                   {"rate", true},
+                   {"class"},
+                   {"worst error in tolerances"},
+                   {"energy gained", true},
+                   {"creep", true},
+                   {"overlap", true},
+                   {"why"}}};
   std::vector<std::string> accurate;
   for (const StabilityRun& run : scene.runs) {
     if (run.outcome == Outcome::accurate) {
@@ -149,79 +139,42 @@ std::string case_part(const StabilityCase& scene, std::size_t k) {
     }
     std::string worst = number_text(run.worst_error);
     if (!run.worst_observable.empty()) worst += " " + run.worst_observable;
-    rows.push_back(
-        {{fmt::format("{} {} {}", run.record.engine, run.record.precision, run.record.profile), ""},
-         {fmt::format("{:g} Hz", run.record.rate), ""},
-         {name_of(run.outcome), class_of(run.outcome)},
-         {worst, ""},
-         {share_text(run.energy_gain), ""},
-         {share_text(run.creep), ""},
-         {share_text(run.depth), ""},
-         {words_of(run), "reason"}});
+    table.rows.push_back(
+        {{fmt::format("{} {} {}", run.record.engine, run.record.precision, run.record.profile)},
+         {fmt::format("{:g} Hz", run.record.rate)},
+         {name_of(run.outcome), tone_of(run.outcome)},
+         {worst},
+         {share_text(run.energy_gain)},
+         {share_text(run.creep)},
+         {share_text(run.depth)},
+         reason_cell(words_of(run))});
   }
-  if (!rows.empty())
-    html += html_table("",
-                       {{"method", ""},
-                        {"rate", "n"},
-                        {"class", ""},
-                        {"worst error in tolerances", ""},
-                        {"energy gained", "n"},
-                        {"creep", "n"},
-                        {"overlap", "n"},
-                        {"why", ""}},
-                       rows);
+  if (!table.rows.empty()) html += html_table(table);
   html += html_paragraph("faint", "Accurate:", fmt::format("{}", fmt::join(accurate, ", ")));
   return html + "</details>\n";
 }
 
 std::string limits_part(const std::vector<Limit>& limits) {
-  std::vector<std::vector<HtmlCell>> rows;
+  std::vector<const Limit*> grouped;
   for (const LimitGroup& group : limit_groups(limits))
-    for (const Limit* limit : group.limits) {
-      std::string theory = limit->theory ? value_text(limit->kind, *limit->theory) : "";
-      if (!limit->theory_name.empty()) theory += " = " + limit->theory_name;
-      const double ratio = ratio_to_theory(*limit);
-      std::string notes = limit->reason.empty() ? limit->why : limit->reason;
-      for (const double island : limit->islands)
-        notes += fmt::format("{}bad all the same at {}", notes.empty() ? "" : "; ",
-                             value_text(limit->kind, island));
-      rows.push_back(
-          {{label_of(*limit), ""},
-           {words_of(limit->kind), ""},
-           {limit->scene, ""},
-           {range_text(*limit), ""},
-           {theory, ""},
-           {std::isfinite(ratio) ? fmt::format("{:.4f}", ratio) : "", ""},
-           {limit->bad ? name_of(limit->beyond) : "", limit->bad ? class_of(limit->beyond) : ""},
-           {notes, "reason"}});
-    }
-  return html_table("Limits",
-                    {{"method", ""},
-                     {"limit", ""},
-                     {"scene", ""},
-                     {"last good … first bad", "n"},
-                     {"theory", ""},
-                     {"ratio", "n"},
-                     {"beyond", ""},
-                     {"why", ""}},
-                    rows);
+    grouped.insert(grouped.end(), group.limits.begin(), group.limits.end());
+  return html_table(limits_table(grouped));
 }
 
 /// A map as letters, its first row the highest of y; charts of it are the script's.
 std::string map_part(const OutcomeMap& map, std::size_t k) {
   const std::size_t columns = map.x.values.size();
-  std::vector<HtmlCell> headers = {{fmt::format("{} \\ {}", map.y.label, map.x.label), ""}};
-  for (const double x : map.x.values) headers.push_back({fmt::format("{:.3g}", x), ""});
-  std::vector<std::vector<HtmlCell>> rows;
+  TextTable table{{{fmt::format("{} \\ {}", map.y.label, map.x.label)}}, {}, map.title};
+  for (const double x : map.x.values) table.columns.push_back({fmt::format("{:.3g}", x)});
   for (std::size_t r = map.y.values.size(); r-- > 0;) {
-    std::vector<HtmlCell> row = {{fmt::format("{:.3g}", map.y.values[r]), ""}};
+    std::vector<Cell>& row =
+        table.rows.emplace_back(1, Cell{fmt::format("{:.3g}", map.y.values[r])});
     for (std::size_t c = 0; c < columns; ++c)
       row.push_back(outcome_cell(map.outcome[r * columns + c]));
-    rows.push_back(std::move(row));
   }
   return fmt::format("<h4>{0}</h4>\n<div class=\"plots\" id=\"map-{1}\" data-map=\"{2}\"></div>\n",
                      escaped(map.title), k + 1, k) +
-         html_details("As letters", html_table(map.title, headers, rows));
+         html_details("As letters", html_table(table));
 }
 
 std::string limits_plots(const std::vector<Limit>& limits) {

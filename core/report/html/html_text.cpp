@@ -7,9 +7,15 @@
 namespace slipcheck {
 namespace {
 
-std::string opening(const char* tag, const HtmlCell& cell) {
-  return cell.css_class.empty() ? fmt::format("<{}>", tag)
-                                : fmt::format("<{} class=\"{}\">", tag, escaped(cell.css_class));
+std::string opening(const char* tag, std::string_view css_class) {
+  return css_class.empty() ? fmt::format("<{}>", tag)
+                           : fmt::format("<{} class=\"{}\">", tag, escaped(css_class));
+}
+
+std::string html_cell(const char* tag, const Cell& cell) {
+  const std::string symbol = cell.symbol.empty() ? "" : cell.symbol + " ";
+  return opening(tag, cell.css_class.empty() ? class_of(cell.tone) : cell.css_class) +
+         escaped(symbol + cell.text) + fmt::format("</{}>", tag);
 }
 
 }  // namespace
@@ -43,29 +49,41 @@ std::string escaped(std::string_view text) {
 std::string html_paragraph(std::string_view css_class, std::string_view head,
                            std::string_view text) {
   if (text.empty()) return {};
-  std::string html = opening("p", {"", std::string(css_class)});
+  std::string html = opening("p", css_class);
   if (!head.empty()) html += "<strong>" + escaped(head) + "</strong> ";
   return html + escaped(text) + "</p>\n";
 }
 
-std::string html_table(std::string_view label, const std::vector<HtmlCell>& headers,
-                       const std::vector<std::vector<HtmlCell>>& rows) {
+const char* class_of(Tone tone) {
+  switch (tone) {
+    case Tone::good:
+      return "good";
+    case Tone::doubtful:
+    case Tone::bad:
+      return "bad";
+    case Tone::faint:
+      return "faint";
+    case Tone::plain:
+    case Tone::strong:
+      break;
+  }
+  return "";
+}
+
+std::string html_table(const TextTable& table) {
   std::string numbers;
-  for (std::size_t c = 0; c < headers.size(); ++c)
-    if (headers[c].css_class == "n")
-      numbers += fmt::format("{}n{}", numbers.empty() ? "" : " ", c + 1);
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    if (table.columns[c].right) numbers += fmt::format("{}n{}", numbers.empty() ? "" : " ", c + 1);
   std::string html = "<div class=\"table\" tabindex=\"0\"";
-  if (!label.empty()) html += fmt::format(" role=\"region\" aria-label=\"{}\"", escaped(label));
+  if (!table.title.empty())
+    html += fmt::format(" role=\"region\" aria-label=\"{}\"", escaped(table.title));
   html += numbers.empty() ? "><table>" : fmt::format("><table class=\"{}\">", numbers);
   html += "<thead><tr>";
-  for (const HtmlCell& header : headers) html += "<th>" + escaped(header.text) + "</th>";
+  for (const Column& column : table.columns) html += "<th>" + escaped(column.header) + "</th>";
   html += "</tr></thead><tbody>\n";
-  for (const auto& row : rows) {
+  for (const auto& row : table.rows) {
     html += "<tr>";
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      html += opening(c == 0 ? "th" : "td", row[c]);
-      html += escaped(row[c].text) + (c == 0 ? "</th>" : "</td>");
-    }
+    for (const Cell& cell : row) html += html_cell(&cell == &row.front() ? "th" : "td", cell);
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "report/rows/text_table.h"
+
 namespace slipcheck {
 
 /// Text as it may stand in an element or a quoted attribute: whatever a scene or an engine says, it
@@ -15,17 +17,12 @@ std::string escaped(std::string_view text);
 std::string html_paragraph(std::string_view css_class, std::string_view head,
                            std::string_view text);
 
-/// A cell of a table: escaped text and its class, if any.
-struct HtmlCell {
-  std::string text;
-  std::string css_class;
-};
+/// The class of what has this tone; empty where it looks like the text about it.
+const char* class_of(Tone tone);
 
-/// A table that scrolls by itself where it is wider than the screen, also by keyboard; `label` is
-/// what a screen reader calls it, empty where the heading before it says so. The first cell of a
-/// row is its head. Below a head of class "n" stand numbers, to the right.
-std::string html_table(std::string_view label, const std::vector<HtmlCell>& headers,
-                       const std::vector<std::vector<HtmlCell>>& rows);
+/// A table that scrolls by itself where it is wider than the screen, also by keyboard. The first
+/// cell of a row is its head.
+std::string html_table(const TextTable& table);
 
 /// A list under a bold head, all escaped; nothing without items.
 std::string html_list(std::string_view css_class, std::string_view head,

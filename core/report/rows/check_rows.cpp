@@ -56,12 +56,14 @@ void put_values(const Change& change, ChangeRow& row) {
 ChangeRow row_of(const Change& change) {
   ChangeRow row;
   row.part = printable(change.part);
-  row.observable = printable(change.observable);
+  row.what = printable(change.observable.empty() ? change.note : change.observable);
   row.statistic = name_of(change.statistic);
   put_values(change, row);
-  if (change.direction != Direction::moved) row.direction = name_of(change.direction);
+  row.direction = !change.gates
+                      ? Cell{"told only", Tone::faint}
+                      : Cell{name_of(change.direction),
+                             change.direction == Direction::better ? Tone::good : Tone::bad};
   row.note = printable(change.note);
-  row.gates = change.gates;
   return row;
 }
 
@@ -206,10 +208,6 @@ std::vector<std::string> check_remarks(const CheckReport& report) {
         fmt::format("CPU time over the baseline's, never judged: {}", fmt::join(times, ", ")));
   }
   return remarks;
-}
-
-std::string counted(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 }  // namespace slipcheck

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "report/rows/text_table.h"
 #include "studies/baseline/check.h"
 
 namespace slipcheck {
@@ -35,14 +36,13 @@ CheckTotals totals_of(const CheckReport& report);
 /// A change as text for people.
 struct ChangeRow {
   std::string part;         ///< "bullet double default 240 Hz"
-  std::string observable;   ///< "i-j.effective_restitution"; empty where the whole part has changed
+  std::string what;         ///< "i-j.effective_restitution"; the note where all of it has changed
   std::string statistic;    ///< "median"
   std::string before, now;  ///< "27.65", "28.10 ms"; all digits where fewer show no difference
   std::string allowed;      ///< "± 0.28 ms"; may be empty
-  std::string direction;    ///< "worse"; empty where there is neither better nor worse
+  Cell direction;           ///< "worse", "moved" where it is neither; "told only"
   std::string note;         ///< may be empty
-  bool gates = true;
-  std::size_t others = 0;  ///< more changes of this part that have no row
+  std::size_t others = 0;   ///< more changes of this part that have no row
 };
 
 /// Whether a change says more than another: it gates and the other does not, or it is farther
@@ -63,8 +63,5 @@ std::string check_verdict(const CheckReport& report);
 /// What is told and does not gate, a line each: other versions, changed verdicts, moves within
 /// what is allowed, CPU times.
 std::vector<std::string> check_remarks(const CheckReport& report);
-
-/// "1 scene", "3 scenes"
-std::string counted(std::size_t count, const std::string& noun);
 
 }  // namespace slipcheck

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "report/rows/selection.h"
+#include "report/rows/verdict_look.h"
 #include "report/terminal/text.h"
 
 namespace slipcheck {
@@ -146,6 +147,51 @@ std::vector<ComparisonRow> most_severe(std::vector<ComparisonRow> rows, std::siz
   return result;
 }
 
+std::vector<Column> comparison_columns(std::vector<Column> whose) {
+  const Column columns[] = {{"observable"},      {"reference", true}, {"median", true, 2},
+                            {"min … max", true}, {"max error", true}, {"tolerance", true, 1}};
+  whose.insert(whose.end(), std::begin(columns), std::end(columns));
+  return whose;
+}
+
+std::vector<Cell> comparison_cells(const ComparisonRow& row, std::vector<Cell> whose) {
+  const Tone tone = row.verdict == Verdict::deviates ? Tone::bad : Tone::plain;
+  const Cell cells[] = {{row.name},   {row.reference},   {row.median},
+                        {row.spread}, {row.worst, tone}, {row.tolerance}};
+  whose.insert(whose.end(), std::begin(cells), std::end(cells));
+  return whose;
+}
+
+TextTable comparison_table(std::vector<ComparisonRow> rows, std::size_t most) {
+  const std::size_t count = rows.size();
+  TextTable table{comparison_columns()};
+  table.columns.push_back({"verdict", false, 3});
+  for (const ComparisonRow& row : most_severe(std::move(rows), most)) {
+    table.rows.push_back(comparison_cells(row));
+    table.rows.back().push_back(verdict_cell(row.verdict, word_of(row.verdict)));
+    if (!row.note.empty()) table.notes.push_back({row.name, row.note});
+  }
+  if (count > most)
+    table.notes.push_back({"", fmt::format("{} rows more, none more severe", count - most)});
+  return table;
+}
+
+TextTable reference_table(const SceneRecord& scene, const std::vector<std::string>& names,
+                          std::size_t most) {
+  TextTable table{{{"observable"}, {"value", true}, {"", false, 1}}, {}, "Reference values"};
+  const auto absent = absent_observables(scene);
+  for (const std::string& name : names) {
+    if (table.rows.size() == most) break;
+    const QuantityFormat format = format_for(scene, name, nullptr);
+    std::string closed_form = closed_form_text(scene.reference, name, format);
+    if (!closed_form.empty()) table.columns[2].header = "closed form";
+    if (const std::string* reason = find(absent, name)) closed_form = *reason;
+    table.rows.push_back(
+        {{name}, {reference_text(scene, name, format)}, {closed_form, Tone::faint}});
+  }
+  return table;
+}
+
 std::string run_name(const EngineRecord& run) {
   const std::string version = run.version.empty() ? "" : " " + run.version;
   return printable(fmt::format("{}{} {}, profile {}, {:g} Hz", run.engine, version, run.precision,
@@ -155,18 +201,16 @@ std::string run_name(const EngineRecord& run) {
 std::string reference_summary(const ReferenceResult& reference) {
   const SolvedRun& run = reference.run;
   std::string text =
-      fmt::format("{} solver, {} collision{}, ends at {}, {} of CPU time", reference.solver,
-                  run.collisions, run.collisions == 1 ? "" : "s", quantity(run.end_time, kTime),
+      fmt::format("{} solver, {}, ends at {}, {} of CPU time", reference.solver,
+                  counted(run.collisions, "collision"), quantity(run.end_time, kTime),
                   quantity(reference.cpu_seconds, kTime, 2));
   if (reference.box) text += "; " + sampling_summary(*reference.box);
   return text;
 }
 
 std::string sampling_summary(const BoxReference& box) {
-  std::string text =
-      fmt::format("means over {} sample{}", box.samples, box.samples == 1 ? "" : "s");
-  if (box.discarded > 0)
-    text += fmt::format(" after {} period{}", box.discarded, box.discarded == 1 ? "" : "s");
+  std::string text = "means over " + counted(box.samples, "sample");
+  if (box.discarded > 0) text += " after " + counted(box.discarded, "period");
   return text + (box.steady ? ", steady" : ", NOT steady") + "; ± holds the true mean with 95 %";
 }
 

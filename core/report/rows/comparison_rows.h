@@ -5,6 +5,7 @@
 
 #include "harness/compare/record.h"
 #include "report/rows/quantity.h"
+#include "report/rows/text_table.h"
 
 namespace slipcheck {
 
@@ -48,6 +49,21 @@ std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const Engin
 
 /// The most severe `count` of the rows, in their old order.
 std::vector<ComparisonRow> most_severe(std::vector<ComparisonRow> rows, std::size_t count);
+
+/// What comparisons show, behind what says whose they are: the columns, and the cells of one.
+std::vector<Column> comparison_columns(std::vector<Column> whose = {});
+std::vector<Cell> comparison_cells(const ComparisonRow& row, std::vector<Cell> whose = {});
+/// They with their verdicts and notes, of many the `most` that are most severe.
+TextTable comparison_table(std::vector<ComparisonRow> rows, std::size_t most);
+
+/// The first `most` of these observables in the reference, beside their closed forms or the reason
+/// why they are absent.
+TextTable reference_table(const SceneRecord& scene, const std::vector<std::string>& names,
+                          std::size_t most);
+
+/// How many rows of a scene people are shown: one of many bodies would fill many screens, and the
+/// result file has everything.
+inline constexpr std::size_t kMostRows = 20;
 
 /// "bullet 3.24 double, profile default, 240 Hz"
 std::string run_name(const EngineRecord& run);

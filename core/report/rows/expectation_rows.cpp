@@ -43,6 +43,23 @@ std::vector<ExpectationRow> expectation_rows(const EngineRecord& run) {
   return rows;
 }
 
+TextTable expectation_table(const EngineRecord& run) {
+  TextTable table{
+      {{"of this engine"}, {""}, {"value", true}, {"expected", true}, {"verdict", false, 1}},
+      {},
+      "What is expected of " + run_name(run)};
+  for (const ExpectationRow& row : expectation_rows(run)) {
+    table.rows.push_back(
+        {{row.name},
+         {row.statistic},
+         {row.value, row.met ? Tone::plain : Tone::bad},
+         {row.limits},
+         verdict_cell(row.met ? Verdict::within : Verdict::deviates, expectation_word(row.met))});
+    if (!row.note.empty()) table.notes.push_back({row.name, row.note});
+  }
+  return table;
+}
+
 const char* expectation_word(bool met) { return met ? "as expected" : "NOT AS EXPECTED"; }
 
 std::string outcome_text(const EngineRecord& run) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "harness/compare/record.h"
+#include "report/rows/text_table.h"
 
 namespace slipcheck {
 
@@ -19,6 +20,9 @@ struct ExpectationRow {
 
 /// One row for each statistic that the scene expects of a run; none for a run that is not ok.
 std::vector<ExpectationRow> expectation_rows(const EngineRecord& run);
+
+/// They beside each other, with notes.
+TextTable expectation_table(const EngineRecord& run);
 
 /// "as expected", "NOT AS EXPECTED"
 const char* expectation_word(bool met);

@@ -24,6 +24,12 @@ constexpr std::array<OutcomeLook, kOutcomes> kLooks = {{
 
 const OutcomeLook& look_of(Outcome outcome) { return kLooks[static_cast<std::size_t>(outcome)]; }
 
+Tone tone_of(Outcome outcome) {
+  if (outcome == Outcome::accurate) return Tone::good;
+  if (outcome == Outcome::refused) return Tone::faint;
+  return is_usable(outcome) ? Tone::plain : Tone::bad;
+}
+
 bool is_usable(Outcome outcome) {
   return outcome == Outcome::accurate || outcome == Outcome::degraded;
 }

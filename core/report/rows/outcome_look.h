@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "report/rows/text_table.h"
 #include "studies/stability/outcome.h"
 
 namespace slipcheck {
@@ -14,6 +15,7 @@ struct OutcomeLook {
   const char* ink;     ///< of the letter on it
 };
 const OutcomeLook& look_of(Outcome outcome);
+Tone tone_of(Outcome outcome);
 
 /// Whether a run that came out so is of some use: accurate or degraded.
 bool is_usable(Outcome outcome);

@@ -122,6 +122,33 @@ std::string knob_text(MethodCurve::Kind kind, double knob) {
   return {};
 }
 
+std::string from_to(const std::string& first, const std::string& last) {
+  return first == last ? first : fmt::format("{} → {}", first, last);
+}
+
+std::string cost_text(const MethodCurve& curve, double WorkCost::*cost) {
+  std::string first, last;
+  for (const WorkPrecision& point : curve.points) {
+    if (!point.cost) continue;
+    last = short_error((*point.cost).*cost, kTime);
+    if (first.empty()) first = last;
+  }
+  return first.empty() ? "–" : from_to(first, last);
+}
+
+Tone tone_of(Convergence::Kind kind) {
+  switch (kind) {
+    case Convergence::Kind::exact:
+    case Convergence::Kind::converges:
+      return Tone::good;
+    case Convergence::Kind::does_not_converge:
+      return Tone::bad;
+    case Convergence::Kind::unknown:
+      break;
+  }
+  return Tone::faint;
+}
+
 bool is_on_front(const MethodCurve& curve, const std::string& quantity) {
   return std::any_of(curve.points.begin(), curve.points.end(),
                      [&](const WorkPrecision& point) { return point.pareto.contains(quantity); });
@@ -174,6 +201,29 @@ std::vector<ConvergenceCounts> convergence_counts(const std::vector<PrecisionSce
     }
   }
   return result;
+}
+
+TextTable convergence_table(const std::vector<ConvergenceCounts>& methods) {
+  TextTable table{{{"method"},
+                   {"judged: exact", true},
+                   {"converges", true},
+                   {"does not", true},
+                   {"not known", true},
+                   {"trajectory: exact", true},
+                   {"converges", true},
+                   {"does not", true},
+                   {"not known", true},
+                   {"◆", true, 1}},
+                  {},
+                  "Convergence over all scenes"};
+  for (const ConvergenceCounts& counts : methods) {
+    std::vector<Cell>& row = table.rows.emplace_back(1, Cell{counts.method});
+    for (const auto& kinds : {counts.judged, counts.trajectory})
+      for (std::size_t k = 0; k < kinds.size(); ++k)
+        row.push_back(count_cell(kinds[k], tone_of(static_cast<Convergence::Kind>(k))));
+    row.push_back(count_cell(counts.on_front, Tone::strong));
+  }
+  return table;
 }
 
 }  // namespace slipcheck

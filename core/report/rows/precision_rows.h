@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "report/rows/text_table.h"
 #include "scenario/units.h"
 #include "studies/precision/precision.h"
 
@@ -31,6 +32,12 @@ std::string short_number(double value);
 /// A knob for people: "240 Hz", "1e-9", "1.2 µs"; empty where the method has none.
 std::string knob_text(MethodCurve::Kind kind, double knob);
 
+/// From the coarsest to the finest, "2 µs → 3 µs", or once where both are the same.
+std::string from_to(const std::string& first, const std::string& last);
+/// A CPU time from the coarsest point to the finest; "–" where none was taken.
+std::string cost_text(const MethodCurve& curve, double WorkCost::*cost);
+Tone tone_of(Convergence::Kind kind);
+
 /// Whether any point of it ran.
 bool has_run(const MethodCurve& curve);
 
@@ -52,5 +59,7 @@ struct ConvergenceCounts {
 };
 /// In order of appearance. Of effective restitution where it is judged, else of all that is.
 std::vector<ConvergenceCounts> convergence_counts(const std::vector<PrecisionScene>& scenes);
+/// They beside each other: by kind what is judged, by kind the trajectory, the front.
+TextTable convergence_table(const std::vector<ConvergenceCounts>& methods);
 
 }  // namespace slipcheck

@@ -112,4 +112,8 @@ std::string plain_number(double value) {
   return std::isfinite(value) ? fmt::format("{:.4g}", value) : not_finite(value);
 }
 
+std::string counted(std::size_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 }  // namespace slipcheck

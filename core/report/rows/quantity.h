@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "scenario/units.h"
@@ -37,5 +38,8 @@ std::string percent(double share);
 
 /// At most four significant digits without trailing zeros, for pure numbers such as tolerances.
 std::string plain_number(double value);
+
+/// "1 scene", "3 scenes"
+std::string counted(std::size_t count, const std::string& noun);
 
 }  // namespace slipcheck

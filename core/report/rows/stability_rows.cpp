@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "report/rows/outcome_look.h"
 #include "report/rows/quantity.h"
 
 namespace slipcheck {
@@ -64,6 +65,18 @@ StabilityOverview overview_of(const std::vector<StabilityCase>& cases) {
   for (const StabilityCase& scene : cases) add_rows(overview, scene);
   for (StabilityRow& row : overview.rows) row.runs.resize(overview.methods.size());
   return overview;
+}
+
+TextTable totals_table(const StabilityOverview& overview, Tone none) {
+  TextTable table{{{"method"}}, {}, "Runs by class"};
+  for (std::size_t k = 0; k < kOutcomes; ++k)
+    table.columns.push_back({name_of(static_cast<Outcome>(k)), true});
+  for (std::size_t m = 0; m < overview.methods.size(); ++m) {
+    std::vector<Cell>& row = table.rows.emplace_back(1, Cell{overview.methods[m].label()});
+    for (std::size_t k = 0; k < kOutcomes; ++k)
+      row.push_back(count_cell(overview.totals[m][k], tone_of(static_cast<Outcome>(k)), none));
+  }
+  return table;
 }
 
 const char* word_of(const ReferenceOutcome& reference) {
@@ -156,6 +169,38 @@ std::string range_text(const Limit& limit) {
 
 double ratio_to_theory(const Limit& limit) {
   return limit.theory ? limit.value() / *limit.theory : kNotObserved;
+}
+
+TextTable limits_table(const std::vector<const Limit*>& limits) {
+  TextTable table{{{"method"},
+                   {"limit"},
+                   {"scene"},
+                   {"last good … first bad", true},
+                   {"theory"},
+                   {"ratio", true},
+                   {"beyond"},
+                   {"why"}},
+                  {},
+                  "Limits"};
+  for (const Limit* limit : limits) {
+    std::string theory = limit->theory ? value_text(limit->kind, *limit->theory) : "";
+    if (!limit->theory_name.empty()) theory += " = " + limit->theory_name;
+    const double ratio = ratio_to_theory(*limit);
+    std::string why = limit->reason.empty() ? limit->why : limit->reason;
+    for (const double island : limit->islands)
+      why += fmt::format("{}bad all the same at {}", why.empty() ? "" : "; ",
+                         value_text(limit->kind, island));
+    table.rows.push_back({{label_of(*limit)},
+                          {words_of(limit->kind)},
+                          {limit->scene},
+                          {range_text(*limit)},
+                          {theory},
+                          {std::isfinite(ratio) ? fmt::format("{:.4f}", ratio) : ""},
+                          {limit->bad ? name_of(limit->beyond) : "",
+                           limit->bad ? tone_of(limit->beyond) : Tone::plain},
+                          {why, Tone::plain, "", "reason"}});
+  }
+  return table;
 }
 
 }  // namespace slipcheck

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "report/rows/text_table.h"
 #include "studies/stability/limits.h"
 #include "studies/stability/stability.h"
 
@@ -36,6 +37,8 @@ struct StabilityOverview {
 };
 /// Points into `cases`.
 StabilityOverview overview_of(const std::vector<StabilityCase>& cases);
+/// Runs by method and outcome; `none`: how "·" looks.
+TextTable totals_table(const StabilityOverview& overview, Tone none);
 
 /// "accurate", "refused", "FAILED"
 const char* word_of(const ReferenceOutcome& reference);
@@ -68,5 +71,7 @@ std::string value_text(Limit::Kind kind, double value);
 std::string range_text(const Limit& limit);
 /// The limit over theory; NaN where one of them is missing.
 double ratio_to_theory(const Limit& limit);
+/// Limits beside theory, what is beyond them and why.
+TextTable limits_table(const std::vector<const Limit*>& limits);
 
 }  // namespace slipcheck

@@ -55,6 +55,10 @@ Tone tone_of(Verdict verdict) {
   return Tone::bad;
 }
 
+Cell verdict_cell(Verdict verdict, const char* word) {
+  return {word, tone_of(verdict), symbol_of(verdict)};
+}
+
 std::string class_of(Verdict verdict) {
   std::string name = name_of(verdict);
   std::ranges::replace(name, ' ', '-');

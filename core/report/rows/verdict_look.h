@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "harness/compare/record.h"
-#include "report/rows/table_style.h"
+#include "report/rows/text_table.h"
 
 namespace slipcheck {
 
@@ -18,6 +18,8 @@ const char* symbol_of(Verdict verdict);
 /// "within", "UNDECIDED", "DEVIATES", "FAILED"; nothing where nothing is judged.
 const char* word_of(Verdict verdict);
 Tone tone_of(Verdict verdict);
+/// A verdict in a table, of runs that are expected to do something with `word` instead.
+Cell verdict_cell(Verdict verdict, const char* word);
 /// Its class on the page and in the page's filters: a word without spaces.
 std::string class_of(Verdict verdict);
 

@@ -63,21 +63,17 @@ std::string worst_text(const SceneRecord& scene) {
 }  // namespace
 
 std::string brief_of(const std::vector<SceneRecord>& scenes, const TableStyle& style) {
-  std::vector<std::vector<Cell>> rows;
+  TextTable table{{{"scene"}, {""}, {"runs within", true}, {"worst deviation", false, 1}}};
   for (const SceneRecord& scene : scenes) {
-    std::size_t within = 0, counted = 0;
-    for (const EngineRecord& run : scene.runs) {
-      ++counted;
-      within += run.verdict() == Verdict::within;
-    }
+    std::size_t within = 0;
+    for (const EngineRecord& run : scene.runs) within += run.verdict() == Verdict::within;
     const Verdict verdict = scene.verdict();
-    rows.push_back({{scene.scenario.name, Tone::plain},
-                    {symbol_of(verdict), tone_of(verdict)},
-                    {fmt::format("{}/{}", within, counted), Tone::plain},
-                    {worst_text(scene), Tone::faint}});
+    table.rows.push_back({{scene.scenario.name},
+                          {symbol_of(verdict), tone_of(verdict)},
+                          {fmt::format("{}/{}", within, scene.runs.size())},
+                          {worst_text(scene), Tone::faint}});
   }
-  return aligned({{"scene"}, {""}, {"runs within", true}, {"worst deviation", false, 1}},
-                 std::move(rows), style, 0);
+  return terminal_table(std::move(table), style, 0);
 }
 
 }  // namespace slipcheck

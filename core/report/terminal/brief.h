@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "harness/compare/record.h"
-#include "report/rows/table_style.h"
+#include "report/terminal/table_style.h"
 
 namespace slipcheck {
 

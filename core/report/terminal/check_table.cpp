@@ -8,19 +8,7 @@
 namespace slipcheck {
 namespace {
 
-constexpr std::size_t kMostRows = 12;  // of a scene
-
-using Rows = std::vector<std::vector<Cell>>;
-
-Tone tone_of(const ChangeRow& row) {
-  if (!row.gates) return Tone::faint;
-  return row.direction == "better" ? Tone::good : Tone::bad;
-}
-
-std::string word_of(const ChangeRow& row) {
-  if (!row.gates) return "told only";
-  return row.direction.empty() ? "moved" : row.direction;
-}
+constexpr std::size_t kMostOfScene = 12;
 
 /// A scene's lines: a heading of any width above cells of a table that all scenes share.
 struct SceneLines {
@@ -29,7 +17,7 @@ struct SceneLines {
   std::size_t left_out = 0;
 };
 
-SceneLines add_scene(const SceneCheck& scene, const TableStyle& style, Rows& rows) {
+SceneLines add_scene(const SceneCheck& scene, const TableStyle& style, TextTable& table) {
   SceneLines lines;
   const bool green = scene.is_green();
   const Tone tone = green ? Tone::good : Tone::bad;
@@ -39,44 +27,44 @@ SceneLines add_scene(const SceneCheck& scene, const TableStyle& style, Rows& row
       lines.heading += ": " + row.note;
       continue;
     }
-    if (lines.rows == kMostRows && !style.all_observables) {
+    if (lines.rows == kMostOfScene && !style.all_observables) {
       ++lines.left_out;
       continue;
     }
     ++lines.rows;
-    rows.push_back({{row.part, Tone::plain},
-                    {row.observable.empty() ? row.note : row.observable, Tone::plain},
-                    {row.statistic, Tone::faint},
-                    {row.before + " → " + row.now, Tone::plain},
-                    {row.allowed, Tone::faint},
-                    {word_of(row), tone_of(row)},
-                    {row.others > 0 ? fmt::format("+ {} more", row.others) : "", Tone::faint}});
+    table.rows.push_back(
+        {{row.part},
+         {row.what},
+         {row.statistic, Tone::faint},
+         {row.before + " → " + row.now},
+         {row.allowed, Tone::faint},
+         row.direction,
+         {row.others > 0 ? fmt::format("+ {} more", row.others) : "", Tone::faint}});
   }
   return lines;
 }
 
 std::string changes_table(const CheckReport& report, const TableStyle& style) {
-  Rows rows;
+  TextTable table{{{"run"},
+                   {"observable"},
+                   {"of", false, 3},
+                   {"baseline → now"},
+                   {"may move by", true, 2},
+                   {"", false, 1},
+                   {"", false, 4}}};
   std::vector<SceneLines> scenes;
   for (const SceneCheck& scene : report.scenes)
     if (!change_rows(scene, style.all_observables).empty())
-      scenes.push_back(add_scene(scene, style, rows));
+      scenes.push_back(add_scene(scene, style, table));
   if (scenes.empty()) return {};
-  const bool has_rows = !rows.empty();
-  std::istringstream table(aligned({{"run"},
-                                    {"observable"},
-                                    {"of", false, 3},
-                                    {"baseline → now"},
-                                    {"may move by", true, 2},
-                                    {"", false, 1},
-                                    {"", false, 4}},
-                                   std::move(rows), style, 2));
+  const bool has_rows = !table.rows.empty();
+  std::istringstream lines(terminal_table(std::move(table), style, 2));
   std::string text, line;
-  std::getline(table, line);  // the column's headers
+  std::getline(lines, line);  // the column's headers
   if (has_rows) text = line + '\n';
   for (const SceneLines& scene : scenes) {
     text += scene.heading + '\n';
-    for (std::size_t k = 0; k < scene.rows && std::getline(table, line); ++k) text += line + '\n';
+    for (std::size_t k = 0; k < scene.rows && std::getline(lines, line); ++k) text += line + '\n';
     if (scene.left_out > 0) text += fmt::format("  … and {} more (--all)\n", scene.left_out);
   }
   return text + '\n';

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "report/rows/check_rows.h"
-#include "report/rows/table_style.h"
+#include "report/terminal/table_style.h"
 
 namespace slipcheck {
 

@@ -16,43 +16,17 @@
 namespace slipcheck {
 namespace {
 
-/// From the coarsest to the finest, "0.14 → 0.14".
-std::string from_to(const std::string& first, const std::string& last) {
-  return first == last ? first : fmt::format("{} → {}", first, last);
-}
-
-/// The first or the last point of a curve that has what is asked for.
-template <class Has>
-const WorkPrecision* end_of(const MethodCurve& curve, bool last, Has has) {
-  if (last) {
-    const auto found = std::find_if(curve.points.rbegin(), curve.points.rend(), has);
-    return found == curve.points.rend() ? nullptr : &*found;
-  }
-  const auto found = std::find_if(curve.points.begin(), curve.points.end(), has);
-  return found == curve.points.end() ? nullptr : &*found;
-}
-
 std::string errors_text(const MethodCurve& curve, const std::string& quantity,
                         const Dimension& dimension) {
-  const auto has = [&](const WorkPrecision& point) {
+  std::string first, last;
+  for (const WorkPrecision& point : curve.points) {
     const PhaseErrors* errors = errors_of(point, quantity);
-    return errors && std::isfinite(errors->worst);
-  };
-  const WorkPrecision* first = end_of(curve, false, has);
-  if (!first) return "–";
-  const auto text = [&](const WorkPrecision& point) {
-    return short_error(errors_of(point, quantity)->worst, dimension);
-  };
-  if (curve.points.size() == 1) return text(*first);
-  return fmt::format("{} → {}", text(*first), text(*end_of(curve, true, has)));
-}
-
-std::string cost_text(const MethodCurve& curve, double WorkCost::*cost) {
-  const auto has = [](const WorkPrecision& point) { return point.cost.has_value(); };
-  const WorkPrecision* first = end_of(curve, false, has);
-  if (!first) return "–";
-  return from_to(short_error((*first->cost).*cost, kTime),
-                 short_error((*end_of(curve, true, has)->cost).*cost, kTime));
+    if (!errors || !std::isfinite(errors->worst)) continue;
+    last = short_error(errors->worst, dimension);
+    if (first.empty()) first = last;
+  }
+  if (first.empty()) return "–";
+  return curve.points.size() == 1 ? first : fmt::format("{} → {}", first, last);
 }
 
 /// The largest spread of the times.
@@ -63,23 +37,10 @@ std::string spread_text(const MethodCurve& curve) {
   return std::isnan(spread) ? "–" : fmt::format("{:.0f} %", 100 * spread);
 }
 
-Tone ink_of(Convergence::Kind kind) {
-  switch (kind) {
-    case Convergence::Kind::exact:
-    case Convergence::Kind::converges:
-      return Tone::good;
-    case Convergence::Kind::does_not_converge:
-      return Tone::bad;
-    case Convergence::Kind::unknown:
-      break;
-  }
-  return Tone::faint;
-}
-
 Cell convergence_cell(const MethodCurve& curve, const std::string& quantity) {
   const auto found = curve.convergence.find(quantity);
   if (found == curve.convergence.end()) return {"–", Tone::faint};
-  return {words_of(found->second), ink_of(found->second.kind)};
+  return {words_of(found->second), tone_of(found->second.kind)};
 }
 
 /// "i-j.effective_restitution, tolerance 0.005"
@@ -100,7 +61,13 @@ std::string quantity_head(const PrecisionScene& scene, const std::string& quanti
 std::string quantity_block(const PrecisionScene& scene, const std::string& quantity,
                            const TableStyle& style) {
   const Dimension& dimension = error_dimension(scene, quantity);
-  std::vector<std::vector<Cell>> rows;
+  TextTable table{{{"method"},
+                   {"worst error"},
+                   {"convergence"},
+                   {"CPU/step", true, 2},
+                   {"CPU/simulated s", true, 1},
+                   {"spread", true, 3},
+                   {""}}};
   std::size_t left_out = 0;
   for (const MethodCurve& curve : scene.curves) {
     if (!has_run(curve)) continue;  // said below
@@ -108,24 +75,17 @@ std::string quantity_block(const PrecisionScene& scene, const std::string& quant
       ++left_out;
       continue;
     }
-    rows.push_back({{printable(label_of(curve))},
-                    {errors_text(curve, quantity, dimension)},
-                    convergence_cell(curve, quantity),
-                    {cost_text(curve, &WorkCost::per_step), Tone::faint},
-                    {cost_text(curve, &WorkCost::per_simulated_second)},
-                    {spread_text(curve), Tone::faint},
-                    {is_on_front(curve, quantity) ? "◆" : "", Tone::strong}});
+    table.rows.push_back({{label_of(curve)},
+                          {errors_text(curve, quantity, dimension)},
+                          convergence_cell(curve, quantity),
+                          {cost_text(curve, &WorkCost::per_step), Tone::faint},
+                          {cost_text(curve, &WorkCost::per_simulated_second)},
+                          {spread_text(curve), Tone::faint},
+                          {is_on_front(curve, quantity) ? "◆" : "", Tone::strong}});
   }
   std::string text = fmt::format(
       "\n  {}\n", inked(printable(quantity_head(scene, quantity)), Tone::strong, style));
-  text += aligned({{"method"},
-                   {"worst error"},
-                   {"convergence"},
-                   {"CPU/step", true, 2},
-                   {"CPU/simulated s", true, 1},
-                   {"spread", true, 3},
-                   {""}},
-                  std::move(rows), style, 2);
+  text += terminal_table(std::move(table), style, 2);
   if (left_out > 0)
     text +=
         paragraph("… ", fmt::format("{} with other iterations, none better and cheaper", left_out),
@@ -172,37 +132,18 @@ std::string scene_block(const PrecisionScene& scene, const TableStyle& style) {
 }
 
 std::string summary(const std::vector<PrecisionScene>& scenes, const TableStyle& style) {
-  const auto cell = [](std::size_t number, Tone ink) {
-    return number > 0 ? Cell{std::to_string(number), ink} : Cell{"·", Tone::faint};
-  };
-  const auto row = [&](const std::string& method, const std::array<std::size_t, 4>& kinds) {
-    return std::vector<Cell>{{printable(method)},
-                             cell(kinds[0], Tone::good),
-                             cell(kinds[1], Tone::good),
-                             cell(kinds[2], Tone::bad),
-                             cell(kinds[3], Tone::faint)};
-  };
-  const std::vector<Column> columns = {
-      {"method"}, {"exact", true}, {"converges", true}, {"does not", true}, {"not known", true}};
-  std::vector<std::vector<Cell>> judged, trajectory;
-  for (const ConvergenceCounts& counts : convergence_counts(scenes)) {
-    if (counts.other_iterations && !style.all_observables) continue;
-    judged.push_back(row(counts.method, counts.judged));
-    judged.back().push_back(cell(counts.on_front, Tone::strong));
-    trajectory.push_back(row(counts.method, counts.trajectory));
-  }
-  std::vector<Column> with_front = columns;
-  with_front.push_back({"◆", true, 1});
+  std::vector<ConvergenceCounts> methods = convergence_counts(scenes);
+  if (!style.all_observables) std::erase_if(methods, &ConvergenceCounts::other_iterations);
+  const TextTable all = convergence_table(methods);
+  TextTable judged = all.with({0, 1, 2, 3, 4, 9}), trajectory = all.with({0, 5, 6, 7, 8});
+  judged.columns[1].header = trajectory.columns[1].header = "exact";
   const auto head = [&](const std::string& what) {
-    return fmt::format(
-        "{}: {}\n",
-        inked(fmt::format("Of {} scene{}", scenes.size(), scenes.size() == 1 ? "" : "s"),
-              Tone::strong, style),
-        what);
+    return fmt::format("{}: {}\n",
+                       inked("Of " + counted(scenes.size(), "scene"), Tone::strong, style), what);
   };
   return head("effective restitution, or the worst of what has a tolerance") +
-         aligned(with_front, std::move(judged), style, 2) + "\n" + head("the trajectory") +
-         aligned(columns, std::move(trajectory), style, 2) +
+         terminal_table(std::move(judged), style, 2) + "\n" + head("the trajectory") +
+         terminal_table(std::move(trajectory), style, 2) +
          paragraph("◆ ",
                    "no other engine (or solver of the reference) is cheaper and no worse, in some "
                    "quantity at some setting",

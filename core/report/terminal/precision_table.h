@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "report/rows/table_style.h"
+#include "report/terminal/table_style.h"
 #include "studies/precision/precision.h"
 
 namespace slipcheck {

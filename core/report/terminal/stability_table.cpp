@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <set>
 
 #include "report/rows/outcome_look.h"
@@ -18,12 +17,6 @@ namespace {
 
 /// How much room an outcome and a method's name take.
 enum class Room { wide, brief, letters };
-
-Tone ink_of(Outcome outcome) {
-  if (outcome == Outcome::accurate) return Tone::good;
-  if (outcome == Outcome::degraded) return Tone::plain;
-  return outcome == Outcome::refused ? Tone::faint : Tone::bad;
-}
 
 std::string outcome_text(Outcome outcome, Room room) {
   const OutcomeLook& look = look_of(outcome);
@@ -46,18 +39,16 @@ std::vector<std::string> heads_of(const std::vector<StabilityMethod>& methods, R
 }
 
 std::string catalogue(const StabilityOverview& overview, Room room, const TableStyle& style) {
-  std::vector<Column> columns = {{"case"}, {"reference"}};
-  for (const std::string& head : heads_of(overview.methods, room)) columns.push_back({head});
-  std::vector<std::vector<Cell>> rows;
+  TextTable table{{{"case"}, {"reference"}}};
+  for (const std::string& head : heads_of(overview.methods, room)) table.columns.push_back({head});
   for (const StabilityRow& row : overview.rows) {
     const Outcome reference = outcome_of(row.scene->reference);
-    std::vector<Cell> cells = {{printable(row.label)},
-                               {word_of(row.scene->reference), ink_of(reference)}};
+    std::vector<Cell>& cells = table.rows.emplace_back(
+        std::vector<Cell>{{row.label}, {word_of(row.scene->reference), tone_of(reference)}});
     for (const StabilityRun* run : row.runs)
-      cells.push_back(run ? Cell{outcome_text(run->outcome, room), ink_of(run->outcome)} : Cell{});
-    rows.push_back(std::move(cells));
+      cells.push_back(run ? Cell{outcome_text(run->outcome, room), tone_of(run->outcome)} : Cell{});
   }
-  return aligned(std::move(columns), std::move(rows), style, 2);
+  return terminal_table(std::move(table), style, 2);
 }
 
 bool fits(const StabilityOverview& overview, Room room, int width) {
@@ -93,32 +84,22 @@ std::string legend(const StabilityOverview& overview, Room room, const TableStyl
 }
 
 std::string totals(const StabilityOverview& overview, const TableStyle& style) {
-  std::vector<std::size_t> shown;
+  if (overview.methods.empty()) return {};
+  std::vector<std::size_t> shown = {0};  // columns: the method, then what occurs
   for (std::size_t k = 0; k < kOutcomes; ++k)
-    for (const OutcomeCounts& counts : overview.totals)
-      if (counts[k] > 0 && (shown.empty() || shown.back() != k)) shown.push_back(k);
-  std::vector<Column> columns = {{"runs"}};
-  for (const std::size_t k : shown) columns.push_back({name_of(static_cast<Outcome>(k)), true});
-  std::vector<std::vector<Cell>> rows;
-  for (std::size_t m = 0; m < overview.methods.size(); ++m) {
-    std::vector<Cell> row = {{printable(overview.methods[m].label())}};
-    for (const std::size_t k : shown) {
-      const std::size_t count = overview.totals[m][k];
-      row.push_back(count > 0 ? Cell{std::to_string(count), ink_of(static_cast<Outcome>(k))}
-                              : Cell{"·", Tone::faint});
-    }
-    rows.push_back(std::move(row));
-  }
-  if (rows.empty()) return {};
+    if (std::ranges::any_of(overview.totals, [&](const auto& counts) { return counts[k] > 0; }))
+      shown.push_back(k + 1);
+  TextTable table = totals_table(overview, Tone::faint).with(shown);
+  table.columns[0].header = "runs";
   // Whole words where they fit.
   std::size_t width = 4;
-  for (const auto& row : rows) width = std::max(width, 2 + display_width(row[0].text));
-  for (const Column& column : columns)
-    if (column.right) width += 2 + std::max<std::size_t>(3, display_width(column.header));
+  for (const auto& row : table.rows) width = std::max(width, 2 + display_width(row[0].text));
+  for (std::size_t c = 1; c < shown.size(); ++c)
+    width += 2 + std::max<std::size_t>(3, display_width(table.columns[c].header));
   if (width > static_cast<std::size_t>(std::max(style.width, 1)))
-    for (std::size_t c = 0; c < shown.size(); ++c)
-      columns[c + 1].header = look_of(static_cast<Outcome>(shown[c])).brief;
-  return "\n" + aligned(std::move(columns), std::move(rows), style, 2);
+    for (std::size_t c = 1; c < shown.size(); ++c)
+      table.columns[c].header = look_of(static_cast<Outcome>(shown[c] - 1)).brief;
+  return "\n" + terminal_table(std::move(table), style, 2);
 }
 
 std::string reference_line(const StabilityOverview& overview, const TableStyle& style) {
@@ -143,7 +124,7 @@ std::string reasons(const std::vector<StabilityCase>& cases, const TableStyle& s
         text += paragraph(
             fmt::format("{}, {} {} {}, {:g} Hz: ", name, run.record.engine, run.record.precision,
                         printable(run.record.profile), run.record.rate),
-            words_of(run), ink_of(run.outcome), style);
+            words_of(run), tone_of(run.outcome), style);
   }
   return text.empty() ? text : "\n" + text;
 }
@@ -155,8 +136,7 @@ std::string stability_table(const std::vector<StabilityCase>& cases, const Table
   Room room = Room::wide;
   for (const Room smaller : {Room::brief, Room::letters})
     if (!fits(overview, room, style.width)) room = smaller;
-  std::string text = inked(fmt::format("{} case{}", cases.size(), cases.size() == 1 ? "" : "s"),
-                           Tone::strong, style);
+  std::string text = inked(counted(cases.size(), "case"), Tone::strong, style);
   if (overview.rate) text += fmt::format(", engines at {:g} Hz", *overview.rate);
   text += "\n" + catalogue(overview, room, style) + legend(overview, room, style);
   return text + totals(overview, style) + reference_line(overview, style) + reasons(cases, style);
@@ -165,20 +145,14 @@ std::string stability_table(const std::vector<StabilityCase>& cases, const Table
 std::string limits_table(const LimitResults& results, const TableStyle& style) {
   std::string text;
   for (const LimitGroup& group : limit_groups(results.limits)) {
-    std::vector<std::vector<Cell>> rows;
+    TextTable table = limits_table(group.limits).with({0, 3, 4, 5, 6});
+    table.columns[1] = {"good … bad"};
+    if (std::ranges::none_of(group.limits,
+                             [](const Limit* limit) { return limit->theory.has_value(); }))
+      table.columns[2].header = table.columns[3].header = "";
     std::string notes;
-    bool any_theory = false;
     for (const Limit* limit : group.limits) {
       const std::string label = printable(label_of(*limit));
-      const double ratio = ratio_to_theory(*limit);
-      any_theory |= limit->theory.has_value();
-      rows.push_back({{label},
-                      {range_text(*limit)},
-                      {limit->theory ? value_text(limit->kind, *limit->theory) : ""},
-                      {std::isnan(ratio) ? "" : fmt::format("{:.4f}", ratio)},
-                      {limit->bad ? name_of(limit->beyond) : "",
-                       limit->bad ? ink_of(limit->beyond) : Tone::plain}});
-      if (!limit->theory_name.empty()) rows.back()[2].text += " = " + printable(limit->theory_name);
       if (!limit->reason.empty())
         notes += paragraph("! " + label + ": ", limit->reason, Tone::bad, style);
       if (!limit->islands.empty()) {
@@ -193,13 +167,7 @@ std::string limits_table(const LimitResults& results, const TableStyle& style) {
     head.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(head.front())));
     text += fmt::format("{}{}, {}\n", text.empty() ? "" : "\n", inked(head, Tone::strong, style),
                         printable(group.scene));
-    text += aligned({{"method"},
-                     {"good … bad"},
-                     {any_theory ? "theory" : ""},
-                     {any_theory ? "ratio" : "", true},
-                     {"beyond"}},
-                    std::move(rows), style, 2) +
-            notes;
+    text += terminal_table(std::move(table), style, 2) + notes;
   }
   return text;
 }

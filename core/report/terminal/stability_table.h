@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "report/rows/table_style.h"
+#include "report/terminal/table_style.h"
 #include "studies/stability/limits.h"
 #include "studies/stability/stability.h"
 

@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "report/rows/comparison_rows.h"
 #include "report/rows/expectation_rows.h"
@@ -15,9 +15,6 @@
 namespace slipcheck {
 namespace {
 
-/// A scene of many bodies would fill many screens; the most severe rows tell what there is to tell.
-constexpr std::size_t kMostRows = 20;
-
 constexpr std::size_t kIndent = 2;
 
 std::string warnings_text(const std::vector<std::string>& warnings, const TableStyle& style) {
@@ -26,82 +23,27 @@ std::string warnings_text(const std::vector<std::string>& warnings, const TableS
   return result;
 }
 
-std::string more_rows(std::size_t count) {
-  return fmt::format("{} rows more, none more severe", count);
+std::size_t most_rows(const TableStyle& style) {
+  return style.all_observables ? std::numeric_limits<std::size_t>::max() : kMostRows;
 }
 
 std::string reference_block(const SceneRecord& scene, const std::vector<std::string>& names,
                             const TableStyle& style) {
   const ReferenceResult& reference = scene.reference;
   std::string result = paragraph("reference  ", reference_summary(reference), Tone::strong, style);
-
-  const auto absent = absent_observables(scene);
-  std::vector<std::vector<Cell>> rows;
-  bool any_closed_form = false;
-  for (const std::string& name : names) {
-    if (!style.all_observables && rows.size() == kMostRows) break;
-    const QuantityFormat format = format_for(scene, name, nullptr);
-    std::string closed_form = closed_form_text(reference, name, format);
-    any_closed_form |= !closed_form.empty();
-    if (const auto found = absent.find(name); found != absent.end()) closed_form = found->second;
-    rows.push_back({{name}, {reference_text(scene, name, format)}, {closed_form, Tone::faint}});
-  }
-  if (rows.empty()) return result + warnings_text(reference.warnings, style);
-  const std::size_t left_out = names.size() - rows.size();
-  result +=
-      aligned({{"observable"}, {"value", true}, {any_closed_form ? "closed form" : "", false, 1}},
-              std::move(rows), style, 2 * kIndent);
-  if (left_out > 0)
+  const TextTable table = reference_table(scene, names, most_rows(style));
+  if (!table.rows.empty()) result += terminal_table(table, style, 2 * kIndent);
+  if (const std::size_t left_out = names.size() - table.rows.size(); left_out > 0)
     result += paragraph("  … ", fmt::format("{} observables more", left_out), Tone::faint, style);
   return result + warnings_text(reference.warnings, style);
 }
 
-std::string rows_text(const std::vector<ComparisonRow>& comparison, const TableStyle& style) {
-  std::vector<std::vector<Cell>> rows;
-  std::string notes;
-  for (const ComparisonRow& row : comparison) {
-    const Tone ink = tone_of(row.verdict);
-    const Tone error_ink = row.verdict == Verdict::deviates ? Tone::bad : Tone::plain;
-    rows.push_back({{row.name},
-                    {row.reference},
-                    {row.median},
-                    {row.spread},
-                    {row.worst, error_ink},
-                    {row.tolerance},
-                    {symbol_of(row.verdict), ink},
-                    {word_of(row.verdict), ink}});
-    if (!row.note.empty()) notes += paragraph("  " + row.name + ": ", row.note, Tone::faint, style);
-  }
-  return aligned({{"observable"},
-                  {"reference", true},
-                  {"median", true, 2},
-                  {"min … max", true},
-                  {"max error", true},
-                  {"tolerance", true, 1},
-                  {""},
-                  {"", false, 3}},
-                 std::move(rows), style, 2 * kIndent) +
-         notes;
-}
-
-std::string expectations_text(const std::vector<ExpectationRow>& expectations,
-                              const TableStyle& style) {
-  if (expectations.empty()) return {};
-  std::vector<std::vector<Cell>> rows;
-  std::string notes;
-  for (const ExpectationRow& row : expectations) {
-    const Tone ink = row.met ? Tone::good : Tone::bad;
-    rows.push_back({{row.name},
-                    {row.statistic},
-                    {row.value, row.met ? Tone::plain : Tone::bad},
-                    {row.limits},
-                    {symbol_of(row.met ? Verdict::within : Verdict::deviates), ink},
-                    {expectation_word(row.met), ink}});
-    if (!row.note.empty()) notes += paragraph("  " + row.name + ": ", row.note, Tone::faint, style);
-  }
-  return aligned({{"of this engine"}, {""}, {"value", true}, {"expected"}, {""}, {"", false, 1}},
-                 std::move(rows), style, 2 * kIndent) +
-         notes;
+std::string noted_table(const TextTable& table, const TableStyle& style) {
+  if (table.rows.empty()) return {};
+  std::string text = terminal_table(table, style, 2 * kIndent);
+  for (const auto& [name, note] : table.notes)
+    text += paragraph(name.empty() ? "  … " : "  " + name + ": ", note, Tone::faint, style);
+  return text;
 }
 
 /// Why a run is not ok, or that it is although it should not be.
@@ -120,7 +62,7 @@ std::string run_block(const SceneRecord& scene, const EngineRecord& run,
                       const std::vector<std::string>& names, const TableStyle& style) {
   const bool ok = run.status == RunStatus::ok;
   std::string head = run_name(run);
-  if (ok) head += fmt::format(", {} phase{}", run.phases, run.phases == 1 ? "" : "s");
+  if (ok) head += ", " + counted(run.phases, "phase");
   if (const std::string cost = step_cost(run); ok && !cost.empty()) head += ", " + cost;
 
   std::string result = "\n";
@@ -129,13 +71,11 @@ std::string run_block(const SceneRecord& scene, const EngineRecord& run,
     result += std::string(kIndent, ' ') + inked(line, Tone::strong, style) + '\n';
   if (!ok || (run.expect && run.expect->status)) result += status_block(run, style);
   if (ok) {
-    std::vector<ComparisonRow> rows = comparison_rows(scene, run, names);
-    const std::size_t count = rows.size();
-    if (!style.all_observables) rows = most_severe(std::move(rows), kMostRows);
-    const std::size_t left_out = count - rows.size();
-    if (!rows.empty()) result += rows_text(rows, style);
-    if (left_out > 0) result += paragraph("  … ", more_rows(left_out), Tone::faint, style);
-    result += expectations_text(expectation_rows(run), style);
+    result +=
+        noted_table(comparison_table(comparison_rows(scene, run, names), most_rows(style)), style);
+    TextTable expected = expectation_table(run);
+    expected.columns[3].right = false;  // beside the verdict
+    result += noted_table(expected, style);
   }
   if (!run.applied.not_represented.empty())
     result += paragraph(
@@ -150,10 +90,6 @@ std::string verdict_text(const SceneRecord& scene, const TableStyle& style) {
   return inked(fmt::format("{} {}", symbol_of(verdict),
                            name == name_of(verdict) && !loud.empty() ? loud : name),
                tone_of(verdict), style);
-}
-
-std::string plural(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -183,9 +119,9 @@ std::string summary_of(const std::vector<SceneRecord>& scenes, const TableStyle&
       all.scenes_alone > 0 ? fmt::format(", {} of the reference alone", all.scenes_alone) : "";
   const std::string runs =
       all.run_count > 0
-          ? fmt::format("; {}: {}", plural(all.run_count, "engine run"), list(all.runs))
+          ? fmt::format("; {}: {}", counted(all.run_count, "engine run"), list(all.runs))
           : "";
-  return fmt::format("{}: {}{}{}\n", plural(all.scene_count, "scene"), list(all.scenes), alone,
+  return fmt::format("{}: {}{}{}\n", counted(all.scene_count, "scene"), list(all.scenes), alone,
                      runs);
 }
 

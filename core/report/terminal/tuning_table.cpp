@@ -48,13 +48,19 @@ std::string heading(const TuningRecord& tuning, const TableStyle& style) {
   const std::size_t training = count_scenes(tuning, false);
   std::string text = fmt::format("{} {} {}", tuning.engine, tuning.version, tuning.precision);
   return inked(text, Tone::strong, style) +
-         fmt::format(", fitted to {} scene{} at {:g} Hz, {} phases\n", training,
-                     training == 1 ? "" : "s", fmt::join(tuning.rates, ", "), tuning.final_phases);
+         fmt::format(", fitted to {} at {:g} Hz, {} phases\n", counted(training, "scene"),
+                     fmt::join(tuning.rates, ", "), tuning.final_phases);
 }
 
 std::string runs_table(const TuningRecord& tuning, const TableStyle& style) {
   const TuningFinalist &start = tuning.result.start(), &best = tuning.result.best();
-  std::vector<std::vector<Cell>> rows;
+  TextTable table{{{"scene"},
+                   {"rate", true},
+                   {tuning.start, true},
+                   {tuning.profile, true},
+                   {""},
+                   {"worst in", false, 1},
+                   {""}}};
   for (std::size_t k = 0; k < tuning.tasks.size(); ++k) {
     const TuningTask& task = tuning.tasks[k];
     const RunScore &before = start.runs[k], &after = best.runs[k];
@@ -62,23 +68,15 @@ std::string runs_table(const TuningRecord& tuning, const TableStyle& style) {
     const auto error = [](const RunScore& run) {
       return run.failed > 0 ? "fails" : tuning_error_text(run);
     };
-    rows.push_back({{task.scene},
-                    {fmt::format("{:g} Hz", task.rate)},
-                    {error(before)},
-                    {error(after), good ? Tone::good : Tone::bad},
-                    {good ? "✓" : "✗", good ? Tone::good : Tone::bad},
-                    {after.failed > 0 ? "" : after.observable, Tone::faint},
-                    {task.held_out ? "held out" : "", Tone::faint}});
+    table.rows.push_back({{task.scene},
+                          {fmt::format("{:g} Hz", task.rate)},
+                          {error(before)},
+                          {error(after), good ? Tone::good : Tone::bad},
+                          {good ? "✓" : "✗", good ? Tone::good : Tone::bad},
+                          {after.failed > 0 ? "" : after.observable, Tone::faint},
+                          {task.held_out ? "held out" : "", Tone::faint}});
   }
-  return aligned({{"scene"},
-                  {"rate", true},
-                  {tuning.start, true},
-                  {tuning.profile, true},
-                  {""},
-                  {"worst in", false, 1},
-                  {""}},
-                 std::move(rows), style, 2) +
-         failures(tuning, tuning.start, start, style) +
+  return terminal_table(std::move(table), style, 2) + failures(tuning, tuning.start, start, style) +
          failures(tuning, tuning.profile, best, style);
 }
 
@@ -91,14 +89,14 @@ std::string summary(const TuningRecord& tuning, const TableStyle& style) {
                              {cost_text(before.cost)},
                              {cost_text(after.cost)}};
   };
-  std::vector<std::vector<Cell>> rows = {row("fitted to", start.training, best.training)};
-  if (best.held_out) rows.push_back(row("held out", *start.held_out, *best.held_out));
-  std::string text = aligned({{"worst error " + error_unit(tuning.goal)},
-                              {tuning.start, true},
-                              {tuning.profile, true},
-                              {"CPU before", true},
-                              {"CPU after", true}},
-                             std::move(rows), style, 2);
+  TextTable table{{{"worst error " + error_unit(tuning.goal)},
+                   {tuning.start, true},
+                   {tuning.profile, true},
+                   {"CPU before", true},
+                   {"CPU after", true}},
+                  {row("fitted to", start.training, best.training)}};
+  if (best.held_out) table.rows.push_back(row("held out", *start.held_out, *best.held_out));
+  std::string text = terminal_table(std::move(table), style, 2);
   if (!best.held_out) return text;
   const double ratio = best.held_out->worst / best.training.worst;
   text += fmt::format("  held out: {} times the error of the scenes it was fitted to\n",
@@ -109,30 +107,28 @@ std::string summary(const TuningRecord& tuning, const TableStyle& style) {
 }
 
 std::string trade_off(const TuningRecord& tuning, const TableStyle& style) {
-  std::vector<std::vector<Cell>> rows;
+  TextTable table{{{"CPU", true}, {"worst error", true}, {"changed from " + tuning.start}}};
   for (const TuningCandidate& candidate : tuning.result.front)
-    rows.push_back(
+    table.rows.push_back(
         {{cost_text(candidate.score.cost)},
          {error_text(candidate.score)},
          {changes_text(tuning.space, tuning.space.start, candidate.settings), Tone::faint}});
-  return aligned({{"CPU", true}, {"worst error", true}, {"changed from " + tuning.start}},
-                 std::move(rows), style, 2);
+  return terminal_table(std::move(table), style, 2);
 }
 
 std::string settings_table(const TuningRecord& tuning, const TableStyle& style) {
-  std::vector<std::vector<Cell>> rows;
+  TextTable table{{{"setting"}, {"chosen", true}, {"engine's own", true}, {"", false, 1}}};
   for (const SettingInfo& info : tuning.space.known) {
     const auto chosen = tuning.result.best().settings.find(info.name);
     if (chosen == tuning.result.best().settings.end()) continue;
     const std::string unit = info.unit.empty() ? "" : " " + info.unit;
-    rows.push_back({{info.name},
-                    {exact_text(chosen->second) + unit},
-                    {exact_text(info.shipped) + unit, Tone::faint},
-                    {printable(info.about), Tone::faint}});
+    table.rows.push_back({{info.name},
+                          {exact_text(chosen->second) + unit},
+                          {exact_text(info.shipped) + unit, Tone::faint},
+                          {printable(info.about), Tone::faint}});
   }
-  if (rows.empty()) return "  every setting has the engine's own value\n";
-  return aligned({{"setting"}, {"chosen", true}, {"engine's own", true}, {"", false, 1}},
-                 std::move(rows), style, 2);
+  if (table.rows.empty()) return "  every setting has the engine's own value\n";
+  return terminal_table(std::move(table), style, 2);
 }
 
 }  // namespace
