@@ -48,10 +48,9 @@ void check_arguments(const CheckArguments& arguments) {
         "as they are shipped");
   if (!arguments.update && !arguments.why.empty())
     throw BadOption("--why: must stand beside --update");
-  if (!arguments.junit.empty()) check_output("--junit", arguments.junit, false);
-  if (!arguments.markdown.empty()) check_output("--markdown", arguments.markdown, false);
-  if (!arguments.json.empty() && arguments.json != "-")
-    check_output("--json", arguments.json, false);
+  check_output("--junit", arguments.junit, false);
+  check_output("--markdown", arguments.markdown, false);
+  check_output("--json", arguments.json, false);
   std::error_code ignored;
   if (fs::exists(arguments.baselines, ignored) && !fs::is_directory(arguments.baselines, ignored))
     throw BadOption(fmt::format("--baselines: must be a directory, got {}", arguments.baselines));
@@ -108,11 +107,7 @@ CheckReport hold(const CheckArguments& arguments, const Baselines& baselines,
 }
 
 void write_files(const CheckArguments& arguments, const CheckReport& report) {
-  const auto json = [&] { return json_of(report).dump(2) + "\n"; };
-  if (arguments.json == "-")
-    fmt::print("{}", json());
-  else if (!arguments.json.empty())
-    write_file_atomically(arguments.json, json());
+  write_json(arguments.json, [&] { return json_of(report).dump(2) + "\n"; });
   if (!arguments.junit.empty())
     write_file_atomically(arguments.junit, junit_xml(test_outcomes(report)));
   if (!arguments.markdown.empty()) write_file_atomically(arguments.markdown, markdown_of(report));

@@ -48,9 +48,8 @@ void add_grid_options(CLI::App& command, GridArguments& arguments) {
 }
 
 void complete(GridArguments& arguments) {
-  if (!arguments.json.empty() && arguments.json != "-")
-    check_output("--json", arguments.json, false);
-  if (!arguments.directory.empty()) check_output("--out", arguments.directory, true);
+  check_output("--json", arguments.json, false);
+  check_output("--out", arguments.directory, true);
   for (std::string& profile : arguments.engines.profiles)
     if (is_profile_path(profile)) profile = std::filesystem::absolute(profile).string();
   arguments.options.limits.memory = arguments.memory_limit << 20;

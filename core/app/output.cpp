@@ -8,12 +8,14 @@
 
 #include "app/commands.h"
 #include "app/progress_bar.h"
+#include "report/files/files.h"
 
 namespace slipcheck {
 
 namespace fs = std::filesystem;
 
 void check_output(const std::string& option, const fs::path& path, bool is_directory) {
+  if (path.empty() || path == "-") return;
   std::error_code ignored;
   if (is_directory) {
     if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
@@ -28,6 +30,13 @@ void check_output(const std::string& option, const fs::path& path, bool is_direc
         fmt::format("{}: its directory must be writable, got {}", option, path.string()));
   if (fs::is_directory(path, ignored))
     throw BadOption(fmt::format("{}: must be a file, got {}", option, path.string()));
+}
+
+void write_json(const std::string& path, const std::function<std::string()>& text) {
+  if (path == "-")
+    fmt::print("{}", text());
+  else if (!path.empty())
+    write_file_atomically(path, text());
 }
 
 TableStyle table_style(bool all) {

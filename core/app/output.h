@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "report/terminal/table_style.h"
@@ -8,8 +9,11 @@
 namespace slipcheck {
 
 /// What cannot be written in the end is refused before anything runs: throws BadOption with the
-/// option, the rule and the path.
+/// option, the rule and the path. No path is not written, and - is stdout.
 void check_output(const std::string& option, const std::filesystem::path& path, bool is_directory);
+
+/// Writes what --json asks for: nothing without a path, - to stdout.
+void write_json(const std::string& path, const std::function<std::string()>& text);
 
 /// How tables look on stdout, 100 columns wide where it is no terminal. `all`: with what is else
 /// left out.

@@ -73,10 +73,7 @@ int measure(PrecisionArguments& arguments) {
     common.options.progress = [&](std::size_t done, std::size_t total) { bar.set(done, total); };
     scenes = run_precision(std::move(scenarios), arguments.grid, common.options);
   }
-  if (common.json == "-")
-    fmt::print("{}\n", json_of(scenes, arguments.grid).dump());
-  else if (!common.json.empty())
-    write_file_atomically(common.json, json_of(scenes, arguments.grid).dump() + "\n");
+  write_json(common.json, [&] { return json_of(scenes, arguments.grid).dump() + "\n"; });
   if (!common.directory.empty())
     write_folder(common.directory, scenes, arguments.grid,
                  fmt::format("slipcheck precision {}", fmt::join(common.files, " ")));

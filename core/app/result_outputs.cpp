@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <set>
-#include <string_view>
 
 #include "app/output.h"
 #include "report/charts/gnuplot_charts.h"
@@ -39,22 +38,57 @@ void for_each_motion(const std::vector<SceneRecord>& scenes, Take&& take) {
   }
 }
 
-void write_xyz(const fs::path& folder, const std::vector<SceneRecord>& scenes) {
+void write_xyz(const fs::path& folder, const ReportContent& content) {
   fs::create_directories(folder);
-  for_each_motion(
-      scenes, [&](const Scenario& scenario, const RecordedMotion& motion, const std::string& stem) {
-        write_file_atomically(folder / (stem + ".xyz"), xyz_of(scenario, motion));
-      });
+  for_each_motion(content.scenes, [&](const Scenario& scenario, const RecordedMotion& motion,
+                                      const std::string& stem) {
+    write_file_atomically(folder / (stem + ".xyz"), xyz_of(scenario, motion));
+  });
 }
 
-void write_vtk(const fs::path& folder, const std::vector<SceneRecord>& scenes) {
+void write_vtk(const fs::path& folder, const ReportContent& content) {
   fs::create_directories(folder);
-  for_each_motion(
-      scenes, [&](const Scenario& scenario, const RecordedMotion& motion, const std::string& stem) {
-        for (const auto& [name, text] : vtk_files_of(scenario, motion, stem))
-          write_file_atomically(folder / name, text);
-      });
+  for_each_motion(content.scenes, [&](const Scenario& scenario, const RecordedMotion& motion,
+                                      const std::string& stem) {
+    for (const auto& [name, text] : vtk_files_of(scenario, motion, stem))
+      write_file_atomically(folder / name, text);
+  });
 }
+
+/// An option, and the file or folder that it names.
+struct Writer {
+  const char* option;
+  const char* about;
+  std::string ResultOutputs::*path;
+  std::string (*text_of)(const ReportContent& content, const ResultOutputs& outputs);
+  void (*write_folder)(const fs::path& folder, const ReportContent& content) = nullptr;
+};
+
+/// In the order in which they are written: that of gnuplot may fail and is the last.
+constexpr Writer kWriters[] = {
+    {"--html", "Write one self-contained page here", &ResultOutputs::html,
+     [](const auto& content, const auto& outputs) {
+       return report_page(content,
+                          outputs.without_script ? PageScript::left_out : PageScript::included);
+     }},
+    {"--csv", "Write a table: a row for each run and observable", &ResultOutputs::csv,
+     [](const auto& content, const auto&) { return results_csv(content.scenes); }},
+    {"--phases-csv", "Write a table: a row for each phase of an observable with a tolerance",
+     &ResultOutputs::phases_csv,
+     [](const auto& content, const auto&) { return phases_csv(content.scenes); }},
+    {"--markdown", "Write a summary that fits a pull request's comment", &ResultOutputs::markdown,
+     [](const auto& content, const auto&) { return markdown_of(content.scenes); }},
+    {"--junit", "Write JUnit XML: a test for each run", &ResultOutputs::junit,
+     [](const auto& content, const auto& outputs) {
+       return junit_xml(test_outcomes(content.scenes, outputs.allow_undecided));
+     }},
+    {"--xyz", "Write a folder of trajectories as extended XYZ, for OVITO", &ResultOutputs::xyz,
+     nullptr, write_xyz},
+    {"--vtk", "Write a folder of trajectories as PVD and VTP, for ParaView", &ResultOutputs::vtk,
+     nullptr, write_vtk},
+    {"--svg", "Write a folder of charts for papers, by gnuplot, with data and scripts",
+     &ResultOutputs::svg, nullptr, write_gnuplot_charts},
+};
 
 }  // namespace
 
@@ -63,53 +97,29 @@ bool ResultOutputs::show_motion() const {
 }
 
 void add_result_outputs(CLI::App& command, ResultOutputs& outputs, const std::string& page_option) {
-  command.add_option(page_option, outputs.html, "Write one self-contained page here");
+  for (const Writer& writer : kWriters)
+    command.add_option(writer.path == &ResultOutputs::html ? page_option : writer.option,
+                       outputs.*writer.path, writer.about);
   command.add_flag("--without-script", outputs.without_script,
                    "The page has its tables and drawings, but no charts and no replay");
-  command.add_option("--csv", outputs.csv, "Write a table: a row for each run and observable");
-  command.add_option("--phases-csv", outputs.phases_csv,
-                     "Write a table: a row for each phase of an observable with a tolerance");
-  command.add_option("--markdown", outputs.markdown,
-                     "Write a summary that fits a pull request's comment");
-  command.add_option("--junit", outputs.junit, "Write JUnit XML: a test for each run");
   command.add_flag("--allow-undecided", outputs.allow_undecided,
                    "A tolerance by which nothing can be judged is no failure");
-  command.add_option("--svg", outputs.svg,
-                     "Write a folder of charts for papers, by gnuplot, with data and scripts");
-  command.add_option("--xyz", outputs.xyz,
-                     "Write a folder of trajectories as extended XYZ, for OVITO");
-  command.add_option("--vtk", outputs.vtk,
-                     "Write a folder of trajectories as PVD and VTP, for ParaView");
 }
 
 void check_outputs(const ResultOutputs& outputs) {
-  const auto check = [](const char* option, const std::string& path, bool is_folder) {
-    if (!path.empty()) check_output(option, path, is_folder);
-  };
-  check("--html", outputs.html, false);
-  check("--csv", outputs.csv, false);
-  check("--phases-csv", outputs.phases_csv, false);
-  check("--markdown", outputs.markdown, false);
-  check("--junit", outputs.junit, false);
-  check("--svg", outputs.svg, true);
-  check("--xyz", outputs.xyz, true);
-  check("--vtk", outputs.vtk, true);
+  for (const Writer& writer : kWriters)
+    check_output(writer.option, outputs.*writer.path, writer.write_folder != nullptr);
 }
 
 void write_outputs(const ResultOutputs& outputs, const ReportContent& content) {
-  const std::vector<SceneRecord>& scenes = content.scenes;
-  if (!outputs.csv.empty()) write_file_atomically(outputs.csv, results_csv(scenes));
-  if (!outputs.phases_csv.empty()) write_file_atomically(outputs.phases_csv, phases_csv(scenes));
-  if (!outputs.markdown.empty()) write_file_atomically(outputs.markdown, markdown_of(scenes));
-  if (!outputs.junit.empty())
-    write_file_atomically(outputs.junit, junit_xml(test_outcomes(scenes, outputs.allow_undecided)));
-  if (!outputs.html.empty())
-    write_file_atomically(
-        outputs.html,
-        report_page(content, outputs.without_script ? PageScript::left_out : PageScript::included));
-  if (!outputs.xyz.empty()) write_xyz(outputs.xyz, scenes);
-  if (!outputs.vtk.empty()) write_vtk(outputs.vtk, scenes);
-  if (!outputs.svg.empty()) write_gnuplot_charts(outputs.svg, content);
+  for (const Writer& writer : kWriters) {
+    const std::string& path = outputs.*writer.path;
+    if (path.empty()) continue;
+    if (writer.write_folder)
+      writer.write_folder(path, content);
+    else
+      write_file_atomically(path, writer.text_of(content, outputs));
+  }
 }
 
 }  // namespace slipcheck

@@ -64,10 +64,7 @@ void write_folder(const fs::path& directory, const ReportContent& content) {
 }
 
 void write_results(const RunArguments& arguments, const ReportContent& content) {
-  if (arguments.json == "-")
-    fmt::print("{}\n", json_of(content.scenes).dump(2));
-  else if (!arguments.json.empty())
-    write_file_atomically(arguments.json, json_of(content.scenes).dump(2) + "\n");
+  write_json(arguments.json, [&] { return json_of(content.scenes).dump(2) + "\n"; });
   write_outputs(arguments.outputs, content);
   if (!arguments.directory.empty()) write_folder(arguments.directory, content);
 }
@@ -81,10 +78,9 @@ void print_warnings(const std::vector<SceneRecord>& scenes) {
 }
 
 int run(RunArguments& arguments) {
-  if (!arguments.json.empty() && arguments.json != "-")
-    check_output("--json", arguments.json, false);
+  check_output("--json", arguments.json, false);
   check_outputs(arguments.outputs);
-  if (!arguments.directory.empty()) check_output("--out", arguments.directory, true);
+  check_output("--out", arguments.directory, true);
   arguments.options.settings = parse_settings(arguments.settings);
   watch_for_interrupts();
   std::vector<Scenario> scenarios = load_files(arguments.files);

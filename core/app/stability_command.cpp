@@ -109,13 +109,8 @@ int examine(StabilityArguments& arguments) {
 
   if (!common.quiet) fmt::print(stderr, "{}", debug_build_warning());
   const StabilityResults results = run_all(arguments, std::move(cases));
-  const auto json = [&] {
-    return json_of(results.cases, arguments.grid, results.limits).dump(2) + "\n";
-  };
-  if (common.json == "-")
-    fmt::print("{}", json());
-  else if (!common.json.empty())
-    write_file_atomically(common.json, json());
+  write_json(common.json,
+             [&] { return json_of(results.cases, arguments.grid, results.limits).dump(2) + "\n"; });
   if (!common.directory.empty())
     write_folder(common.directory, arguments, results,
                  whole_catalogue

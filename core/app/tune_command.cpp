@@ -86,8 +86,7 @@ int exit_code_of(const TuningResult& result) {
 
 int tune_engine(TuneArguments& arguments) {
   check_output("-o", arguments.output, false);
-  if (!arguments.json.empty() && arguments.json != "-")
-    check_output("--json", arguments.json, false);
+  check_output("--json", arguments.json, false);
   watch_for_interrupts();
   TuneSetup setup = prepare_tuning(arguments);
   if (!arguments.quiet) fmt::print(stderr, "{}", debug_build_warning());
@@ -103,11 +102,7 @@ int tune_engine(TuneArguments& arguments) {
 
   const TuningRecord& record = setup.record;
   write_file_atomically(arguments.output, tuned_profile_yaml(record));
-  const std::string json = arguments.json.empty() ? "" : json_of(record).dump(2) + "\n";
-  if (arguments.json == "-")
-    fmt::print("{}", json);
-  else if (!json.empty())
-    write_file_atomically(arguments.json, json);
+  write_json(arguments.json, [&] { return json_of(record).dump(2) + "\n"; });
   if (!arguments.quiet) {
     if (arguments.json != "-") fmt::print("{}", tuning_table(record, table_style()));
     if (!record.result.improved())
