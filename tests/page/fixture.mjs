@@ -147,9 +147,9 @@ function scene_html(scene, k) {
   const verdict = verdict_of(scene);
   const run_html = (run, r) => `<section class="run" data-run="${r}" data-engine="${run.engine}" data-precision="${run.precision}" data-profile="${run.profile}" data-rate="${run.rate}" data-verdict="${run.verdict}">
 <h4>${run.label} <span class="${run.verdict === 'within' ? 'good' : 'bad'}">${run.verdict}</span></h4>
-<div class="table" tabindex="0"><table><thead><tr><th>observable</th><th class="number">reference</th><th class="number">median</th></tr></thead>
-<tbody><tr><th>i.sliding_time</th><td class="number">27.7 ms</td><td class="number">9.3 µs</td></tr><tr><th>j.sliding_time</th><td class="number">2.1 s</td><td class="number">28 ms</td></tr>
-<tr><th>i-j.effective_restitution</th><td class="number">0.357</td><td class="number">–</td></tr></tbody></table></div></section>`;
+<div class="table" tabindex="0"><table><thead><tr><th>observable</th><th>reference</th><th>median</th></tr></thead>
+<tbody><tr><th>i.sliding_time</th><td data-value="0.0277">27.7 ms</td><td data-value="9.3e-06">9.3 µs</td></tr><tr><th>j.sliding_time</th><td data-value="2.1">2.1 s</td><td data-value="0.028">28 ms</td></tr>
+<tr><th>i-j.effective_restitution</th><td data-value="0.357">0.357</td><td>–</td></tr></tbody></table></div></section>`;
   return `<section class="scene ${verdict}" id="${scene.id}" data-scene="${k}" data-name="${escaped(scene.name)}" data-verdict="${verdict}">
 <h2>${escaped(scene.name)} <span class="verdict ${verdict}">${verdict}</span></h2><p>What happens here.</p>
 <div class="plots" data-scene="${k}"></div>${scene.runs.map(run_html).join('\n')}</section>`;

@@ -163,6 +163,11 @@ async function sorts() {
     await head.locator('button').click();
     assert.equal(await head.getAttribute('aria-sort'), 'descending');
     assert.deepEqual(await rows(), [...rising].reverse());
+
+    const numbers = page.locator('table:has(tbody tr:nth-child(2) td:nth-child(2)[data-value]):has(button.sort):visible').first();
+    await numbers.locator('thead th').nth(1).locator('button').click();
+    const values = await numbers.locator('tbody tr').evaluateAll((all) => all.map((row) => Number(row.cells[1].dataset.value ?? Infinity)));
+    assert.deepEqual(values, [...values].sort((a, b) => a - b));
   });
 }
 

@@ -59,8 +59,9 @@ TEST(Html, ShowsWhatAnEngineIsExpectedToDo) {
   EXPECT_TRUE(contains(html, "<span class=\"verdict within\">✓ as expected</span>"));
   EXPECT_TRUE(contains(html, "240 Hz <span class=\"good\">✓ as expected</span></h4>"));
   EXPECT_TRUE(contains(html,
-                       "<td>max</td><td>0.4980</td><td>0.4900 … "
-                       "0.5000</td><td class=\"good\">✓ as expected</td>"));
+                       "<td>max</td><td data-value=\"0.498\">0.4980</td><td "
+                       "data-value=\"0.49\">0.4900 … 0.5000</td><td class=\"good\">✓ as "
+                       "expected</td>"));
   EXPECT_FALSE(contains(html, "Worst deviations"));
   // What the tolerance would say is still told.
   EXPECT_TRUE(contains(html, "62 of 64 phases are outside the tolerance of 0.005"));
@@ -155,6 +156,16 @@ TEST(Html, OpensOnlyWhatIsWrong) {
   EXPECT_TRUE(contains(html, "data-rate=\"4000\" data-verdict=\"deviates\""));
 }
 
+TEST(Html, CellsHoldTheirNumbersInSI) {
+  const std::string html = page_of({lottery_scene()});
+  // The reference beside them is 27.78 ms.
+  EXPECT_TRUE(contains(html,
+                       "<td data-value=\"0.02765\">27.65</td><td data-value=\"0.0276\">27.60 … "
+                       "27.70</td><td data-value=\"0.003\">0.300 %</td><td "
+                       "data-value=\"0.01\">1 %</td>"));
+  EXPECT_TRUE(contains(html, "<td>–</td>"));
+}
+
 TEST(Html, CountsWhatEnginesCannotRepresent) {
   SceneRecord first = lottery_scene(), second = lottery_scene();
   for (EngineRecord& run : first.runs)
@@ -164,8 +175,11 @@ TEST(Html, CountsWhatEnginesCannotRepresent) {
   second.runs[0].profile = "tuned";
   const std::string html = page_of({first, second});
   EXPECT_TRUE(contains(html, "<th>bullet default, of 2</th><th>bullet tuned, of 1</th>"));
-  EXPECT_TRUE(contains(html, "<th>restitution below … m/s of approach</th><td>2</td><td>1</td>"));
-  EXPECT_TRUE(contains(html, "<th>rolling</th><td>1</td><td class=\"faint\">·</td>"));
+  EXPECT_TRUE(contains(html,
+                       "<th>restitution below … m/s of approach</th><td data-value=\"2\">2</td><td "
+                       "data-value=\"1\">1</td>"));
+  EXPECT_TRUE(
+      contains(html, "<th>rolling</th><td data-value=\"1\">1</td><td class=\"faint\">·</td>"));
   EXPECT_TRUE(contains(html, "rolling (1.41 times)"));
   first.runs.clear();
   EXPECT_FALSE(contains(page_of({first}), "What engines cannot represent"));

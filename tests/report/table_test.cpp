@@ -213,8 +213,9 @@ TEST(Table, ShortensASceneOfManyBodies) {
 
 TEST(Table, LetsATitleNotControlTheTerminal) {
   SceneRecord scene = lottery_scene();
-  scene.scenario.title = "evil \x1b]0;title\x07";
+  scene.scenario.name = scene.scenario.title = "evil \x1b]0;title\x07";
   EXPECT_FALSE(contains(table_of(scene, kWide), "\x1b"));
+  EXPECT_FALSE(contains(brief_of({scene}, kWide), "\x1b"));
 }
 
 TEST(Summary, CountsScenesAndRuns) {

@@ -79,8 +79,8 @@ std::string text_of(const SceneRecord& scene, const EngineRecord& run) {
     for (const ExpectationRow& row : expectation_rows(run))
       text += fmt::format("{} {}{}{}: {}, expected {}{}{}\n",
                           symbol_of(row.met ? Verdict::within : Verdict::deviates), row.name,
-                          row.statistic.empty() ? "" : " ", row.statistic, row.value, row.limits,
-                          row.note.empty() ? "" : "; ", row.note);
+                          row.statistic.empty() ? "" : " ", row.statistic, row.value.text,
+                          row.limits.text, row.note.empty() ? "" : "; ", row.note);
   } else {
     text += fmt::format("{}{}{}\n", outcome_text(run), run.reason.empty() ? "" : ": ", run.reason);
   }

@@ -71,7 +71,7 @@ void add_rows(const SceneRecord& scene, const EngineRecord& run, TextTable& tabl
   for (const ExpectationRow& row : expectation_rows(run))
     if (!row.met)
       table.rows.push_back(
-          {bad, {row.name + " " + row.statistic}, {"expected " + row.limits}, {row.value}});
+          {bad, {row.name + " " + row.statistic}, {"expected " + row.limits.text}, row.value});
   std::vector<ComparisonRow> rows = comparison_rows(scene, run, shown_observables(scene, false));
   std::erase_if(rows, [](const ComparisonRow& row) {
     return row.verdict != Verdict::deviates && row.verdict != Verdict::undecided;

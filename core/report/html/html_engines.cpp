@@ -43,6 +43,11 @@ std::string setting_text(const Setting& setting) {
   return std::get<std::string>(setting);
 }
 
+Cell setting_cell(const Setting& setting) {
+  const double* number = std::get_if<double>(&setting);
+  return {setting_text(setting), Tone::plain, number ? *number : kNotObserved};
+}
+
 /// Keeps what the others have, too, with the same value.
 void keep_common(Settings& settings, const Settings& others) {
   std::erase_if(settings, [&](const auto& entry) {
@@ -111,8 +116,7 @@ std::string SharedSettings::html() const {
     std::vector<Cell>& row = table.rows.emplace_back(1, Cell{name});
     for (const auto& [method, settings] : shared_) {
       const auto found = settings.find(name);
-      row.push_back(found == settings.end() ? Cell{"–", Tone::faint}
-                                            : Cell{setting_text(found->second)});
+      row.push_back(found == settings.end() ? Cell{"–", Tone::faint} : setting_cell(found->second));
     }
   }
   return html_details(

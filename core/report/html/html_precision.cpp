@@ -25,18 +25,19 @@ Cell convergence_cell(const PrecisionScene& scene, const MethodCurve& curve,
   return {fmt::format("{} → {}: {}{}", short_error(falls.coarsest, dimension),
                       short_error(falls.finest, dimension), words,
                       is_on_front(curve, quantity) ? " ◆" : ""),
-          tone_of(falls.kind)};
+          tone_of(falls.kind), falls.coarsest};
 }
 
-std::string step_cost(const MethodCurve& curve) {
+Cell step_cost(const MethodCurve& curve) {
   double least = kNotObserved, spread = kNotObserved;
   for (const WorkPrecision& point : curve.points)
     if (point.cost) {
       least = std::fmin(least, point.cost->per_step);
       spread = std::fmax(spread, point.cost->spread);
     }
-  if (std::isnan(least)) return "–";
-  return fmt::format("{}, spread {:.0f} %", short_error(least, kTime), 100 * spread);
+  if (std::isnan(least)) return {"–"};
+  return {fmt::format("{}, spread {:.0f} %", short_error(least, kTime), 100 * spread), Tone::plain,
+          least};
 }
 
 std::string curves_table(const PrecisionScene& scene) {
@@ -51,8 +52,8 @@ std::string curves_table(const PrecisionScene& scene) {
     std::vector<Cell>& row = table.rows.emplace_back(1, Cell{label_of(curve)});
     for (const std::string& quantity : quantities)
       row.push_back(convergence_cell(scene, curve, quantity));
-    row.push_back({cost_text(curve, &WorkCost::per_simulated_second)});
-    row.push_back({step_cost(curve)});
+    row.push_back(cost_cell(curve, &WorkCost::per_simulated_second));
+    row.push_back(step_cost(curve));
   }
   return html_details("Methods in figures", html_table(table));
 }

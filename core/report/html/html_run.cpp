@@ -25,8 +25,8 @@ std::string worst_text(const std::vector<ComparisonRow>& rows) {
   for (const ComparisonRow& row : rows)
     if (row.severity > (worst ? worst->severity : 0)) worst = &row;
   if (!worst) return {};
-  if (worst->worst == "–") return fmt::format("{} is not shown", worst->name);
-  return fmt::format("{} off by up to {}", worst->name, worst->worst);
+  if (worst->worst.text == "–") return fmt::format("{} is not shown", worst->name);
+  return fmt::format("{} off by up to {}", worst->name, worst->worst.text);
 }
 
 }  // namespace

@@ -47,11 +47,12 @@ std::string meaning_of(Outcome outcome, const OutcomeCriteria& criteria) {
 }
 
 Cell outcome_cell(Outcome outcome) {
-  return {look_of(outcome).letter, Tone::plain, "", fmt::format("o{}", static_cast<int>(outcome))};
+  return {.text = look_of(outcome).letter,
+          .css_class = fmt::format("o{}", static_cast<int>(outcome))};
 }
 
 /// A cell of sentences.
-Cell reason_cell(const std::string& text) { return {text, Tone::plain, "", "reason"}; }
+Cell reason_cell(const std::string& text) { return {.text = text, .css_class = "reason"}; }
 
 std::string criteria_part(const OutcomeCriteria& criteria) {
   TextTable table{{{"class"}, {""}, {"what it means"}}, {}, "Classes"};
@@ -106,7 +107,9 @@ std::string number_text(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
 }
 
-std::string share_text(double value) { return std::isfinite(value) ? percent(value) : "–"; }
+Cell share_cell(double value) {
+  return {std::isfinite(value) ? percent(value) : "–", Tone::plain, value};
+}
 
 /// A case with all its runs.
 std::string case_part(const StabilityCase& scene, std::size_t k) {
@@ -141,12 +144,12 @@ std::string case_part(const StabilityCase& scene, std::size_t k) {
     if (!run.worst_observable.empty()) worst += " " + run.worst_observable;
     table.rows.push_back(
         {{fmt::format("{} {} {}", run.record.engine, run.record.precision, run.record.profile)},
-         {fmt::format("{:g} Hz", run.record.rate)},
+         {fmt::format("{:g} Hz", run.record.rate), Tone::plain, run.record.rate},
          {name_of(run.outcome), tone_of(run.outcome)},
-         {worst},
-         {share_text(run.energy_gain)},
-         {share_text(run.creep)},
-         {share_text(run.depth)},
+         {worst, Tone::plain, run.worst_error},
+         share_cell(run.energy_gain),
+         share_cell(run.creep),
+         share_cell(run.depth),
          reason_cell(words_of(run))});
   }
   if (!table.rows.empty()) html += html_table(table);

@@ -33,9 +33,9 @@ std::string counts_part(const std::vector<SceneRecord>& scenes) {
 }
 
 std::string words_of(const ComparisonRow& row) {
-  if (row.worst == "–") return fmt::format("{} ({})", row.name, row.note);
+  if (row.worst.text == "–") return fmt::format("{} ({})", row.name, row.note);
   std::string text =
-      fmt::format("{} off by up to {}, tolerance {}", row.name, row.worst, row.tolerance);
+      fmt::format("{} off by up to {}, tolerance {}", row.name, row.worst.text, row.tolerance.text);
   return row.note.empty() ? text : fmt::format("{} ({})", text, row.note);
 }
 

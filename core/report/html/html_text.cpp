@@ -2,20 +2,26 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "report/terminal/text.h"
 
 namespace slipcheck {
 namespace {
 
-std::string opening(const char* tag, std::string_view css_class) {
-  return css_class.empty() ? fmt::format("<{}>", tag)
-                           : fmt::format("<{} class=\"{}\">", tag, escaped(css_class));
+/// With a blank before it; nothing for an empty value.
+std::string attribute(const char* name, std::string_view value) {
+  return value.empty() ? "" : fmt::format(" {}=\"{}\"", name, escaped(value));
 }
 
 std::string html_cell(const char* tag, const Cell& cell) {
   const std::string symbol = cell.symbol.empty() ? "" : cell.symbol + " ";
-  return opening(tag, cell.css_class.empty() ? class_of(cell.tone) : cell.css_class) +
-         escaped(symbol + cell.text) + fmt::format("</{}>", tag);
+  // Six digits: what agrees in them keeps its order.
+  const std::string value = std::isfinite(cell.value) ? fmt::format("{:.6g}", cell.value) : "";
+  return fmt::format(
+      "<{0}{1}{2}>{3}</{0}>", tag,
+      attribute("class", cell.css_class.empty() ? class_of(cell.tone) : cell.css_class),
+      attribute("data-value", value), escaped(symbol + cell.text));
 }
 
 }  // namespace
@@ -49,7 +55,7 @@ std::string escaped(std::string_view text) {
 std::string html_paragraph(std::string_view css_class, std::string_view head,
                            std::string_view text) {
   if (text.empty()) return {};
-  std::string html = opening("p", css_class);
+  std::string html = "<p" + attribute("class", css_class) + ">";
   if (!head.empty()) html += "<strong>" + escaped(head) + "</strong> ";
   return html + escaped(text) + "</p>\n";
 }
@@ -75,10 +81,8 @@ std::string html_table(const TextTable& table) {
   for (std::size_t c = 0; c < table.columns.size(); ++c)
     if (table.columns[c].right) numbers += fmt::format("{}n{}", numbers.empty() ? "" : " ", c + 1);
   std::string html = "<div class=\"table\" tabindex=\"0\"";
-  if (!table.title.empty())
-    html += fmt::format(" role=\"region\" aria-label=\"{}\"", escaped(table.title));
-  html += numbers.empty() ? "><table>" : fmt::format("><table class=\"{}\">", numbers);
-  html += "<thead><tr>";
+  if (!table.title.empty()) html += " role=\"region\"" + attribute("aria-label", table.title);
+  html += "><table" + attribute("class", numbers) + "><thead><tr>";
   for (const Column& column : table.columns) html += "<th>" + escaped(column.header) + "</th>";
   html += "</tr></thead><tbody>\n";
   for (const auto& row : table.rows) {

@@ -21,7 +21,7 @@ std::string html_paragraph(std::string_view css_class, std::string_view head,
 const char* class_of(Tone tone);
 
 /// A table that scrolls by itself where it is wider than the screen, also by keyboard. The first
-/// cell of a row is its head.
+/// cell of a row is its head. Numbers are in `data-value` too, by which the page's script sorts.
 std::string html_table(const TextTable& table);
 
 /// A list under a bold head, all escaped; nothing without items.

@@ -20,20 +20,23 @@ const Value* find(const std::map<std::string, Value>& map, const std::string& na
   return found == map.end() ? nullptr : &found->second;
 }
 
-std::string spread_text(const EnsembleValue& ensemble, const QuantityFormat& format) {
+Cell spread_cell(const EnsembleValue& ensemble, const QuantityFormat& format) {
   const std::string low = format.number(ensemble.min), high = format.number(ensemble.max);
-  return low == high ? low : low + " … " + high;
+  return {low == high ? low : low + " … " + high, Tone::plain, ensemble.min};
 }
 
 /// `counts`: the tolerance judges the run.
 void add_error(const Deviation& deviation, const Dimension& dimension, bool counts,
                ComparisonRow& row) {
-  row.worst = error_text(deviation.max, deviation.absolute, dimension);
+  row.worst = {error_text(deviation.max, deviation.absolute, dimension), Tone::plain,
+               deviation.max};
   row.note = printable(deviation.reason);
   if (!deviation.tolerance || !counts) return;
   const double tolerance = *deviation.tolerance;
-  row.tolerance = tolerance_text(tolerance, deviation.absolute, dimension);
+  row.tolerance = {tolerance_text(tolerance, deviation.absolute, dimension), Tone::plain,
+                   tolerance};
   row.verdict = deviation.verdict;
+  if (row.verdict == Verdict::deviates) row.worst.tone = Tone::bad;
   if (row.verdict == Verdict::undecided) return;
   const bool exact = deviation.max == 0 && tolerance == 0;
   row.severity = exact ? 0 : deviation.max / tolerance;
@@ -90,17 +93,18 @@ std::string closed_form_text(const ReferenceResult& reference, const std::string
   return text + fmt::format(", agrees to {:.0e}", difference / std::abs(*exact));
 }
 
-std::string reference_text(const SceneRecord& scene, const std::string& name,
-                           const QuantityFormat& format) {
+Cell reference_cell(const SceneRecord& scene, const std::string& name,
+                    const QuantityFormat& format) {
   const UncertainValue* value = find(scene.reference.observables, name);
-  if (!value) return "–";
+  if (!value) return {"–"};
   std::string text = format.number(value->value);
   const bool is_zero = std::abs(value->value) <= 1e-9 * format.factor();
   if (!is_zero && value->uncertainty > 1e-9 * std::abs(value->value))
     text +=
         " ± " + (std::isfinite(value->uncertainty) ? one_digit(value->uncertainty / format.factor())
                                                    : std::string("∞"));
-  return format.unit().empty() ? text : text + " " + format.unit();
+  if (!format.unit().empty()) text += " " + format.unit();
+  return {text, Tone::plain, value->value};
 }
 
 std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const EngineRecord& run,
@@ -114,12 +118,14 @@ std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const Engin
     const QuantityFormat format = format_for(scene, name, ensemble);
     ComparisonRow row;
     row.name = name;
-    row.reference = reference_text(scene, name, format);
-    row.median = !ensemble      ? "–"
-                 : in_reference ? format.number(ensemble->median)
-                                : format.text(ensemble->median);
-    row.spread = ensemble ? spread_text(*ensemble, format) : "–";
-    row.worst = row.tolerance = "–";
+    row.reference = reference_cell(scene, name, format);
+    row.median = row.spread = row.worst = row.tolerance = {"–"};
+    if (ensemble) {
+      const double median = ensemble->median;
+      row.median = {in_reference ? format.number(median) : format.text(median), Tone::plain,
+                    median};
+      row.spread = spread_cell(*ensemble, format);
+    }
     row.severity = std::numeric_limits<double>::quiet_NaN();
     if (deviation) {
       add_error(*deviation, dimension_of(name), !run.expect, row);
@@ -155,9 +161,8 @@ std::vector<Column> comparison_columns(std::vector<Column> whose) {
 }
 
 std::vector<Cell> comparison_cells(const ComparisonRow& row, std::vector<Cell> whose) {
-  const Tone tone = row.verdict == Verdict::deviates ? Tone::bad : Tone::plain;
-  const Cell cells[] = {{row.name},   {row.reference},   {row.median},
-                        {row.spread}, {row.worst, tone}, {row.tolerance}};
+  const Cell cells[] = {{row.name}, row.reference, row.median,
+                        row.spread, row.worst,     row.tolerance};
   whose.insert(whose.end(), std::begin(cells), std::end(cells));
   return whose;
 }
@@ -183,11 +188,13 @@ TextTable reference_table(const SceneRecord& scene, const std::vector<std::strin
   for (const std::string& name : names) {
     if (table.rows.size() == most) break;
     const QuantityFormat format = format_for(scene, name, nullptr);
-    std::string closed_form = closed_form_text(scene.reference, name, format);
-    if (!closed_form.empty()) table.columns[2].header = "closed form";
-    if (const std::string* reason = find(absent, name)) closed_form = *reason;
-    table.rows.push_back(
-        {{name}, {reference_text(scene, name, format)}, {closed_form, Tone::faint}});
+    Cell closed_form{closed_form_text(scene.reference, name, format), Tone::faint};
+    if (!closed_form.text.empty()) {
+      closed_form.value = *find(scene.reference.closed_form, name);
+      table.columns[2].header = "closed form";
+    }
+    if (const std::string* reason = find(absent, name)) closed_form.text = *reason;
+    table.rows.push_back({{name}, reference_cell(scene, name, format), closed_form});
   }
   return table;
 }

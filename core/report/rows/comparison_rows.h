@@ -11,12 +11,12 @@ namespace slipcheck {
 
 /// One observable of one engine beside the reference, as text for people.
 struct ComparisonRow {
-  std::string name;       ///< "i.sliding_time"
-  std::string reference;  ///< "27.67 ms", with "± …" where the uncertainty matters
-  std::string median;     ///< in the reference's unit, "29.20"; with it where there is no reference
-  std::string spread;     ///< "29.00 … 30.50", or one number where all phases agree
-  std::string worst;      ///< largest error: "10.2 %", "0.141", "1.2 mm"
-  std::string tolerance;  ///< in the same form
+  std::string name;  ///< "i.sliding_time"
+  Cell reference;    ///< "27.67 ms", with "± …" where the uncertainty matters
+  Cell median;       ///< in the reference's unit, "29.20"; with it where there is no reference
+  Cell spread;       ///< "29.00 … 30.50", or one number where all phases agree
+  Cell worst;        ///< largest error: "10.2 %", "0.141", "1.2 mm"
+  Cell tolerance;    ///< in the same form
   Verdict verdict = Verdict::unjudged;
   double severity = 0;  ///< largest error in units of the tolerance; NaN without one
   std::string note;     ///< why there is no error, or which phases are missing
@@ -38,8 +38,8 @@ std::string closed_form_text(const ReferenceResult& reference, const std::string
 
 /// The reference's value of an observable, "–" where it shows none; with "± …" where the
 /// uncertainty is more than a 1e-9 of the value.
-std::string reference_text(const SceneRecord& scene, const std::string& name,
-                           const QuantityFormat& format);
+Cell reference_cell(const SceneRecord& scene, const std::string& name,
+                    const QuantityFormat& format);
 
 /// One row for each of these observables that the reference or the engine shows, or that the run
 /// has a verdict on. Where the scene

@@ -20,15 +20,17 @@ ExpectationRow row_of(const ExpectationResult& result) {
   row.name = result.observable;
   row.met = result.met;
   const bool is_seen = !std::isnan(result.value);
+  row.value = {"", result.met ? Tone::plain : Tone::bad, result.value};
   if (result.statistic == Statistic::none) {
-    row.limits = "not seen";
-    row.value = is_seen ? quantity(result.value, dimension_of(result.observable)) : "–";
+    row.limits = {"not seen"};
+    row.value.text = is_seen ? quantity(result.value, dimension_of(result.observable)) : "–";
   } else {
     const double magnitude = std::max(std::abs(result.low), std::abs(result.high));
     const QuantityFormat format(magnitude, dimension_of(result.observable));
     row.statistic = name_of(result.statistic);
-    row.value = format.number(result.value);
-    row.limits = format.number(result.low) + " … " + format.text(result.high);
+    row.value.text = format.number(result.value);
+    row.limits = {format.number(result.low) + " … " + format.text(result.high), Tone::plain,
+                  result.low};
   }
   if (!result.met) row.note = result.reason;
   return row;
@@ -52,8 +54,8 @@ TextTable expectation_table(const EngineRecord& run) {
     table.rows.push_back(
         {{row.name},
          {row.statistic},
-         {row.value, row.met ? Tone::plain : Tone::bad},
-         {row.limits},
+         row.value,
+         row.limits,
          verdict_cell(row.met ? Verdict::within : Verdict::deviates, expectation_word(row.met))});
     if (!row.note.empty()) table.notes.push_back({row.name, row.note});
   }
@@ -81,10 +83,10 @@ std::string unmet_expectation(const EngineRecord& run, bool with_limits) {
   for (const ExpectationRow& row : expectation_rows(run)) {
     if (row.met) continue;
     const std::string statistic = row.statistic.empty() ? "" : " " + row.statistic;
-    const std::string seen = row.name + statistic + " " + row.value;
+    const std::string seen = row.name + statistic + " " + row.value.text;
     if (!with_limits) return seen;
     const std::string note = row.note.empty() ? "" : " (" + row.note + ")";
-    return fmt::format("{}, expected {}{}", seen, row.limits, note);
+    return fmt::format("{}, expected {}{}", seen, row.limits.text, note);
   }
   return {};
 }

@@ -12,8 +12,8 @@ namespace slipcheck {
 struct ExpectationRow {
   std::string name;       ///< "i-j.restitution"
   std::string statistic;  ///< "max"; empty where nothing of it is to be seen
-  std::string value;      ///< "1.098", in the limits' unit; "–" where no phase shows it
-  std::string limits;     ///< "1.080 … 1.110", "82.00 … 84.00 ms", "not seen"
+  Cell value;             ///< "1.098", in the limits' unit; "–" where no phase shows it
+  Cell limits;            ///< "1.080 … 1.110", "82.00 … 84.00 ms", "not seen"
   bool met = false;
   std::string note;  ///< which phases are missing, where that matters
 };

@@ -48,10 +48,10 @@ std::optional<ComparisonRow> worst_deviation(const SceneRecord& scene, const Eng
 
 std::string deviation_text(const ComparisonRow& row) {
   std::string text =
-      fmt::format("{}: reference {}, median {}", row.name, row.reference, row.median);
-  if (row.spread != row.median) text += fmt::format(" ({})", row.spread);
-  if (row.worst != "–") text += ", error " + row.worst;
-  if (row.tolerance != "–") text += ", tolerance " + row.tolerance;
+      fmt::format("{}: reference {}, median {}", row.name, row.reference.text, row.median.text);
+  if (row.spread.text != row.median.text) text += fmt::format(" ({})", row.spread.text);
+  if (row.worst.text != "–") text += ", error " + row.worst.text;
+  if (row.tolerance.text != "–") text += ", tolerance " + row.tolerance.text;
   return row.note.empty() ? text : text + "; " + row.note;
 }
 

@@ -126,14 +126,19 @@ std::string from_to(const std::string& first, const std::string& last) {
   return first == last ? first : fmt::format("{} → {}", first, last);
 }
 
-std::string cost_text(const MethodCurve& curve, double WorkCost::*cost) {
-  std::string first, last;
+Cell cost_cell(const MethodCurve& curve, double WorkCost::*cost, Tone tone) {
+  Cell cell{"–", tone};
+  std::string first;
   for (const WorkPrecision& point : curve.points) {
     if (!point.cost) continue;
-    last = short_error((*point.cost).*cost, kTime);
-    if (first.empty()) first = last;
+    const double time = (*point.cost).*cost;
+    if (first.empty()) {
+      first = short_error(time, kTime);
+      cell.value = time;
+    }
+    cell.text = from_to(first, short_error(time, kTime));
   }
-  return first.empty() ? "–" : from_to(first, last);
+  return cell;
 }
 
 Tone tone_of(Convergence::Kind kind) {

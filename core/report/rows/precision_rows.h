@@ -35,7 +35,7 @@ std::string knob_text(MethodCurve::Kind kind, double knob);
 /// From the coarsest to the finest, "2 µs → 3 µs", or once where both are the same.
 std::string from_to(const std::string& first, const std::string& last);
 /// A CPU time from the coarsest point to the finest; "–" where none was taken.
-std::string cost_text(const MethodCurve& curve, double WorkCost::*cost);
+Cell cost_cell(const MethodCurve& curve, double WorkCost::*cost, Tone tone = Tone::plain);
 Tone tone_of(Convergence::Kind kind);
 
 /// Whether any point of it ran.

@@ -190,15 +190,16 @@ TextTable limits_table(const std::vector<const Limit*>& limits) {
     for (const double island : limit->islands)
       why += fmt::format("{}bad all the same at {}", why.empty() ? "" : "; ",
                          value_text(limit->kind, island));
-    table.rows.push_back({{label_of(*limit)},
-                          {words_of(limit->kind)},
-                          {limit->scene},
-                          {range_text(*limit)},
-                          {theory},
-                          {std::isfinite(ratio) ? fmt::format("{:.4f}", ratio) : ""},
-                          {limit->bad ? name_of(limit->beyond) : "",
-                           limit->bad ? tone_of(limit->beyond) : Tone::plain},
-                          {why, Tone::plain, "", "reason"}});
+    table.rows.push_back(
+        {{label_of(*limit)},
+         {words_of(limit->kind)},
+         {limit->scene},
+         {range_text(*limit), Tone::plain, limit->value()},
+         {theory, Tone::plain, limit->theory.value_or(kNotObserved)},
+         {std::isfinite(ratio) ? fmt::format("{:.4f}", ratio) : "", Tone::plain, ratio},
+         {limit->bad ? name_of(limit->beyond) : "",
+          limit->bad ? tone_of(limit->beyond) : Tone::plain},
+         {.text = why, .css_class = "reason"}});
   }
   return table;
 }

@@ -14,7 +14,8 @@ TextTable TextTable::with(const std::vector<std::size_t>& chosen) const {
 }
 
 Cell count_cell(std::size_t count, Tone tone, Tone none) {
-  return count > 0 ? Cell{std::to_string(count), tone} : Cell{"·", none};
+  return count > 0 ? Cell{std::to_string(count), tone, static_cast<double>(count)}
+                   : Cell{"·", none};
 }
 
 }  // namespace slipcheck

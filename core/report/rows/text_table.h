@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Column {
 struct Cell {
   std::string text;
   Tone tone = Tone::plain;
+  /// Of what begins with a number, the number, by which the page sorts [SI]; else NaN.
+  double value = std::numeric_limits<double>::quiet_NaN();
   std::string symbol = {};     ///< of a verdict, before its word
   std::string css_class = {};  ///< on the page, where the tone does not say it
 };

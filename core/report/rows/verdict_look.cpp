@@ -56,7 +56,7 @@ Tone tone_of(Verdict verdict) {
 }
 
 Cell verdict_cell(Verdict verdict, const char* word) {
-  return {word, tone_of(verdict), symbol_of(verdict)};
+  return {.text = word, .tone = tone_of(verdict), .symbol = symbol_of(verdict)};
 }
 
 std::string class_of(Verdict verdict) {

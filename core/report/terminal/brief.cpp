@@ -50,7 +50,7 @@ std::string undecided_text(const EngineRecord& run) {
 std::string worst_text(const SceneRecord& scene) {
   if (const Worst worst = worst_of(scene); worst.run)
     return fmt::format("{} {}, {}", worst.row.name,
-                       worst.row.worst == "–" ? "never shown" : worst.row.worst,
+                       worst.row.worst.text == "–" ? "never shown" : worst.row.worst.text,
                        short_name(*worst.run));
   for (const EngineRecord& run : scene.runs)
     if (const std::string unmet = unmet_expectation(run, false); !unmet.empty())

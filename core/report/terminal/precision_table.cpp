@@ -78,8 +78,8 @@ std::string quantity_block(const PrecisionScene& scene, const std::string& quant
     table.rows.push_back({{label_of(curve)},
                           {errors_text(curve, quantity, dimension)},
                           convergence_cell(curve, quantity),
-                          {cost_text(curve, &WorkCost::per_step), Tone::faint},
-                          {cost_text(curve, &WorkCost::per_simulated_second)},
+                          cost_cell(curve, &WorkCost::per_step, Tone::faint),
+                          cost_cell(curve, &WorkCost::per_simulated_second),
                           {spread_text(curve), Tone::faint},
                           {is_on_front(curve, quantity) ? "◆" : "", Tone::strong}});
   }
