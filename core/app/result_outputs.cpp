@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "app/output.h"
 #include "report/charts/gnuplot_charts.h"
@@ -21,38 +22,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Gives each recorded motion of each scene, with the name of its file, to `take`.
-template <class Take>
-void for_each_motion(const std::vector<SceneRecord>& scenes, Take&& take) {
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+
+/// Writes the files that `files_of` makes of each recorded motion of each scene.
+void write_motions(const fs::path& folder, const std::vector<SceneRecord>& scenes,
+                   NamedTexts (*files_of)(const Scenario& scenario, const RecordedMotion& motion,
+                                          const std::string& stem)) {
+  fs::create_directories(folder);
   std::set<std::string> taken;
+  const auto write = [&](const Scenario& scenario, const RecordedMotion& motion,
+                         const std::string& name) {
+    for (const auto& [file, text] : files_of(scenario, motion, file_stem(name, taken)))
+      write_file_atomically(folder / file, text);
+  };
   for (const SceneRecord& scene : scenes) {
     const std::string& name = scene.scenario.name;
-    if (scene.reference.motion)
-      take(scene.scenario, *scene.reference.motion, file_stem(name + "-reference", taken));
+    if (scene.reference.motion) write(scene.scenario, *scene.reference.motion, name + "-reference");
     for (const EngineRecord& run : scene.runs)
       for (const RecordedMotion& motion : run.motions)
-        take(scene.scenario, motion,
-             file_stem(fmt::format("{}-{}-{}-{}-{:g}Hz-{}", name, run.engine, run.precision,
-                                   run.profile, run.rate, motion.role),
-                       taken));
+        write(scene.scenario, motion,
+              fmt::format("{}-{}-{}-{}-{:g}Hz-{}", name, run.engine, run.precision, run.profile,
+                          run.rate, motion.role));
   }
 }
 
-void write_xyz(const fs::path& folder, const ReportContent& content) {
-  fs::create_directories(folder);
-  for_each_motion(content.scenes, [&](const Scenario& scenario, const RecordedMotion& motion,
-                                      const std::string& stem) {
-    write_file_atomically(folder / (stem + ".xyz"), xyz_of(scenario, motion));
-  });
-}
-
-void write_vtk(const fs::path& folder, const ReportContent& content) {
-  fs::create_directories(folder);
-  for_each_motion(content.scenes, [&](const Scenario& scenario, const RecordedMotion& motion,
-                                      const std::string& stem) {
-    for (const auto& [name, text] : vtk_files_of(scenario, motion, stem))
-      write_file_atomically(folder / name, text);
-  });
+NamedTexts xyz_files_of(const Scenario& scenario, const RecordedMotion& motion,
+                        const std::string& stem) {
+  return {{stem + ".xyz", xyz_of(scenario, motion)}};
 }
 
 /// An option, and the file or folder that it names.
@@ -83,9 +79,15 @@ constexpr Writer kWriters[] = {
        return junit_xml(test_outcomes(content.scenes, outputs.allow_undecided));
      }},
     {"--xyz", "Write a folder of trajectories as extended XYZ, for OVITO", &ResultOutputs::xyz,
-     nullptr, write_xyz},
+     nullptr,
+     [](const auto& folder, const auto& content) {
+       write_motions(folder, content.scenes, xyz_files_of);
+     }},
     {"--vtk", "Write a folder of trajectories as PVD and VTP, for ParaView", &ResultOutputs::vtk,
-     nullptr, write_vtk},
+     nullptr,
+     [](const auto& folder, const auto& content) {
+       write_motions(folder, content.scenes, vtk_files_of);
+     }},
     {"--svg", "Write a folder of charts for papers, by gnuplot, with data and scripts",
      &ResultOutputs::svg, nullptr, write_gnuplot_charts},
 };

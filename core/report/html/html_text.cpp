@@ -61,19 +61,9 @@ std::string html_paragraph(std::string_view css_class, std::string_view head,
 }
 
 const char* class_of(Tone tone) {
-  switch (tone) {
-    case Tone::good:
-      return "good";
-    case Tone::doubtful:
-    case Tone::bad:
-      return "bad";
-    case Tone::faint:
-      return "faint";
-    case Tone::plain:
-    case Tone::strong:
-      break;
-  }
-  return "";
+  // In the order of Tone.
+  constexpr const char* kClasses[] = {"", "good", "bad", "bad", "faint", ""};
+  return kClasses[static_cast<std::size_t>(tone)];
 }
 
 std::string html_table(const TextTable& table) {

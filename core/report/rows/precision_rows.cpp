@@ -142,16 +142,8 @@ Cell cost_cell(const MethodCurve& curve, double WorkCost::*cost, Tone tone) {
 }
 
 Tone tone_of(Convergence::Kind kind) {
-  switch (kind) {
-    case Convergence::Kind::exact:
-    case Convergence::Kind::converges:
-      return Tone::good;
-    case Convergence::Kind::does_not_converge:
-      return Tone::bad;
-    case Convergence::Kind::unknown:
-      break;
-  }
-  return Tone::faint;
+  if (kind == Convergence::Kind::does_not_converge) return Tone::bad;
+  return kind == Convergence::Kind::unknown ? Tone::faint : Tone::good;
 }
 
 bool is_on_front(const MethodCurve& curve, const std::string& quantity) {
@@ -209,18 +201,11 @@ std::vector<ConvergenceCounts> convergence_counts(const std::vector<PrecisionSce
 }
 
 TextTable convergence_table(const std::vector<ConvergenceCounts>& methods) {
-  TextTable table{{{"method"},
-                   {"judged: exact", true},
-                   {"converges", true},
-                   {"does not", true},
-                   {"not known", true},
-                   {"trajectory: exact", true},
-                   {"converges", true},
-                   {"does not", true},
-                   {"not known", true},
-                   {"◆", true, 1}},
-                  {},
-                  "Convergence over all scenes"};
+  TextTable table{{{"method"}}, {}, "Convergence over all scenes"};
+  for (const char* exact : {"judged: exact", "trajectory: exact"})
+    for (const char* kind : {exact, "converges", "does not", "not known"})
+      table.columns.push_back({kind, true});
+  table.columns.push_back({"◆", true, 1});
   for (const ConvergenceCounts& counts : methods) {
     std::vector<Cell>& row = table.rows.emplace_back(1, Cell{counts.method});
     for (const auto& kinds : {counts.judged, counts.trajectory})

@@ -8,52 +8,29 @@
 
 namespace slipcheck {
 
-const char* symbol_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::unjudged:
-      return "–";
-    case Verdict::within:
-      return "✓";
-    case Verdict::undecided:
-      return "?";
-    case Verdict::deviates:
-      return "✗";
-    case Verdict::failed:
-      return "⚠";
-  }
-  return "";
-}
+namespace {
 
-const char* word_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::unjudged:
-      return "";
-    case Verdict::within:
-      return "within";
-    case Verdict::undecided:
-      return "UNDECIDED";
-    case Verdict::deviates:
-      return "DEVIATES";
-    case Verdict::failed:
-      return "FAILED";
-  }
-  return "";
-}
+struct VerdictLook {
+  const char* symbol;
+  const char* word;
+  Tone tone;
+};
+// In the order of Verdict.
+constexpr std::array<VerdictLook, 5> kVerdicts = {{
+    {"–", "", Tone::faint},
+    {"✓", "within", Tone::good},
+    {"?", "UNDECIDED", Tone::doubtful},
+    {"✗", "DEVIATES", Tone::bad},
+    {"⚠", "FAILED", Tone::bad},
+}};
 
-Tone tone_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::unjudged:
-      return Tone::faint;
-    case Verdict::within:
-      return Tone::good;
-    case Verdict::undecided:
-      return Tone::doubtful;
-    case Verdict::deviates:
-    case Verdict::failed:
-      break;
-  }
-  return Tone::bad;
-}
+const VerdictLook& look_of(Verdict verdict) { return kVerdicts[static_cast<std::size_t>(verdict)]; }
+
+}  // namespace
+
+const char* symbol_of(Verdict verdict) { return look_of(verdict).symbol; }
+const char* word_of(Verdict verdict) { return look_of(verdict).word; }
+Tone tone_of(Verdict verdict) { return look_of(verdict).tone; }
 
 Cell verdict_cell(Verdict verdict, const char* word) {
   return {.text = word, .tone = tone_of(verdict), .symbol = symbol_of(verdict)};
