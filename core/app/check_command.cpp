@@ -67,7 +67,7 @@ Baselines load(const CheckArguments& arguments, bool all, const std::vector<Scen
   Baselines baselines;
   try {
     baselines = load_baselines(arguments.baselines, names);
-  } catch (const BadBaseline& bad) {
+  } catch (const BadJson& bad) {
     throw BadOption(bad.what());
   }
   for (const auto& [scene, baseline] : baselines)

@@ -25,7 +25,7 @@ int report(const ReportArguments& arguments) {
   ReadResults results;
   try {
     results = read_folders({arguments.folders.begin(), arguments.folders.end()});
-  } catch (const BadResults& bad) {
+  } catch (const BadJson& bad) {
     throw BadOption(bad.what());
   }
   results.content.commands = {

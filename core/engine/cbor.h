@@ -3,10 +3,16 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <vector>
 
-#include "engine/fields.h"
+#include "base/json_node.h"
 
 namespace slipcheck::protocol {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// What came in does not keep to the protocol.
+using Rubbish = BadJson;
 
 /// Reads one CBOR item (RFC 8949) from bytes that nobody vouches for; throws Rubbish.
 /// Accepted: definite lengths, at most 16 levels of nesting and 4 million items, no tags, nothing

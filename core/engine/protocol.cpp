@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "engine/cbor.h"
+#include "engine/message_fields.h"
 #include "engine/scene_json.h"
 #include "engine/setting_json.h"
 
@@ -33,7 +33,7 @@ Bytes pack(const json& message) {
 
 // --- frames --------------------------------------------------------------------------------------
 
-json to_json(const Frames& reply) {
+json frames_json(const Frames& reply) {
   const std::size_t count = reply.frames.size();
   const std::size_t bodies = count == 0 ? 0 : reply.frames.front().bodies.size();
   Bytes states, touch_counts, touches, parts;
@@ -50,8 +50,7 @@ json to_json(const Frames& reply) {
     }
     append_f64(parts, frame.part);
   }
-  json message = {{"type", "frames"},
-                  {"count", count},
+  json message = {{"count", count},
                   {"bodies", bodies},
                   {"cpu_seconds", reply.cpu_seconds},
                   {"states", json::binary(std::move(states))},
@@ -64,9 +63,9 @@ json to_json(const Frames& reply) {
 }
 
 /// Where in its step each frame is: all at the end unless the message says otherwise.
-void read_parts(const Fields& fields, std::vector<Frame>& frames) {
-  if (!fields.has("parts")) return;
-  const Bytes& parts = fields.bytes("parts");
+void read_parts(const JsonNode& node, std::vector<Frame>& frames) {
+  if (!node.has("parts")) return;
+  const Bytes& parts = node["parts"].bytes();
   if (parts.size() != 8 * frames.size()) throw Rubbish("parts is not 8 bytes for each frame");
   double before = 0;
   for (std::size_t n = 0; n < frames.size(); ++n) {
@@ -92,12 +91,12 @@ Touch read_touch(const std::uint8_t* at, std::size_t bodies) {
           second == kSubstrateOnWire ? kSubstrate : static_cast<int>(second), impulse};
 }
 
-Frames frames_from_json(const Fields& fields) {
-  const std::size_t count = fields.count("count", kMaxMessage);
-  const std::size_t bodies = fields.count("bodies", kMaxMessage);
-  const Bytes& states = fields.bytes("states");
-  const Bytes& touch_counts = fields.bytes("touch_counts");
-  const Bytes& touches = fields.bytes("touches");
+Frames frames_of(const JsonNode& node) {
+  const std::size_t count = node["count"].count(kMaxMessage);
+  const std::size_t bodies = node["bodies"].count(kMaxMessage);
+  const Bytes& states = node["states"].bytes();
+  const Bytes& touch_counts = node["touch_counts"].bytes();
+  const Bytes& touches = node["touches"].bytes();
   if (count == 0 || bodies == 0) throw Rubbish("frames without a step or a body");
   if (states.size() / kStateBytes / bodies != count ||
       states.size() % (bodies * kStateBytes) != 0) {
@@ -107,7 +106,7 @@ Frames frames_from_json(const Fields& fields) {
   if (touch_counts.size() != 4 * count) throw Rubbish("touch_counts is not 4 bytes for each step");
 
   Frames reply;
-  reply.cpu_seconds = fields.number("cpu_seconds", 0);
+  reply.cpu_seconds = node["cpu_seconds"].number(0);
   reply.frames.resize(count);
   const std::uint8_t* state = states.data();
   std::size_t touch = 0;
@@ -125,68 +124,150 @@ Frames frames_from_json(const Fields& fields) {
     }
   }
   if (touch != touches.size()) throw Rubbish("more touches than touch_counts says");
-  read_parts(fields, reply.frames);
+  read_parts(node, reply.frames);
   return reply;
-}
-
-std::vector<double> times_from_json(const Fields& fields) {
-  std::vector<double> times = fields.numbers("cpu_seconds");
-  for (const double time : times)
-    if (time < 0) throw Rubbish(fmt::format("reply.cpu_seconds holds {}, not >= 0", time));
-  return times;
 }
 
 // --- the other messages --------------------------------------------------------------------------
 
-json to_json(const Hello& request) { return {{"type", "hello"}, {"protocol", request.version}}; }
-json to_json(const Configure& request) {
-  return {{"type", "configure"},
-          {"scene", scene_to_json(request.scene)},
-          {"settings", settings_to_json(request.settings)},
-          {"time_step", request.time_step}};
+/// A count of at least 1.
+template <class Fields>
+void describe_count(Fields& f, const char* key, std::size_t& count) {
+  f(key, count);
+  if constexpr (Fields::kReads)
+    if (count == 0 || count > kMaxMessage)
+      f[key].fault(fmt::format("must be from 1 to {}", kMaxMessage));
 }
-json to_json(const Start& request) {
-  return {{"type", "start"},
-          {"states", json::binary(pack_states(request.states))},
-          {"time", request.time}};
-}
-json to_json(const Step& request) { return {{"type", "step"}, {"count", request.count}}; }
-json to_json(const Time& request) {
-  return {{"type", "time"},
-          {"states", json::binary(pack_states(request.states))},
-          {"time", request.time},
-          {"steps", request.steps},
-          {"repeats", request.repeats}};
-}
-json to_json(const Quit&) { return {{"type", "quit"}}; }
 
-json to_json(const Welcome& reply) {
-  return {{"type", "welcome"},
-          {"protocol", reply.version},
-          {"engine", reply.info.engine},
-          {"version", reply.info.version},
-          {"precision", reply.info.precision},
-          {"settings", setting_infos_to_json(reply.info.settings)}};
+/// What a run starts from.
+template <class Fields, class Message>
+void describe_start(Fields& f, Message& message) {
+  if constexpr (Fields::kReads)
+    message.states = unpack_states(f["states"]);
+  else
+    f("states", json::binary(pack_states(message.states)));
+  f("time", message.time, kNotBelowZero);
 }
-json to_json(const Configured& reply) {
-  return {{"type", "configured"},
-          {"settings", settings_to_json(reply.applied.settings)},
-          {"not_represented", reply.applied.not_represented},
-          {"left_out", reply.applied.left_out}};
+
+}  // namespace
+
+template <class Fields>
+void describe(Fields& f, Hello& request) {
+  f("protocol", request.version);
 }
-json to_json(const Refusal& reply) { return {{"type", "refused"}, {"reason", reply.reason}}; }
-json to_json(const Started&) { return {{"type", "started"}}; }
-json to_json(const Timed& reply) { return {{"type", "timed"}, {"cpu_seconds", reply.cpu_seconds}}; }
-json to_json(const Failed& reply) { return {{"type", "failed"}, {"reason", reply.reason}}; }
+
+template <class Fields>
+void describe(Fields& f, Configure& request) {
+  if constexpr (Fields::kReads)
+    request.scene = scene_from_json(f["scene"]);
+  else
+    f("scene", scene_to_json(request.scene));
+  f("settings", request.settings);
+  f("time_step", request.time_step, kAboveZero);
+}
+
+template <class Fields>
+void describe(Fields& f, Start& request) {
+  describe_start(f, request);
+}
+
+template <class Fields>
+void describe(Fields& f, Step& request) {
+  describe_count(f, "count", request.count);
+}
+
+template <class Fields>
+void describe(Fields& f, Time& request) {
+  describe_start(f, request);
+  describe_count(f, "steps", request.steps);
+  describe_count(f, "repeats", request.repeats);
+}
+
+template <class Fields>
+void describe(Fields&, Quit&) {}
+
+template <class Fields>
+void describe(Fields& f, Welcome& reply) {
+  f("protocol", reply.version);
+  f("engine", reply.info.engine);
+  f("version", reply.info.version);
+  f("precision", reply.info.precision);
+  if constexpr (Fields::kReads)
+    reply.info.settings = setting_infos_from_json(f["settings"]);
+  else
+    f("settings", setting_infos_to_json(reply.info.settings));
+}
+
+template <class Fields>
+void describe(Fields& f, Configured& reply) {
+  f("settings", reply.applied.settings);
+  f("not_represented", reply.applied.not_represented);
+  if constexpr (Fields::kReads)
+    f.if_any("left_out", reply.applied.left_out);
+  else
+    f("left_out", reply.applied.left_out);
+}
+
+template <class Fields>
+void describe(Fields& f, Refusal& reply) {
+  f("reason", reply.reason);
+}
+
+template <class Fields>
+void describe(Fields&, Started&) {}
+
+template <class Fields>
+void describe(Fields& f, Timed& reply) {
+  f("cpu_seconds", reply.cpu_seconds);
+  if constexpr (Fields::kReads)
+    if (!std::ranges::all_of(reply.cpu_seconds, [](double time) { return time >= 0; }))
+      f["cpu_seconds"].fault_alone("must hold times >= 0");
+}
+
+template <class Fields>
+void describe(Fields& f, Failed& reply) {
+  f("reason", reply.reason);
+}
+
+namespace {
+
+template <class Message>
+Bytes encoded(const Message& message) {
+  json object = [&] {
+    if constexpr (std::is_same_v<Message, Frames>)
+      return frames_json(message);
+    else
+      return message_json(message);
+  }();
+  object["type"] = Message::kType;
+  return pack(object);
+}
+
+template <class Message>
+Message decoded(const JsonNode& node) {
+  if constexpr (std::is_same_v<Message, Frames>)
+    return frames_of(node);
+  else
+    return read_finite<Message>(node);
+}
+
+/// Tells by its type which message it is.
+template <class... Messages>
+void decode(const JsonNode& node, std::variant<Messages...>& message) {
+  const std::string type = node["type"].text();
+  const bool is_known =
+      ((type == Messages::kType && (message = decoded<Messages>(node), true)) || ...);
+  if (!is_known) node["type"].fault("must be a type of message");
+}
 
 }  // namespace
 
 Bytes encode(const Request& request) {
-  return pack(std::visit([](const auto& each) { return to_json(each); }, request));
+  return std::visit([](const auto& each) { return encoded(each); }, request);
 }
 
 Bytes encode(const Reply& reply) {
-  return pack(std::visit([](const auto& each) { return to_json(each); }, reply));
+  return std::visit([](const auto& each) { return encoded(each); }, reply);
 }
 
 std::size_t body_length(std::span<const std::uint8_t, kPrefix> prefix) {
@@ -198,54 +279,19 @@ std::size_t body_length(std::span<const std::uint8_t, kPrefix> prefix) {
 }
 
 Request decode_request(std::span<const std::uint8_t> body) {
+  static const std::string kPlace = "request";
   const json message = read_cbor(body);
-  const Fields fields(message, "request");
-  const std::string type = fields.text("type");
-  if (type == "hello") return Hello{fields.count("protocol", 1000)};
-  if (type == "configure") {
-    return Configure{scene_from_json(fields.object("scene")),
-                     settings_from_json(fields.object("settings")),
-                     fields.number("time_step", std::numeric_limits<double>::min())};
-  }
-  if (type == "start") {
-    return Start{unpack_states(fields.bytes("states"), "request.states"), fields.number("time", 0)};
-  }
-  if (type == "step") {
-    const Step step{fields.count("count", kMaxMessage)};
-    if (step.count == 0) throw Rubbish("request.count is 0");
-    return step;
-  }
-  if (type == "time") {
-    Time time{unpack_states(fields.bytes("states"), "request.states"), fields.number("time", 0),
-              fields.count("steps", kMaxMessage), fields.count("repeats", kMaxMessage)};
-    if (time.steps == 0) throw Rubbish("request.steps is 0");
-    if (time.repeats == 0) throw Rubbish("request.repeats is 0");
-    return time;
-  }
-  if (type == "quit") return Quit{};
-  throw Rubbish(fmt::format("there is no request '{}'", type));
+  Request request;
+  decode(JsonNode(message, kPlace), request);
+  return request;
 }
 
 Reply decode_reply(std::span<const std::uint8_t> body) {
+  static const std::string kPlace = "reply";
   const json message = read_cbor(body);
-  const Fields fields(message, "reply");
-  const std::string type = fields.text("type");
-  if (type == "frames") return frames_from_json(fields);
-  if (type == "welcome") {
-    return Welcome{fields.count("protocol", 1000),
-                   {fields.text("engine"), fields.text("version"), fields.text("precision"),
-                    setting_infos_from_json(fields.list("settings"))}};
-  }
-  if (type == "configured") {
-    return Configured{
-        {settings_from_json(fields.object("settings")), fields.texts("not_represented"),
-         fields.has("left_out") ? fields.texts("left_out") : std::vector<std::string>{}}};
-  }
-  if (type == "refused") return Refusal{fields.text("reason")};
-  if (type == "started") return Started{};
-  if (type == "timed") return Timed{times_from_json(fields)};
-  if (type == "failed") return Failed{fields.text("reason")};
-  throw Rubbish(fmt::format("there is no reply '{}'", type));
+  Reply reply;
+  decode(JsonNode(message, kPlace), reply);
+  return reply;
 }
 
 }  // namespace slipcheck::protocol

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "engine/cbor.h"
 #include "engine/engine.h"
-#include "engine/fields.h"
 
 /// What the harness and a worker say to each other over the worker's standard input and output:
 /// one request, one reply. docs/engine-protocol.md words it for other languages.
@@ -21,52 +21,67 @@ inline constexpr std::size_t kPrefix = 4;  ///< the body's length before it, u32
 // --- requests ------------------------------------------------------------------------------------
 
 struct Hello {
+  static constexpr const char* kType = "hello";
   std::size_t version = kVersion;
 };
 struct Configure {
+  static constexpr const char* kType = "configure";
   Scene scene;
   Settings settings;     ///< those that are chosen
   double time_step = 0;  ///< [s], > 0
 };
 struct Start {
+  static constexpr const char* kType = "start";
   std::vector<BodyState> states;
   double time = 0;  ///< of the states [s], >= 0
 };
 struct Step {
+  static constexpr const char* kType = "step";
   std::size_t count = 1;  ///< >= 1
 };
 /// How long steps take, with nothing looked at in between.
 struct Time {
+  static constexpr const char* kType = "time";
   std::vector<BodyState> states;
   double time = 0;          ///< of the states [s], >= 0
   std::size_t steps = 1;    ///< of each run, >= 1
   std::size_t repeats = 1;  ///< runs, each from a fresh world, >= 1
 };
-struct Quit {};
+struct Quit {
+  static constexpr const char* kType = "quit";
+};
 using Request = std::variant<Hello, Configure, Start, Step, Time, Quit>;
 
 // --- replies -------------------------------------------------------------------------------------
 
 struct Welcome {
+  static constexpr const char* kType = "welcome";
   std::size_t version = kVersion;
   EngineInfo info;
 };
 struct Configured {
+  static constexpr const char* kType = "configured";
   Applied applied;
 };
 struct Refusal {
+  static constexpr const char* kType = "refused";
   std::string reason;
 };
-struct Started {};
+struct Started {
+  static constexpr const char* kType = "started";
+};
 struct Frames {
+  static constexpr const char* kType = "frames";
   std::vector<Frame> frames;
   double cpu_seconds = 0;  ///< that the steps took [s], >= 0
 };
 struct Timed {
+  static constexpr const char* kType = "timed";
   std::vector<double> cpu_seconds;  ///< that the steps of each run took [s], >= 0
 };
 /// The request was not understood or the engine threw.
 struct Failed {
+  static constexpr const char* kType = "failed";
   std::string reason;
 };
 using Reply = std::variant<Welcome, Configured, Refusal, Started, Frames, Timed, Failed>;

@@ -4,12 +4,12 @@
 
 #include <bit>
 #include <cstring>
-#include <limits>
 #include <utility>
 
-#include "engine/contact_json.h"
+#include "engine/message_fields.h"
 
-namespace slipcheck::protocol {
+namespace slipcheck {
+namespace protocol {
 
 using nlohmann::json;
 
@@ -30,103 +30,6 @@ T copy(const std::uint8_t* at) {
   T value;
   std::memcpy(static_cast<void*>(&value), at, sizeof value);
   return value;
-}
-
-constexpr double kHuge = std::numeric_limits<double>::max();
-
-// --- the substrate's motion ----------------------------------------------------------------------
-
-json to_json(const Vector2& v) { return {v.x(), v.y()}; }
-
-Vector2 vector2_from_json(const Fields& fields, const char* key) {
-  const std::vector<double> numbers = fields.numbers(key);
-  if (numbers.size() != 2) throw Rubbish(fields.place_of(key) + " is not [x, y]");
-  return {numbers[0], numbers[1]};
-}
-
-json to_json(const SubstrateMotion& motion) {
-  switch (motion.kind()) {
-    case SubstrateMotion::Kind::constant:
-      return {{"kind", "constant"}, {"velocity", to_json(motion.vector())}};
-    case SubstrateMotion::Kind::oscillation:
-      return {{"kind", "oscillation"},
-              {"amplitude", to_json(motion.vector())},
-              {"frequency", motion.frequency()},
-              {"phase", motion.phase()}};
-    case SubstrateMotion::Kind::table: {
-      json points = json::array();
-      for (const SubstrateMotion::Point& point : motion.points()) {
-        points.push_back({point.time, point.position.x(), point.position.y()});
-      }
-      return {{"kind", "table"}, {"points", std::move(points)}};
-    }
-    case SubstrateMotion::Kind::still:
-      break;
-  }
-  return {{"kind", "still"}};
-}
-
-std::vector<SubstrateMotion::Point> motion_points_from_json(const Fields& motion) {
-  const std::string place = motion.place_of("points");
-  std::vector<SubstrateMotion::Point> points;
-  for (const json& row : motion.list("points")) {
-    const std::vector<double> point = finite_numbers(row, place);
-    if (point.size() != 3) throw Rubbish(place + ": a point is not [time, x, y]");
-    if (!points.empty() && point[0] <= points.back().time) {
-      throw Rubbish(place + ": the times do not rise");
-    }
-    points.push_back({point[0], {point[1], point[2]}});
-  }
-  if (points.empty()) throw Rubbish(place + " is empty");
-  return points;
-}
-
-SubstrateMotion motion_from_json(const Fields& motion) {
-  const std::string kind = motion.text("kind");
-  if (kind == "still") return {};
-  if (kind == "constant") return SubstrateMotion::constant(vector2_from_json(motion, "velocity"));
-  if (kind == "oscillation") {
-    return SubstrateMotion::oscillation(vector2_from_json(motion, "amplitude"),
-                                        motion.number("frequency", kTiny), motion.number("phase"));
-  }
-  if (kind == "table") return SubstrateMotion::table(motion_points_from_json(motion));
-  throw Rubbish(fmt::format("{} is '{}', no kind of motion", motion.place_of("kind"), kind));
-}
-
-// --- the box -------------------------------------------------------------------------------------
-
-json to_json(const Box& box) {
-  json out = {{"width", box.width},
-              {"floor", {{"amplitude", box.floor.amplitude}, {"frequency", box.floor.frequency}}},
-              {"moving_walls", box.moving_walls},
-              {"on_floor", pairs_to_json(box.on_floor)},
-              {"on_wall", pairs_to_json(box.on_wall)},
-              {"on_lid", pairs_to_json(box.on_lid)}};
-  if (box.lid) out["lid"] = *box.lid;
-  return out;
-}
-
-std::vector<PairContact> surface_from_json(const Fields& box, const char* key,
-                                           std::size_t materials) {
-  std::vector<PairContact> contacts = pairs_from_json(box, key);
-  if (contacts.size() != materials) {
-    throw Rubbish(fmt::format("{} has {} entries for {} materials", box.place_of(key),
-                              contacts.size(), materials));
-  }
-  return contacts;
-}
-
-Box box_from_json(const Fields& fields, std::size_t materials) {
-  Box box;
-  box.width = fields.number("width", kTiny);
-  const Fields floor(fields.object("floor"), fields.place_of("floor"));
-  box.floor = {floor.number("amplitude", 0), floor.number("frequency", 0)};
-  box.moving_walls = fields.flag("moving_walls");
-  if (fields.has("lid")) box.lid = fields.number("lid", kTiny);
-  box.on_floor = surface_from_json(fields, "on_floor", materials);
-  box.on_wall = surface_from_json(fields, "on_wall", materials);
-  box.on_lid = surface_from_json(fields, "on_lid", materials);
-  return box;
 }
 
 }  // namespace
@@ -150,80 +53,228 @@ Bytes pack_states(std::span<const BodyState> states) {
   return bytes;
 }
 
-std::vector<BodyState> unpack_states(const Bytes& bytes, const std::string& place) {
-  if (bytes.size() % kStateBytes != 0) {
-    throw Rubbish(
-        fmt::format("{} has {} bytes, no multiple of {}", place, bytes.size(), kStateBytes));
-  }
+std::vector<BodyState> unpack_states(const JsonNode& node) {
+  const Bytes& bytes = node.bytes();
+  if (bytes.size() % kStateBytes != 0)
+    node.fault_alone(
+        fmt::format("has {} bytes, must be a multiple of {}", bytes.size(), kStateBytes));
   std::vector<BodyState> states;
   states.reserve(bytes.size() / kStateBytes);
-  for (std::size_t at = 0; at < bytes.size(); at += kStateBytes) {
+  for (std::size_t at = 0; at < bytes.size(); at += kStateBytes)
     states.push_back(read_state(bytes.data() + at));
-  }
   return states;
 }
 
-json scene_to_json(const Scene& scene) {
-  json bodies = json::array();
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Sphere& body = scene.bodies[i];
-    bodies.push_back({{"radius", body.radius},
-                      {"mass", body.mass},
-                      {"shape_factor", body.shape_factor},
-                      {"material", scene.material[i]}});
-  }
-  json substrate = json::array();
-  for (const SubstrateContact& contact : scene.substrate) {
-    substrate.push_back(contact_to_json(contact));
-  }
-  json out = {
-      {"bodies", std::move(bodies)},        {"initial", json::binary(pack_states(scene.initial))},
-      {"substrate", std::move(substrate)},  {"pairs", pairs_to_json(scene.pairs)},
-      {"gravity", scene.gravity},           {"downhill", to_json(scene.downhill)},
-      {"motion", to_json(scene.motion)},    {"confined", scene.confined},
-      {"periodic", to_json(scene.periodic)}};
-  if (scene.box) out["box"] = to_json(*scene.box);
-  return out;
+}  // namespace protocol
+
+// --- fields --------------------------------------------------------------------------------------
+
+template <>
+inline constexpr std::array kNamesOf<SubstrateMotion::Kind> = {"still", "constant", "oscillation",
+                                                               "table"};
+
+namespace {
+
+template <class Fields>
+void describe_vector(Fields& f, const char* key, Vector2& vector) {
+  std::pair<double, double> xy(vector.x(), vector.y());
+  f(key, xy);
+  if constexpr (Fields::kReads) vector = {xy.first, xy.second};
 }
 
-Scene scene_from_json(const json& object) {
-  const Fields fields(object, "scene");
-  Scene scene;
-  for (const json& each : fields.list("substrate")) {
-    const Fields contact(each, fmt::format("scene.substrate[{}]", scene.substrate.size()));
-    scene.substrate.push_back(substrate_contact_from_json(contact));
-  }
-  if (scene.substrate.empty()) throw Rubbish("scene.substrate is empty");
+/// A list of something for each of so many `things`.
+void check_size(const JsonNode& list, std::size_t size, std::size_t count, const char* things) {
+  if (size != count)
+    list.fault_alone(
+        fmt::format("must have an entry for each of {} {}, has {}", count, things, size));
+}
 
-  for (const json& each : fields.list("bodies")) {
-    const Fields body(each, fmt::format("scene.bodies[{}]", scene.bodies.size()));
-    scene.bodies.push_back({body.number("radius", kTiny, kHuge), body.number("mass", kTiny, kHuge),
-                            body.number("shape_factor", kTiny, kHuge)});
-    scene.material.push_back(body.count("material", scene.substrate.size() - 1));
-  }
-  if (scene.bodies.empty()) throw Rubbish("scene.bodies is empty");
+/// Spheres and their materials go over body by body.
+struct MaterialSphere {
+  Sphere sphere;
+  std::size_t material = 0;
+};
 
-  scene.pairs = pairs_from_json(fields, "pairs");
-  if (scene.pairs.size() != scene.substrate.size() * scene.substrate.size()) {
-    throw Rubbish(fmt::format("scene.pairs has {} entries for {} materials", scene.pairs.size(),
-                              scene.substrate.size()));
+RestitutionLaw restitution_of(const JsonNode& node) {
+  if (!node.json().is_object()) return node.number(0, 1);
+  if (!node.has("log_odds")) return read_finite<PowerLawRestitution>(node);
+  return read_finite<TabulatedRestitution>(node);
+}
+
+std::vector<RollingFriction::Point> rolling_points(const JsonNode& node) {
+  std::vector<RollingFriction::Point> points;
+  for (const JsonNode& row : node.items()) {
+    const std::vector<JsonNode> point = row.items(2);
+    points.push_back({point[0].number(0), point[1].number(0)});
+    if (points.size() > 1 && points.back().speed <= points[points.size() - 2].speed)
+      point[0].fault("must be above the one before");
   }
-  scene.initial = unpack_states(fields.bytes("initial"), "scene.initial");
-  if (scene.initial.size() != scene.bodies.size()) {
-    throw Rubbish(fmt::format("scene.initial has {} states for {} bodies", scene.initial.size(),
-                              scene.bodies.size()));
+  if (points.empty()) node.fault("must have a point");
+  return points;
+}
+
+std::vector<SubstrateMotion::Point> motion_points(const JsonNode& node) {
+  std::vector<SubstrateMotion::Point> points;
+  for (const JsonNode& row : node.items()) {
+    const std::vector<double> point = row.numbers(3);
+    if (!points.empty() && point[0] <= points.back().time)
+      row.items()[0].fault("must be above the one before");
+    points.push_back({point[0], {point[1], point[2]}});
   }
-  scene.gravity = fields.number("gravity", 0);
-  scene.downhill = vector2_from_json(fields, "downhill");
-  scene.motion = motion_from_json(Fields(fields.object("motion"), fields.place_of("motion")));
-  scene.confined = fields.flag("confined");
-  scene.periodic = vector2_from_json(fields, "periodic");
-  if (scene.periodic.minCoeff() < 0) throw Rubbish("scene.periodic holds a length below 0");
-  if (fields.has("box")) {
-    scene.box =
-        box_from_json(Fields(fields.object("box"), fields.place_of("box")), scene.substrate.size());
+  if (points.empty()) node.fault("must have a point");
+  return points;
+}
+
+}  // namespace
+
+template <class Fields>
+void describe(Fields& f, PowerLawRestitution& law) {
+  f("coefficient", law.coefficient, kAboveZero);
+  f("exponent", law.exponent, kNotBelowZero);
+  f("speed", law.speed, kAboveZero);
+}
+
+template <class Fields>
+void describe(Fields& f, TabulatedRestitution& table) {
+  f("log_first", table.log_first);
+  f("log_step", table.log_step, kAboveZero);
+  f("log_odds", table.log_odds);
+  f("slope", table.slope);
+  if constexpr (Fields::kReads) {
+    if (table.log_odds.empty()) f["log_odds"].fault("must have a point");
+    check_size(f["slope"], table.slope.size(), table.log_odds.size(), "points");
   }
+}
+
+template <class Fields>
+void describe(Fields& f, PairContact& pair) {
+  if constexpr (Fields::kReads)
+    pair.restitution = restitution_of(f["restitution"]);
+  else
+    std::visit([&](const auto& law) { f("restitution", law); }, pair.restitution);
+  f("friction", pair.friction, kNotBelowZero);
+  f("tangential_restitution", pair.tangential_restitution, NumberRange{-1, 1});
+}
+
+template <class Fields>
+void describe(Fields& f, SubstrateContact& contact) {
+  f("kinetic_friction", contact.kinetic_friction, kNotBelowZero);
+  f("static_friction", contact.static_friction, NumberRange{contact.kinetic_friction});
+  if constexpr (Fields::kReads) {
+    contact.rolling = RollingFriction(rolling_points(f["rolling"]));
+  } else {
+    std::vector<std::pair<double, double>> points;
+    for (const auto& [speed, coefficient] : contact.rolling.points())
+      points.emplace_back(speed, coefficient);
+    f("rolling", points);
+  }
+  f("drilling_length", contact.drilling_length, kNotBelowZero);
+  f("coupled_radius", contact.coupled_radius, kNotBelowZero);
+  f("hertzian_pressure", contact.hertzian_pressure);
+  f("rolling_while_sliding", contact.rolling_while_sliding);
+  f("restitution", contact.restitution, NumberRange{0, 1});
+}
+
+template <class Fields>
+void describe(Fields& f, MaterialSphere& body) {
+  f("radius", body.sphere.radius, kAboveZero);
+  f("mass", body.sphere.mass, kAboveZero);
+  f("shape_factor", body.sphere.shape_factor, kAboveZero);
+  f("material", body.material);
+}
+
+template <class Fields>
+void describe(Fields& f, SubstrateMotion& motion) {
+  using enum SubstrateMotion::Kind;
+  SubstrateMotion::Kind kind = motion.kind();
+  Vector2 vector = motion.vector();
+  double frequency = motion.frequency(), phase = motion.phase();
+  f("kind", kind);
+  if (kind == constant) describe_vector(f, "velocity", vector);
+  if (kind == oscillation) {
+    describe_vector(f, "amplitude", vector);
+    f("frequency", frequency, kAboveZero);
+    f("phase", phase);
+  }
+  if constexpr (Fields::kReads) {
+    motion = kind == constant      ? SubstrateMotion::constant(vector)
+             : kind == oscillation ? SubstrateMotion::oscillation(vector, frequency, phase)
+             : kind == table       ? SubstrateMotion::table(motion_points(f["points"]))
+                                   : SubstrateMotion();
+  } else if (kind == table) {
+    std::vector<std::vector<double>> points;
+    for (const auto& [time, position] : motion.points())
+      points.push_back({time, position.x(), position.y()});
+    f("points", points);
+  }
+}
+
+template <class Fields>
+void describe(Fields& f, ShakenFloor& floor) {
+  f("amplitude", floor.amplitude, kNotBelowZero);
+  f("frequency", floor.frequency, kNotBelowZero);
+}
+
+template <class Fields>
+void describe(Fields& f, Box& box) {
+  f("width", box.width, kAboveZero);
+  f("floor", box.floor);
+  f("moving_walls", box.moving_walls);
+  f("lid", box.lid);
+  f("on_floor", box.on_floor);
+  f("on_wall", box.on_wall);
+  f("on_lid", box.on_lid);
+  if constexpr (Fields::kReads)
+    if (box.lid && !(*box.lid > 0)) f["lid"].fault("must be > 0");
+}
+
+template <class Fields>
+void describe(Fields& f, Scene& scene) {
+  std::vector<MaterialSphere> bodies;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    bodies.push_back({scene.bodies[i], scene.material[i]});
+  f("bodies", bodies);
+  f("substrate", scene.substrate);
+  f("pairs", scene.pairs);
+  f("gravity", scene.gravity, kNotBelowZero);
+  describe_vector(f, "downhill", scene.downhill);
+  f("motion", scene.motion);
+  f("confined", scene.confined);
+  describe_vector(f, "periodic", scene.periodic);
+  f("box", scene.box);
+  if constexpr (Fields::kReads) {
+    for (const MaterialSphere& body : bodies) {
+      scene.bodies.push_back(body.sphere);
+      scene.material.push_back(body.material);
+    }
+    scene.initial = protocol::unpack_states(f["initial"]);
+  } else {
+    f("initial", nlohmann::json::binary(protocol::pack_states(scene.initial)));
+  }
+}
+
+namespace protocol {
+
+json scene_to_json(const Scene& scene) { return message_json(scene); }
+
+Scene scene_from_json(const JsonNode& node) {
+  auto scene = read_finite<Scene>(node);
+  const std::size_t materials = scene.substrate.size();
+  if (materials == 0) node["substrate"].fault("must have an entry");
+  if (scene.bodies.empty()) node["bodies"].fault("must have an entry");
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (scene.material[i] >= materials)
+      node["bodies"].items()[i]["material"].fault(fmt::format("must be below {}", materials));
+  check_size(node["pairs"], scene.pairs.size(), materials * materials, "pairs of materials");
+  check_size(node["initial"], scene.initial.size(), scene.bodies.size(), "bodies");
+  if (scene.periodic.minCoeff() < 0) node["periodic"].fault("must hold lengths >= 0");
+  if (scene.box)
+    for (const auto& [key, contacts] : {std::pair{"on_floor", &scene.box->on_floor},
+                                        {"on_wall", &scene.box->on_wall},
+                                        {"on_lid", &scene.box->on_lid}})
+      check_size(node["box"][key], contacts->size(), materials, "materials");
   return scene;
 }
 
-}  // namespace slipcheck::protocol
+}  // namespace protocol
+}  // namespace slipcheck

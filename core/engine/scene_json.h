@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/fields.h"
+#include "engine/cbor.h"
 #include "scene/scene.h"
 
 namespace slipcheck::protocol {
@@ -23,12 +23,12 @@ BodyState read_state(const std::uint8_t* at);
 
 Bytes pack_states(std::span<const BodyState> states);
 /// Throws Rubbish where the size is no multiple of kStateBytes. Any float64 passes, NaN too.
-std::vector<BodyState> unpack_states(const Bytes& bytes, const std::string& place);
+std::vector<BodyState> unpack_states(const JsonNode& node);
 
 /// The scene as docs/engine-protocol.md words it.
 nlohmann::json scene_to_json(const Scene& scene);
 
 /// The inverse; every index and range that Scene promises is checked. Throws Rubbish.
-Scene scene_from_json(const nlohmann::json& json);
+Scene scene_from_json(const JsonNode& node);
 
 }  // namespace slipcheck::protocol

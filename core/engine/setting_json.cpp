@@ -1,54 +1,12 @@
 #include "engine/setting_json.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
-#include "engine/fields.h"
+#include "engine/message_fields.h"
 #include "engine/settings.h"
 
-namespace slipcheck::protocol {
-
-using nlohmann::json;
-
+namespace slipcheck {
 namespace {
-
-json to_json(const Setting& setting) {
-  return std::visit([](const auto& value) { return json(value); }, setting);
-}
-
-json to_json(const std::vector<Setting>& settings) {
-  json list = json::array();
-  for (const Setting& setting : settings) list.push_back(to_json(setting));
-  return list;
-}
-
-Setting setting_from_json(const json& value, const std::string& place) {
-  if (value.is_boolean()) return value.get<bool>();
-  if (value.is_number()) return value.get<double>();
-  if (!value.is_string()) throw Rubbish(fmt::format("{} is no number, text, true or false", place));
-  require_utf8(value.get_ref<const std::string&>(), place);
-  return value.get<std::string>();
-}
-
-json to_json(const SettingInfo& info) {
-  json object = {{"name", info.name},
-                 {"about", info.about},
-                 {"unit", info.unit},
-                 {"shipped", to_json(info.shipped)},
-                 {"whole", info.whole},
-                 {"choices", info.choices},
-                 {"candidates", to_json(info.candidates)}};
-  if (std::isfinite(info.low)) object["low"] = info.low;
-  if (std::isfinite(info.high)) object["high"] = info.high;
-  if (info.range)
-    object["range"] = {{"low", info.range->low},
-                       {"high", info.range->high},
-                       {"logarithmic", info.range->logarithmic}};
-  return object;
-}
 
 bool is_setting_name(const std::string& name) {
   return !name.empty() && std::ranges::all_of(name, [](char c) {
@@ -56,85 +14,69 @@ bool is_setting_name(const std::string& name) {
   });
 }
 
-SettingInfo::Range range_from_json(const Fields& fields, const SettingInfo& info,
-                                   const std::string& place) {
-  SettingInfo::Range range{fields.number("low"), fields.number("high"), fields.flag("logarithmic")};
-  if (range.low >= range.high || range.low < info.low || range.high > info.high)
-    throw Rubbish(fmt::format("{} is no range of what the setting takes", place));
-  if (range.logarithmic && range.low <= 0)
-    throw Rubbish(fmt::format("{} is logarithmic, but not > 0", place));
-  return range;
-}
-
 /// A value that the engine says its own setting may have.
-Setting own_value(const json& value, const SettingInfo& info, const std::string& place) {
-  Setting setting = setting_from_json(value, place);
-  const std::string rule = broken_rule(info, setting);
-  if (!rule.empty()) throw Rubbish(fmt::format("{} {}", place, rule));
-  return setting;
+void check_own(const JsonNode& node, const SettingInfo& info, const Setting& value) {
+  if (const std::string rule = broken_rule(info, value); !rule.empty()) node.fault(rule);
 }
 
-SettingInfo setting_info_from_json(const Fields& fields) {
-  SettingInfo info;
-  info.name = fields.text("name");
-  if (!is_setting_name(info.name))
-    throw Rubbish(fmt::format("{} is no name of a-z, 0-9 and _", fields.place_of("name")));
-  info.about = fields.text("about");
-  info.unit = fields.text("unit");
-  const json& shipped = fields.member("shipped");
-  info.shipped = setting_from_json(shipped, fields.place_of("shipped"));
-  info.whole = fields.flag("whole");
-  info.choices = fields.texts("choices");
-  if (fields.has("low")) info.low = fields.number("low");
-  if (fields.has("high")) info.high = fields.number("high");
+void check_info(const JsonNode& node, const SettingInfo& info) {
+  if (!is_setting_name(info.name)) node["name"].fault("must be a name of a-z, 0-9 and _");
   const bool is_number = std::holds_alternative<double>(info.shipped);
-  if (!is_number && (info.whole || fields.has("low") || fields.has("high") || fields.has("range")))
-    throw Rubbish(fmt::format("{} is no number, but has limits", fields.place_of("shipped")));
+  if (!is_number && (info.whole || node.has("low") || node.has("high") || info.range))
+    node["shipped"].fault("must be a number, as it has limits");
   if (!std::holds_alternative<std::string>(info.shipped) && !info.choices.empty())
-    throw Rubbish(fmt::format("{} is no text, but has choices", fields.place_of("shipped")));
-  own_value(shipped, info, fields.place_of("shipped"));
-  for (const json& candidate : fields.list("candidates"))
-    info.candidates.push_back(own_value(candidate, info, fields.place_of("candidates")));
-  if (fields.has("range")) {
-    const std::string place = fields.place_of("range");
-    info.range = range_from_json(Fields(fields.object("range"), place), info, place);
-  }
-  return info;
+    node["shipped"].fault("must be a text, as it has choices");
+  check_own(node["shipped"], info, info.shipped);
+  const std::vector<JsonNode> candidates = node["candidates"].items();
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+    check_own(candidates[k], info, info.candidates[k]);
+  if (!info.range) return;
+  const auto& [low, high, logarithmic] = *info.range;
+  if (low >= high || low < info.low || high > info.high)
+    node["range"].fault_alone("must be a range of what the setting takes");
+  if (logarithmic && low <= 0) node["range"].fault_alone("must be > 0, as it is logarithmic");
 }
 
 }  // namespace
 
-json settings_to_json(const Settings& settings) {
-  json object = json::object();
-  for (const auto& [name, setting] : settings) object[name] = to_json(setting);
-  return object;
+template <class Fields>
+void describe(Fields& f, SettingInfo::Range& range) {
+  f("low", range.low);
+  f("high", range.high);
+  f("logarithmic", range.logarithmic);
 }
 
-Settings settings_from_json(const json& object) {
-  Settings settings;
-  for (const auto& [name, value] : object.items()) {
-    require_utf8(name, "the name of a setting");
-    settings[name] = setting_from_json(value, "the setting " + name);
-  }
-  return settings;
+template <class Fields>
+void describe(Fields& f, SettingInfo& info) {
+  f("name", info.name);
+  f("about", info.about);
+  f("unit", info.unit);
+  f("shipped", info.shipped);
+  f("whole", info.whole);
+  f("choices", info.choices);
+  f("candidates", info.candidates);
+  f.if_finite("low", info.low);
+  f.if_finite("high", info.high);
+  f("range", info.range);
 }
 
-json setting_infos_to_json(const std::vector<SettingInfo>& infos) {
-  json list = json::array();
-  for (const SettingInfo& info : infos) list.push_back(to_json(info));
-  return list;
+namespace protocol {
+
+nlohmann::json setting_infos_to_json(const std::vector<SettingInfo>& infos) {
+  return message_json(infos);
 }
 
-std::vector<SettingInfo> setting_infos_from_json(const json& list) {
+std::vector<SettingInfo> setting_infos_from_json(const JsonNode& list) {
   std::vector<SettingInfo> infos;
-  for (const json& object : list) {
-    const std::string place = fmt::format("reply.settings[{}]", infos.size());
-    SettingInfo info = setting_info_from_json(Fields(object, place));
+  for (const JsonNode& node : list.items()) {
+    auto info = read_finite<SettingInfo>(node);
+    check_info(node, info);
     if (find_setting(infos, info.name) != nullptr)
-      throw Rubbish(fmt::format("{} is a second {}", place, info.name));
+      node["name"].fault("must be the name of no other");
     infos.push_back(std::move(info));
   }
   return infos;
 }
 
-}  // namespace slipcheck::protocol
+}  // namespace protocol
+}  // namespace slipcheck

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "base/stop_scope.h"
-#include "engine/fields.h"
+#include "engine/cbor.h"
 
 namespace slipcheck {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/enum_names.h"
 #include "physics/sphere.h"
 #include "physics/vector.h"
 
@@ -229,6 +231,9 @@ struct Tolerance {
 
 /// How a run of an engine ended.
 enum class RunStatus { ok, unstable, crashed, timed_out, skipped };
+template <>
+inline constexpr std::array kNamesOf<RunStatus> = {"ok", "unstable", "crashed", "timed_out",
+                                                   "skipped"};
 
 /// Where a statistic of an engine's ensemble is expected [SI].
 struct ExpectedRange {

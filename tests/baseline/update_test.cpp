@@ -59,7 +59,7 @@ TEST_F(LoadBaselines, ByScene) {
   EXPECT_EQ(load_baselines(folder_, {"meeting", "none"}).size(), 1u);
   std::ofstream(folder_ / "broken.json") << "{";
   EXPECT_EQ(load_baselines(folder_, {"meeting"}).size(), 1u);
-  EXPECT_THROW(load_baselines(folder_), BadBaseline);
+  EXPECT_THROW(load_baselines(folder_), BadJson);
 }
 
 }  // namespace

@@ -159,18 +159,17 @@ TEST(Protocol, ABadReplyIsNamed) {
     return reply;
   };
   const auto bytes = [](const Bytes& content) { return nlohmann::json::binary(content); };
-  expect_rubbish(3, "reply is not a map");
-  expect_rubbish({{"kind", "frames"}}, "reply.type is missing");
-  expect_rubbish({{"type", "dance"}}, "there is no reply 'dance'");
-  expect_rubbish(with("count", "one"), "reply.count is not a whole number >= 0");
-  expect_rubbish(with("count", -1), "reply.count is not a whole number >= 0");
+  expect_rubbish(3, "reply: must be an object, got 3");
+  expect_rubbish({{"kind", "frames"}}, "reply: type: must be there");
+  expect_rubbish({{"type", "dance"}}, "reply: type: must be a type of message, got \"dance\"");
+  expect_rubbish(with("count", "one"), "reply: count: must be a whole number >= 0, got \"one\"");
+  expect_rubbish(with("count", -1), "reply: count: must be a whole number >= 0, got -1");
   expect_rubbish(with("count", 0), "frames without a step or a body");
   expect_rubbish(with("count", 2), "144 bytes of states for 2 steps of 2 bodies");
   expect_rubbish(with("bodies", 1), "144 bytes of states for 1 steps of 1 bodies");
-  expect_rubbish(with("cpu_seconds", -1.0),
-                 "reply.cpu_seconds is -1, not in [0, 1.7976931348623157e+308]");
-  expect_rubbish(with("cpu_seconds", std::nan("")), "reply.cpu_seconds is not finite");
-  expect_rubbish(with("states", "text"), "reply.states is not a byte string");
+  expect_rubbish(with("cpu_seconds", -1.0), "reply: cpu_seconds: must be >= 0, got -1.0");
+  expect_rubbish(with("cpu_seconds", std::nan("")), "reply: cpu_seconds: must be finite, got nan");
+  expect_rubbish(with("states", "text"), "reply: states: must be a byte string, got \"text\"");
   expect_rubbish(with("touch_counts", bytes({1, 0})), "touch_counts is not 4 bytes for each step");
   expect_rubbish(with("touch_counts", bytes({0, 0, 0, 0})), "more touches than touch_counts says");
   expect_rubbish(with("touch_counts", bytes({0, 0, 0, 9})), "touches end early");
@@ -184,8 +183,9 @@ TEST(Protocol, ABadReplyIsNamed) {
   touches[4] = 1;
   expect_rubbish(with("touches", bytes(touches)), "a touch's normal impulse is -1, not > 0");
   expect_rubbish({{"type", "timed"}, {"cpu_seconds", {1e-6, -1e-6}}},
-                 "reply.cpu_seconds holds -1e-06, not >= 0");
-  expect_rubbish({{"type", "refused"}, {"reason", "\xff"}}, "reply.reason is not valid UTF-8");
+                 "reply: cpu_seconds: must hold times >= 0");
+  expect_rubbish({{"type", "refused"}, {"reason", "\xff"}},
+                 "reply: reason: must be valid UTF-8, got \"\uFFFD\"");
 }
 
 TEST(Protocol, DeepNestingAndOddCborAreRefused) {

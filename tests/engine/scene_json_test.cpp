@@ -26,7 +26,9 @@ void expect_rubbish(const Scene& scene, const std::function<void(json&)>& spoil,
                     const char* reason) {
   json object = scene_to_json(scene);
   spoil(object);
-  EXPECT_EQ(test::refusal_of<Rubbish>([&] { scene_from_json(object); }), reason);
+  const std::string place = "scene";
+  EXPECT_EQ(test::refusal_of<Rubbish>([&] { scene_from_json(JsonNode(object, place)); }),
+            "scene: " + std::string(reason));
 }
 
 TEST(SceneJson, TheSceneComesThroughWhole) {
@@ -111,71 +113,71 @@ TEST(SceneJson, ABadSceneIsNamed) {
     expect_rubbish(some_scene(), spoil, reason);
   };
   expect([](json& s) { s["bodies"][1]["material"] = 2; },
-         "scene.bodies[1].material is 2, more than 1");
-  expect([](json& s) { s["bodies"] = json::array(); }, "scene.bodies is empty");
-  expect([](json& s) { s["pairs"].erase(0); }, "scene.pairs has 3 entries for 2 materials");
+         "bodies[1].material: must be below 2, got 2");
+  expect([](json& s) { s["bodies"] = json::array(); }, "bodies: must have an entry, got a list");
+  expect([](json& s) { s["pairs"].erase(0); },
+         "pairs: must have an entry for each of 4 pairs of materials, has 3");
   expect([](json& s) { s["initial"] = json::binary(Bytes(72)); },
-         "scene.initial has 1 states for 2 bodies");
+         "initial: must have an entry for each of 2 bodies, has 1");
   expect([](json& s) { s["initial"] = json::binary(Bytes(71)); },
-         "scene.initial has 71 bytes, no multiple of 72");
+         "initial: has 71 bytes, must be a multiple of 72");
   expect(
       [](json& s) {
         s["substrate"][0]["rolling"] = {{1, 0.1}, {1, 0.2}};
       },
-      "scene.substrate[0].rolling: the speeds do not rise");
+      "substrate[0].rolling[1][0]: must be above the one before, got 1");
   expect([](json& s) { s["substrate"][0]["rolling"] = json::array(); },
-         "scene.substrate[0].rolling has no point");
-  expect([](json& s) { s["confined"] = 0; }, "scene.confined is neither true nor false");
+         "substrate[0].rolling: must have a point, got a list");
+  expect([](json& s) { s["confined"] = 0; }, "confined: must be true or false, got 0");
   expect([](json& s) { s["pairs"][0]["restitution"] = 1.5; },
-         "scene.pairs[0].restitution is 1.5, not in [0, 1]");
+         "pairs[0].restitution: must be from 0 to 1, got 1.5");
   expect([](json& s) { s["pairs"][3]["restitution"]["slope"].erase(0); },
-         "scene.pairs[3].restitution.slope has 2 entries for 3 points");
+         "pairs[3].restitution.slope: must have an entry for each of 3 points, has 2");
   expect([](json& s) { s["pairs"][3]["restitution"]["log_odds"] = json::array(); },
-         "scene.pairs[3].restitution.log_odds is empty");
+         "pairs[3].restitution.log_odds: must have a point, got a list");
   expect([](json& s) { s["pairs"][3]["restitution"]["slope"][1] = "x"; },
-         "scene.pairs[3].restitution.slope holds something that is not a finite number");
+         "pairs[3].restitution.slope[1]: must be a number, got \"x\"");
   expect([](json& s) { s["substrate"][1].erase("coupled_radius"); },
-         "scene.substrate[1].coupled_radius is missing");
-  expect([](json& s) { s["downhill"] = {1, 2, 3}; }, "scene.downhill is not [x, y]");
+         "substrate[1].coupled_radius: must be there");
+  expect([](json& s) { s["downhill"] = {1, 2, 3}; }, "downhill: must be a list of 2, got a list");
   expect([](json& s) { s["motion"]["kind"] = "wobble"; },
-         "scene.motion.kind is 'wobble', no kind of motion");
+         "motion.kind: must be one of still, constant, oscillation, table, got \"wobble\"");
   expect(
       [](json& s) {
         s["motion"] = {{"kind", "table"}, {"points", json::array()}};
       },
-      "scene.motion.points is empty");
+      "motion.points: must have a point, got a list");
   expect(
       [](json& s) {
         s["motion"] = {{"kind", "table"}, {"points", {{0, 0, 0}, {0, 1, 0}}}};
       },
-      "scene.motion.points: the times do not rise");
+      "motion.points[1][0]: must be above the one before, got 0");
   expect(
       [](json& s) {
         s["motion"] = {{"kind", "table"}, {"points", {{0, 0}, {0, 1}}}};
       },
-      "scene.motion.points: a point is not [time, x, y]");
+      "motion.points[0]: must be a list of 3 numbers, got a list");
 }
 
 TEST(SceneJson, ABadBoxIsNamed) {
   const auto expect = [](auto spoil, const char* reason) {
     expect_rubbish(some_box(), spoil, reason);
   };
-  expect([](json& s) { s["box"] = nullptr; }, "scene.box is not a map");
-  expect([](json& s) { s["box"]["width"] = 0; },
-         "scene.box.width is 0, not in [2.2250738585072014e-308, 1.7976931348623157e+308]");
+  expect([](json& s) { s["box"] = nullptr; }, "box: must be an object, got null");
+  expect([](json& s) { s["box"]["width"] = 0; }, "box.width: must be > 0, got 0");
   expect([](json& s) { s["box"]["floor"]["amplitude"] = -1; },
-         "scene.box.floor.amplitude is -1, not in [0, 1.7976931348623157e+308]");
+         "box.floor.amplitude: must be >= 0, got -1");
   expect([](json& s) { s["box"]["floor"].erase("frequency"); },
-         "scene.box.floor.frequency is missing");
+         "box.floor.frequency: must be there");
   expect([](json& s) { s["box"]["moving_walls"] = "yes"; },
-         "scene.box.moving_walls is neither true nor false");
-  expect([](json& s) { s["box"]["lid"] = "open"; }, "scene.box.lid is not a number");
+         "box.moving_walls: must be true or false, got \"yes\"");
+  expect([](json& s) { s["box"]["lid"] = "open"; }, "box.lid: must be a number, got \"open\"");
   expect([](json& s) { s["box"]["on_wall"].erase(0); },
-         "scene.box.on_wall has 1 entries for 2 materials");
+         "box.on_wall: must have an entry for each of 2 materials, has 1");
   expect([](json& s) { s["box"]["on_lid"][1]["restitution"] = 1.5; },
-         "scene.box.on_lid[1].restitution is 1.5, not in [0, 1]");
-  expect([](json& s) { s["periodic"] = {-1, 0}; }, "scene.periodic holds a length below 0");
-  expect([](json& s) { s.erase("periodic"); }, "scene.periodic is missing");
+         "box.on_lid[1].restitution: must be from 0 to 1, got 1.5");
+  expect([](json& s) { s["periodic"] = {-1, 0}; }, "periodic: must hold lengths >= 0, got a list");
+  expect([](json& s) { s.erase("periodic"); }, "periodic: must be there");
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "../support/refusal.h"
-#include "engine/fields.h"
+#include "engine/message_fields.h"
 #include "some_scene.h"
 
 namespace slipcheck::protocol {
@@ -13,9 +13,17 @@ namespace {
 
 using nlohmann::json;
 
+const std::string kPlace = "settings";
+
+std::vector<SettingInfo> infos_of(const json& list) {
+  return setting_infos_from_json(JsonNode(list, kPlace));
+}
+
+Settings settings_of(const json& object) { return read_finite<Settings>(JsonNode(object, kPlace)); }
+
 TEST(SettingJson, WhatAnEngineTakesComesThrough) {
   const std::vector<SettingInfo> sent = some_settings();
-  const auto received = setting_infos_from_json(setting_infos_to_json(sent));
+  const auto received = infos_of(setting_infos_to_json(sent));
   ASSERT_EQ(received.size(), sent.size());
   for (std::size_t k = 0; k < sent.size(); ++k) {
     const SettingInfo &a = sent[k], &b = received[k];
@@ -38,7 +46,7 @@ TEST(SettingJson, WhatAnEngineTakesComesThrough) {
 }
 
 TEST(SettingJson, NumbersOfAnyKindAreNumbers) {
-  const Settings settings = settings_from_json({{"a", 1}, {"b", 1.5}, {"c", true}, {"d", "1"}});
+  const Settings settings = settings_of({{"a", 1}, {"b", 1.5}, {"c", true}, {"d", "1"}});
   EXPECT_EQ(settings, (Settings{{"a", 1.0}, {"b", 1.5}, {"c", true}, {"d", std::string("1")}}));
 }
 
@@ -50,59 +58,59 @@ json changed(std::size_t which, const char* key, const json& value) {
 }
 
 void expect_rubbish(const json& list, const std::string& reason) {
-  EXPECT_EQ(test::refusal_of<Rubbish>([&] { setting_infos_from_json(list); }), reason);
+  EXPECT_EQ(test::refusal_of<BadJson>([&] { infos_of(list); }), "settings: " + reason);
 }
 
 TEST(SettingJson, InfosThatContradictThemselvesAreRubbish) {
   constexpr std::size_t kErp = 1, kIterations = 2, kBody = 3;
   expect_rubbish(changed(kErp, "name", "Erp"),
-                 "reply.settings[1].name is no name of a-z, 0-9 and _");
-  expect_rubbish(changed(kErp, "name", ""), "reply.settings[1].name is no name of a-z, 0-9 and _");
+                 "[1].name: must be a name of a-z, 0-9 and _, got \"Erp\"");
+  expect_rubbish(changed(kErp, "name", ""), "[1].name: must be a name of a-z, 0-9 and _, got \"\"");
   expect_rubbish(changed(kErp, "name", "warm_starting"),
-                 "reply.settings[1] is a second warm_starting");
+                 "[1].name: must be the name of no other, got \"warm_starting\"");
   expect_rubbish(changed(kErp, "shipped", json::array()),
-                 "reply.settings[1].shipped is no number, text, true or false");
+                 "[1].shipped: must be a number, got a list");
   expect_rubbish(changed(kErp, "shipped", 2),
-                 "reply.settings[1].shipped must be a number >= 0 and <= 1 1/step");
+                 "[1].shipped: must be a number >= 0 and <= 1 1/step, got 2");
   expect_rubbish(changed(kErp, "shipped", std::nan("")),
-                 "reply.settings[1].shipped must be a number >= 0 and <= 1 1/step");
-  expect_rubbish(changed(kErp, "low", "none"), "reply.settings[1].low is not a number");
-  expect_rubbish(changed(kErp, "whole", 1), "reply.settings[1].whole is neither true nor false");
+                 "[1].shipped: must be a number >= 0 and <= 1 1/step, got nan");
+  expect_rubbish(changed(kErp, "low", "none"), "[1].low: must be a number, got \"none\"");
+  expect_rubbish(changed(kErp, "whole", 1), "[1].whole: must be true or false, got 1");
   expect_rubbish(changed(kErp, "candidates", {0.1, "x"}),
-                 "reply.settings[1].candidates must be a number >= 0 and <= 1 1/step");
+                 "[1].candidates[1]: must be a number >= 0 and <= 1 1/step, got \"x\"");
   expect_rubbish(changed(kIterations, "candidates", {0}),
-                 "reply.settings[2].candidates must be a whole number >= 1");
+                 "[2].candidates[0]: must be a whole number >= 1, got 0");
   expect_rubbish(changed(kErp, "choices", {"a"}),
-                 "reply.settings[1].shipped is no text, but has choices");
+                 "[1].shipped: must be a text, as it has choices, got 0.2");
   expect_rubbish(changed(kBody, "choices", {"soft"}),
-                 "reply.settings[3].shipped must be one of soft");
+                 "[3].shipped: must be one of soft, got \"rigid\"");
   expect_rubbish(changed(kBody, "low", 0),
-                 "reply.settings[3].shipped is no number, but has limits");
+                 "[3].shipped: must be a number, as it has limits, got \"rigid\"");
   const auto range = [](double low, double high, bool logarithmic) {
     return json{{"low", low}, {"high", high}, {"logarithmic", logarithmic}};
   };
-  const std::string no_range = "reply.settings[1].range is no range of what the setting takes";
+  const std::string no_range = "[1].range: must be a range of what the setting takes";
   expect_rubbish(changed(kErp, "range", range(-1, 1, false)), no_range);
   expect_rubbish(changed(kErp, "range", range(0, 2, false)), no_range);
   expect_rubbish(changed(kErp, "range", range(0.5, 0.5, false)), no_range);
   expect_rubbish(changed(kErp, "range", range(0, 1, true)),
-                 "reply.settings[1].range is logarithmic, but not > 0");
-  EXPECT_NO_THROW(setting_infos_from_json(changed(kErp, "range", range(0, 1, false))));
-  expect_rubbish(json::array({3}), "reply.settings[0] is not a map");
+                 "[1].range: must be > 0, as it is logarithmic");
+  EXPECT_NO_THROW(infos_of(changed(kErp, "range", range(0, 1, false))));
+  expect_rubbish(json::array({3}), "[0]: must be an object, got 3");
 }
 
 TEST(SettingJson, AMissingMemberIsNamed) {
   for (const char* key : {"name", "about", "unit", "shipped", "whole", "choices", "candidates"}) {
     json list = setting_infos_to_json(some_settings());
     list[0].erase(key);
-    expect_rubbish(list, std::string("reply.settings[0].") + key + " is missing");
+    expect_rubbish(list, std::string("[0].") + key + ": must be there");
   }
 }
 
 TEST(SettingJson, OtherValuesAreNoSettings) {
   for (const json& value : {json(), json::array(), json::object()})
-    EXPECT_THROW(settings_from_json({{"erp", value}}), Rubbish);
-  EXPECT_THROW(settings_from_json({{"erp", "\xff"}}), Rubbish);
+    EXPECT_THROW(settings_of({{"erp", value}}), BadJson);
+  EXPECT_THROW(settings_of({{"erp", "\xff"}}), BadJson);
 }
 
 }  // namespace

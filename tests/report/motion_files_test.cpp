@@ -74,6 +74,12 @@ void expect_same(const RecordedMotion& read, const RecordedMotion& written) {
 
 // --- JSON ----------------------------------------------------------------------------------------
 
+void read_motions(const Json& json, SceneRecord& scene) {
+  const auto parsed = nlohmann::json::parse(json.dump());
+  const std::string file = "m.json";
+  slipcheck::read_motions(JsonNode(parsed, file), scene);
+}
+
 TEST(MotionJson, IsReadBackAsItWasWritten) {
   const SceneRecord written = recorded_scene();
   SceneRecord read = testing::lottery_scene();
@@ -131,33 +137,35 @@ TEST(MotionJson, ABadFileIsRefusedAtItsPlace) {
   };
   const Case cases[] = {
       {"/schema", "\"slipcheck-motion/2\"",
-       "schema: must be slipcheck-motion/1, is slipcheck-motion/2"},
-      {"/scenario", "[]", "scenario.name: must be there"},
-      {"/scenario/name", "\"other\"", "scenario.name: must be symmetric-steel, is other"},
-      {"/scenario/name", "7", "scenario.name: must be a text"},
-      {"/bodies", "[\"i\"]", "bodies: must be a list of 2, is of 1"},
-      {"/bodies/1", "\"k\"", "bodies[1]: must be j, is k"},
-      {"/runs", "{}", "runs: must be a list"},
+       "schema: must be slipcheck-motion/1, got \"slipcheck-motion/2\""},
+      {"/scenario", "[]", "scenario: must be an object, got a list"},
+      {"/scenario/name", "\"other\"", "scenario.name: must be symmetric-steel, got \"other\""},
+      {"/scenario/name", "7", "scenario.name: must be a text, got 7"},
+      {"/bodies", "[\"i\"]", "bodies: must be a list of 2, got a list"},
+      {"/bodies/1", "\"k\"", "bodies[1]: must be j, got \"k\""},
+      {"/runs", "{}", "runs: must be a list, got an object"},
       {"/runs/1/rate", "60",
        "runs[1]: must be of a run of the result, is of bullet double default at 60 Hz"},
-      {"/runs/1/rate", "null", "runs[1].rate: must be a number"},
+      {"/runs/1/rate", "null", "runs[1].rate: must be a number, got null"},
       {"/runs/1/role", "\"median\"",
        "runs[1]: must be of a run of the result, is of bullet double default at 240 Hz"},
-      {"/runs/1/phase", "1.5", "runs[1].phase: must be a whole number from 0 to 1000000000"},
-      {"/runs/1/error", "\"large\"", "runs[1].error: must be infinite, is large"},
-      {"/runs/1/time", "[]", "runs[1].time: must be a list of one time at least"},
-      {"/runs/1/time/2", "0.5", "runs[1].time[2]: must be later than the one before"},
-      {"/runs/1/substrate", "[]", "runs[1].substrate: must be a list of 3, is of 0"},
-      {"/runs/1/substrate/2", "[1, 2]", "runs[1].substrate[2]: must be a list of 3 numbers"},
-      {"/reference/position", "[[1]]", "reference.position: must be a list of 3, is of 1"},
-      {"/reference/velocity/0/5", "null", "reference.velocity[0]: must be a list of 6 numbers"},
-      {"/reference/angular_velocity", "7", "reference.angular_velocity: must be a list"},
+      {"/runs/1/phase", "1.5", "runs[1].phase: must be a whole number >= 0, got 1.5"},
+      {"/runs/1/error", "\"large\"", "runs[1].error: must be infinite, got \"large\""},
+      {"/runs/1/time", "[]", "runs[1].time: must be a list of one time at least, got a list"},
+      {"/runs/1/time/2", "0.5", "runs[1].time[2]: must be later than the one before, got 0.5"},
+      {"/runs/1/substrate", "[]", "runs[1].substrate: must be a list of 3, got a list"},
+      {"/runs/1/substrate/2", "[1, 2]",
+       "runs[1].substrate[2]: must be a list of 3 numbers, got a list"},
+      {"/reference/position", "[[1]]", "reference.position: must be a list of 3, got a list"},
+      {"/reference/velocity/0/5", "null", "reference.velocity[0][5]: must be a number, got null"},
+      {"/reference/angular_velocity", "7",
+       "reference.angular_velocity: must be a list of 3, got 7"},
       {"/reference/touches/0/0", "3",
-       "reference.touches[0][0]: must be a whole number from 0 to 2"},
+       "reference.touches[0][0]: must be a whole number from 0 to 2, got 3"},
       {"/reference/touches/0/1", "-1",
-       "reference.touches[0][1]: must be a whole number from 0 to 1"},
+       "reference.touches[0][1]: must be a whole number from 0 to 1, got -1"},
       {"/reference/touches/0/2", "-2",
-       "reference.touches[0][2]: must be a whole number from -1 to 1"},
+       "reference.touches[0][2]: must be a whole number from -1 to 1, got -2"},
   };
   const Json good = motion_json_of(recorded_scene());
   for (const Case& bad : cases) {
@@ -165,7 +173,7 @@ TEST(MotionJson, ABadFileIsRefusedAtItsPlace) {
     json[Json::json_pointer(bad.pointer)] = Json::parse(bad.value);
     SceneRecord scene = testing::lottery_scene();
     EXPECT_EQ(test::refusal_of<std::runtime_error>([&] { read_motions(json, scene); }),
-              bad.message);
+              std::string("m.json: ") + bad.message);
     EXPECT_FALSE(scene.reference.motion);
   }
   SceneRecord scene = testing::lottery_scene();

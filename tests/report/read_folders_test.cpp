@@ -35,7 +35,7 @@ class ReadFolders : public test::InFolder {
 
   /// What reading says, without the folder's path.
   std::string refusal(const std::vector<fs::path>& paths) const {
-    return without_folder(test::refusal_of<BadResults>([&] { read_folders(paths); }));
+    return without_folder(test::refusal_of<BadJson>([&] { read_folders(paths); }));
   }
   std::string refusal() const { return refusal({folder_}); }
 

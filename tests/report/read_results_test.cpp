@@ -7,8 +7,6 @@
 #include "read_records.h"
 #include "report/json/json_report.h"
 #include "report/json/precision_json.h"
-#include "report/json/read_result.h"
-#include "report/json/read_studies.h"
 #include "report/json/stability_json.h"
 #include "study_records.h"
 
@@ -30,7 +28,7 @@ SceneRecord read_back(const SceneRecord& scene) {
 /// What reading this file says.
 std::string refusal(const Json& json,
                     const std::function<void(const JsonNode&)>& read = read_result) {
-  return test::refusal_of<BadResults>([&] { read(JsonNode(json, kFile)); });
+  return test::refusal_of<BadJson>([&] { read(JsonNode(json, kFile)); });
 }
 
 TEST(ReadResult, GivesTheSameFileAgain) {
@@ -158,7 +156,7 @@ TEST(ReadResult, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(wrong("/runs/0/phases", 1.5),
             "results/x.json: runs[0].phases: must be a whole number >= 0, got 1.5");
   EXPECT_EQ(wrong("/runs/0/warnings", {1}),
-            "results/x.json: runs[0].warnings: must be a list of texts, got a list");
+            "results/x.json: runs[0].warnings[0]: must be a text, got 1");
   EXPECT_EQ(wrong("/runs/0/errors/i.sliding_time/within", 1),
             "results/x.json: runs[0].errors.i.sliding_time.within: must be true or false, got 1");
   EXPECT_EQ(wrong("/runs/0/observables/i.sliding_time/values/3", "x"),
@@ -245,9 +243,10 @@ TEST(ReadPrecision, SaysWhatIsWrongAndWhere) {
             "fixed_step, event, got \"cvode\"");
   EXPECT_EQ(wrong("/scenes/0/curves/0/points/1/cost", 1e-6),
             "results/x.json: scenes[0].curves[0].points[1].cost: must be an object, got 1e-06");
-  EXPECT_EQ(wrong("/scenes/0/curves/0/convergence/trajectory/kind", 0),
-            "results/x.json: scenes[0].curves[0].convergence.trajectory.kind: must be a text, "
-            "got 0");
+  EXPECT_EQ(
+      wrong("/scenes/0/curves/0/convergence/trajectory/kind", 0),
+      "results/x.json: scenes[0].curves[0].convergence.trajectory.kind: must be one of exact, "
+      "converges, does_not_converge, unknown, got 0");
 }
 
 /// The cases with a text, and what runs can have besides.
@@ -307,17 +306,18 @@ TEST(ReadStability, SaysWhatIsWrongAndWhere) {
     json[Json::json_pointer(pointer)] = value;
     return refusal(json, read_stability);
   };
-  EXPECT_EQ(wrong("/maps/0/outcome/1/2", "odd"),
-            "results/x.json: maps[0].outcome[1][2]: must be an outcome's name, got \"odd\"");
+  EXPECT_EQ(
+      wrong("/maps/0/outcome/1/2", "odd"),
+      "results/x.json: maps[0].outcome[1][2]: must be one of accurate, degraded, drifting, energy "
+      "growing, tunnelled, exploded, NaN, timed out, crashed, refused, got \"odd\"");
   EXPECT_EQ(wrong("/maps/0/worst_error/0/1", false),
-            "results/x.json: maps[0].worst_error[0][1]: must be a number or null, got false");
+            "results/x.json: maps[0].worst_error[0][1]: must be a number, got false");
   EXPECT_EQ(wrong("/maps/0/worst_error/1", {1, 2}),
-            "results/x.json: maps[0].worst_error[1]: must be a list with one for each value of x, "
-            "got a list");
+            "results/x.json: maps[0].worst_error[1]: must be a list of 3, got a list");
   EXPECT_EQ(wrong("/maps/0/y/values", {0, 1, 2}),
-            "results/x.json: maps[0].outcome: must have a list for each value of y, got a list");
+            "results/x.json: maps[0].outcome: must be a list of 3, got a list");
   EXPECT_EQ(wrong("/maps/0/theory", {1}),
-            "results/x.json: maps[0].theory: must be a list of [x, y], got a list");
+            "results/x.json: maps[0].theory[0]: must be a list of 2, got 1");
   EXPECT_EQ(wrong("/limits/0/kind", "speed"),
             "results/x.json: limits[0].kind: must be one of stable_step, accurate_step, "
             "length_scale, mass_ratio, got \"speed\"");

@@ -25,6 +25,9 @@ struct EnsembleValue {
 /// undecided: one does, but nothing can be judged by it, as the reference does not show the
 /// observable, did not end or is less certain than that, or the run was skipped.
 enum class Verdict { unjudged, within, undecided, deviates, failed };
+template <>
+inline constexpr std::array kNamesOf<Verdict> = {"not judged", "within", "undecided", "deviates",
+                                                 "failed"};
 
 /// An observable's deviation from the reference: relative, absolute for restitution coefficients
 /// and where the tolerance has a unit; of a vector relative to the reference's length. NaN with a
@@ -52,6 +55,9 @@ struct ExpectationResult {
   bool met = false;
   std::string reason;  ///< why there is no value, or which phases are missing
 };
+template <>
+inline constexpr std::array kNamesOf<ExpectationResult::Statistic> = {"min", "median", "max",
+                                                                      "none"};
 
 /// One engine at one rate on one scene.
 struct EngineRecord {
@@ -95,9 +101,5 @@ struct SceneRecord {
 
 /// What SceneRecord::scene is.
 std::shared_ptr<const ContactScene> solved_scene(const Scenario& scenario);
-
-const char* name_of(EngineRecord::Status status);
-const char* name_of(ExpectationResult::Statistic statistic);
-const char* name_of(Verdict verdict);
 
 }  // namespace slipcheck

@@ -172,7 +172,7 @@ std::optional<GnuplotChart> limit_chart(const LimitGroup& group, std::set<std::s
   if (row == 0) return std::nullopt;
 
   const std::string name =
-      file_stem(fmt::format("limit-{}-{}", key_of(group.kind), group.scene), taken);
+      file_stem(fmt::format("limit-{}-{}", name_of(group.kind), group.scene), taken);
   const std::string data = gnuplot_text(name + ".csv");
   std::string script = gnuplot_head(name, kWidth, 160 + 30 * static_cast<int>(row));
   script += gnuplot_logarithmic('x');

@@ -174,7 +174,7 @@ std::vector<FigureOnPage> stability_charts(const std::vector<StabilityCase>& cas
   }
   for (const LimitGroup& group : limit_groups(limits.limits)) {
     const std::size_t k =
-        add(fmt::format("limit-{}-{}", key_of(group.kind), group.scene),
+        add(fmt::format("limit-{}-{}", name_of(group.kind), group.scene),
             fmt::format("{}, {}", words_of(group.kind), plot_literal(group.scene)), "");
     figures[k].svg = limits_svg(group, figures[k].name);
   }

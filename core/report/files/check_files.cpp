@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "report/files/markdown.h"
-#include "report/json/json_number.h"
+#include "report/json/common_fields.h"
 
 namespace slipcheck {
 namespace {

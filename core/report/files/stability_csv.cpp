@@ -83,7 +83,7 @@ std::string limits_csv(const std::vector<Limit>& limits) {
                 "bad", "low", "high", "theory", "theory_name", "ratio_to_theory", "beyond", "why",
                 "islands", "reason"});
   for (const Limit& limit : limits)
-    rows.add({std::string(key_of(limit.kind)), label_of(limit), limit.method, limit.version,
+    rows.add({std::string(name_of(limit.kind)), label_of(limit), limit.method, limit.version,
               limit.precision, limit.profile, limit.scene, optional_number(limit.good),
               optional_number(limit.bad), limit.low, limit.high, optional_number(limit.theory),
               limit.theory_name, ratio_to_theory(limit),

@@ -4,56 +4,58 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
-#include "report/json/json_number.h"
+#include "report/json/common_fields.h"
 #include "report/rows/selection.h"
 #include "report/rows/verdict_look.h"
-#include "report/terminal/text.h"
 #include "scenario/tolerances.h"
 
 namespace slipcheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// JSON has no words for what is not finite.
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-const char* kind_of(double value) {
-  return std::isnan(value) ? "is not a number" : value > 0 ? "is infinite" : "is minus infinite";
-}
-
-Json strings(const std::vector<std::string>& texts) {
-  Json list = Json::array();
-  for (const std::string& text : texts) list.push_back(valid_utf8(text));
-  return list;
-}
+// --- series of a box -----------------------------------------------------------------------------
 
 constexpr std::size_t kMostPoints = 2000;  ///< of a series
 
+constexpr std::pair<const char*, std::vector<double> BoxSeries::*> kSeries[] = {
+    {"time", &BoxSeries::time},
+    {"height", &BoxSeries::height},
+    {"kinetic_energy", &BoxSeries::kinetic_energy},
+    {"rotational_energy", &BoxSeries::rotational_energy},
+    {"collision_rate", &BoxSeries::collision_rate}};
+
 /// Every `stride`-th of the values from the first on.
-Json thinned(const std::vector<double>& values, std::size_t stride) {
-  Json list = Json::array();
-  for (std::size_t k = 0; k < values.size(); k += stride) list.push_back(number_or_null(values[k]));
-  return list;
+std::vector<double> thinned(const std::vector<double>& values, std::size_t stride) {
+  std::vector<double> kept;
+  for (std::size_t k = 0; k < values.size(); k += stride) kept.push_back(values[k]);
+  return kept;
 }
 
-Json statistics_json(const BoxReference& box) {
-  Json json;
-  json["samples"] = box.samples;
-  json["discarded_periods"] = box.discarded;
-  json["steady"] = box.steady;
-  const std::size_t count = box.series.time.size();
-  const std::size_t stride = std::max<std::size_t>(1, (count + kMostPoints - 1) / kMostPoints);
-  json["stride"] = stride;
-  Json& series = json["series"];
-  series["time"] = thinned(box.series.time, stride);
-  series["height"] = thinned(box.series.height, stride);
-  series["kinetic_energy"] = thinned(box.series.kinetic_energy, stride);
-  series["rotational_energy"] = thinned(box.series.rotational_energy, stride);
-  series["collision_rate"] = thinned(box.series.collision_rate, stride);
-  return json;
+/// A series of which every `stride`-th sample is there, in its full length: values stay, times go
+/// on evenly.
+std::vector<double> full_length(const std::vector<double>& kept, std::size_t stride, bool is_time) {
+  std::vector<double> values;
+  values.reserve(kept.size() * stride);
+  double rise = 0;  // to the next sample that is there
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (is_time && k + 1 < kept.size()) rise = kept[k + 1] - kept[k];
+    for (std::size_t part = 0; part < stride; ++part)
+      values.push_back(kept[k] + rise * static_cast<double>(part) / static_cast<double>(stride));
+  }
+  return values;
 }
+
+// --- what a scene tells beside its records -------------------------------------------------------
+
+/// An observable of the reference, or why there is none.
+struct ShownObservable {
+  std::optional<double> value, uncertainty;
+  std::string why;  ///< there is none, or no bound
+};
 
 /// Why an uncertainty has no bound.
 std::string no_bound(const ReferenceResult& reference) {
@@ -63,154 +65,225 @@ std::string no_bound(const ReferenceResult& reference) {
   return "the uncertainty is unbounded: another rounding does not show the observable";
 }
 
-Json reference_json(const SceneRecord& scene) {
-  const ReferenceResult& reference = scene.reference;
-  Json json;
-  json["solver"] = reference.solver;
-  put_number(json, "cpu_seconds", reference.cpu_seconds);
-  put_number(json, "end_time", reference.run.end_time);
-  json["reached"] = reference.run.reached;
-  add_reason(json, reference.run.reason);
-  if (reference.run.failed) json["failed"] = true;
-  if (std::isfinite(reference.first_contact)) json["first_contact"] = reference.first_contact;
-  json["collisions"] = reference.run.collisions;
-  if (reference.run.collapses > 0) json["collapses"] = reference.run.collapses;
-  json["events"] = reference.run.events;
-  json["steps"] = reference.run.steps;
-  if (reference.run.balance) put_number(json, "energy_error", reference.run.balance->error());
-  if (reference.box) json["statistics"] = statistics_json(*reference.box);
-
-  // In alphabetical order, what is absent between what is shown.
-  std::map<std::string, Json> observables;
-  for (const auto& [name, value] : reference.observables) {
-    Json& entry = observables[name];
-    put_number(entry, "value", value.value);
-    put_number(entry, "uncertainty", value.uncertainty,
-               std::isinf(value.uncertainty) ? no_bound(reference) : "");
-  }
+/// Also what a tolerance asks for and the reference does not show.
+std::map<std::string, ShownObservable> shown_observables(const SceneRecord& scene) {
+  std::map<std::string, ShownObservable> shown;
+  for (const auto& [name, seen] : scene.reference.observables)
+    shown[name] = {seen.value, seen.uncertainty,
+                   std::isinf(seen.uncertainty) ? no_bound(scene.reference) : ""};
   for (const auto& [name, reason] : absent_observables(scene))
-    observables[name] = {{"value", nullptr}, {"uncertainty", nullptr}, {"reason", reason}};
-  json["observables"] = Json::object();
-  for (auto& [name, entry] : observables) json["observables"][name] = std::move(entry);
-
-  json["closed_form"] = Json::object();
-  for (const auto& [name, value] : reference.closed_form)
-    put_number(json["closed_form"], name, value);
-  json["warnings"] = strings(reference.warnings);
-  return json;
+    shown[name] = {std::nullopt, std::nullopt, reason};
+  return shown;
 }
 
-Json ensemble_json(const EnsembleValue& ensemble, bool with_values) {
-  Json json;
-  put_number(json, "median", ensemble.median);
-  put_number(json, "min", ensemble.min);
-  put_number(json, "max", ensemble.max);
-  if (ensemble.missing > 0) json["missing"] = ensemble.missing;
-  if (with_values) {
-    json["values"] = Json::array();
-    bool any_null = false;
-    for (double value : ensemble.values) {
-      json["values"].push_back(number_or_null(value));
-      any_null |= !std::isfinite(value);
+/// What is absent the scene tells again; an uncertainty without a number has no bound.
+std::map<std::string, UncertainValue> observables_of(
+    const std::map<std::string, ShownObservable>& shown) {
+  std::map<std::string, UncertainValue> observables;
+  for (const auto& [name, seen] : shown)
+    if (seen.value) observables[name] = {*seen.value, seen.uncertainty.value_or(kInfinity)};
+  return observables;
+}
+
+/// By phase is shown what has a tolerance or is expected: not more, as there may be many phases.
+std::vector<EngineRecord> shown_runs(const SceneRecord& scene) {
+  std::vector<EngineRecord> runs = scene.runs;
+  for (EngineRecord& run : runs)
+    for (auto& [name, ensemble] : run.observables)
+      if (!tolerance_of_part(scene.scenario, name) &&
+          !(run.expect && run.expect->observables.contains(name)))
+        ensemble.values.clear();
+  return runs;
+}
+
+/// What the scene expects of its runs: each of them takes the first request of its kind that no
+/// other run has taken.
+void add_expectations(const Scenario& scenario, std::vector<EngineRecord>& runs) {
+  struct Request {
+    const EngineRequest* request;
+    double rate;
+    bool taken;
+  };
+  std::vector<Request> requests;
+  for (const EngineRequest& request : scenario.compare.engines)
+    for (const double rate : request.rates) requests.push_back({&request, rate, false});
+  for (EngineRecord& run : runs)
+    for (auto& [request, rate, taken] : requests) {
+      const bool is_single = request->precision == EngineRequest::Precision::single_;
+      if (taken || rate != run.rate || request->engine != run.engine ||
+          request->profile != run.profile || run.precision != (is_single ? "single" : "double"))
+        continue;
+      taken = true;
+      run.expect = request->expect;
+      break;
     }
-    if (any_null) add_reason(json, "null where a phase does not show it");
-  }
-  return json;
-}
-
-Json deviation_json(const Deviation& deviation) {
-  Json json;
-  json["median"] = number_or_null(deviation.median);
-  json["max"] = number_or_null(deviation.max);
-  json["rms"] = number_or_null(deviation.rms);
-  add_reason(json, deviation.reason);
-  if (deviation.reason.empty() && !std::isfinite(deviation.max))
-    add_reason(json, std::string("the error ") + kind_of(deviation.max));
-  if (deviation.tolerance) put_number(json, "tolerance", *deviation.tolerance);
-  if (deviation.absolute) json["absolute"] = true;
-  json["within"] = deviation.verdict <= Verdict::within;
-  if (deviation.tolerance) json["verdict"] = name_of(deviation.verdict);
-  return json;
-}
-
-Json expectation_json(const ExpectationResult& expected) {
-  Json json;
-  json["observable"] = valid_utf8(expected.observable);
-  json["statistic"] = name_of(expected.statistic);
-  if (expected.statistic != ExpectationResult::Statistic::none) {
-    put_number(json, "low", expected.low);
-    put_number(json, "high", expected.high);
-  }
-  json["value"] = number_or_null(expected.value);
-  json["met"] = expected.met;
-  add_reason(json, expected.reason);
-  if (expected.reason.empty() && !std::isfinite(expected.value))
-    add_reason(json, std::string("the value ") + kind_of(expected.value));
-  return json;
-}
-
-/// What is shown phase by phase, or expected of it: not more, as there may be many phases.
-bool needs_values(const Scenario& scenario, const EngineRecord& run, const std::string& name) {
-  return tolerance_of_part(scenario, name) ||
-         (run.expect && run.expect->observables.contains(name));
-}
-
-Json run_json(const Scenario& scenario, const EngineRecord& run) {
-  Json json;
-  json["engine"] = valid_utf8(run.engine);
-  json["version"] = valid_utf8(run.version);
-  json["precision"] = run.precision;
-  json["profile"] = valid_utf8(run.profile);
-  json["settings"] = settings_json(run.settings);
-  put_number(json, "rate", run.rate);
-  json["status"] = name_of(run.status);
-  if (run.status != EngineRecord::Status::ok)
-    add_reason(json, run.reason.empty() ? "not known" : run.reason);
-  put_number(json, "cpu_seconds", run.cpu_seconds);
-  json["steps"] = run.steps;
-  json["phases"] = run.phases;
-  json["observables"] = Json::object();
-  for (const auto& [name, ensemble] : run.observables)
-    json["observables"][name] = ensemble_json(ensemble, needs_values(scenario, run, name));
-  json["errors"] = Json::object();
-  for (const auto& [name, deviation] : run.errors) json["errors"][name] = deviation_json(deviation);
-  if (run.expect && run.expect->status) json["expected_status"] = name_of(*run.expect->status);
-  if (run.expect && !run.expect->status) {
-    json["expected"] = Json::array();
-    for (const ExpectationResult& expected : run.expectations())
-      json["expected"].push_back(expectation_json(expected));
-  }
-  json["not_represented"] = strings(run.applied.not_represented);
-  json["applied"] = settings_json(run.applied.settings);
-  json["warnings"] = strings(run.warnings);
-  return json;
 }
 
 }  // namespace
 
-Json json_of(const SceneRecord& scene) {
-  const Scenario& scenario = scene.scenario;
-  Json json{{"schema", "slipcheck-result/1"}};
+// --- fields --------------------------------------------------------------------------------------
+
+template <class Fields>
+void describe(Fields& f, BoxReference& box) {
+  f("samples", box.samples);
+  f("discarded_periods", box.discarded);
+  f("steady", box.steady);
+  std::size_t stride =
+      std::max<std::size_t>(1, (box.series.time.size() + kMostPoints - 1) / kMostPoints);
+  f("stride", stride);
+  if constexpr (Fields::kReads)
+    if (stride == 0 || stride > 1000000) f["stride"].fault("must be from 1 to 1000000");
+  f.object("series", [&](auto& series) {
+    std::size_t samples = 0;
+    for (const auto& [key, member] : kSeries) {
+      std::vector<double> kept = thinned(box.series.*member, stride);
+      series(key, kept);
+      if constexpr (Fields::kReads) {
+        if (member == &BoxSeries::time) samples = kept.size();
+        if (kept.size() != samples) series[key].fault("must be as long as time");
+        box.series.*member = full_length(kept, stride, member == &BoxSeries::time);
+      }
+    }
+  });
+}
+
+template <class Fields>
+void describe(Fields& f, ShownObservable& shown) {
+  f.or_null("value", shown.value);
+  f.or_null("uncertainty", shown.uncertainty, shown.why);
+}
+
+template <class Fields>
+void describe_reference(Fields& f, SceneRecord& scene) {
+  ReferenceResult& reference = scene.reference;
+  SolvedRun& run = reference.run;
+  f("solver", reference.solver);
+  f("cpu_seconds", reference.cpu_seconds);
+  f("end_time", run.end_time);
+  f("reached", run.reached);
+  f.reason(run.reason);
+  f.if_any("failed", run.failed);
+  if constexpr (Fields::kReads) reference.first_contact = kInfinity;
+  f.if_finite("first_contact", reference.first_contact);
+  f("collisions", run.collisions);
+  f.if_any("collapses", run.collapses);
+  f("events", run.events);
+  f("steps", run.steps);
+  if constexpr (!Fields::kReads) {
+    if (run.balance) f("energy_error", run.balance->error());
+  } else if (f.has("energy_error")) {
+    // Its parts are not known, but that it is off by so much of its scale.
+    f("energy_error", run.balance.emplace(EnergyBalance{.energy = 0, .scale = 1}).energy);
+  }
+  f("statistics", reference.box);
+  std::map<std::string, ShownObservable> shown;
+  if constexpr (!Fields::kReads) shown = shown_observables(scene);
+  f("observables", shown);
+  f("closed_form", reference.closed_form);
+  f("warnings", reference.warnings);
+  if constexpr (Fields::kReads) reference.observables = observables_of(shown);
+}
+
+template <class Fields>
+void describe(Fields& f, EnsembleValue& ensemble) {
+  f("median", ensemble.median);
+  f("min", ensemble.min);
+  f("max", ensemble.max);
+  f.if_any("missing", ensemble.missing);
+  f.if_any("values", ensemble.values, "null where a phase does not show it");
+}
+
+template <class Fields>
+void describe(Fields& f, Deviation& deviation) {
+  f.untold("median", deviation.median);
+  f.untold("max", deviation.max);
+  f.untold("rms", deviation.rms);
+  f.reason(deviation.reason, if_not_finite("the error", deviation.max));
+  f("tolerance", deviation.tolerance);
+  f.if_any("absolute", deviation.absolute);
+  bool within = deviation.verdict <= Verdict::within;
+  f("within", within);
+  if (!deviation.tolerance) return;
+  if constexpr (Fields::kReads) {  // files of version 0.1 have no verdict here
+    deviation.verdict = within ? Verdict::within : Verdict::deviates;
+    f.if_any("verdict", deviation.verdict);
+  } else {
+    f("verdict", deviation.verdict);
+  }
+}
+
+/// Is written alone.
+template <class Fields>
+void describe(Fields& f, ExpectationResult& expected) {
+  f("observable", expected.observable);
+  f("statistic", expected.statistic);
+  if (expected.statistic != ExpectationResult::Statistic::none) {
+    f("low", expected.low);
+    f("high", expected.high);
+  }
+  f.untold("value", expected.value);
+  f("met", expected.met);
+  f.reason(expected.reason, if_not_finite("the value", expected.value));
+}
+
+template <class Fields>
+void describe(Fields& f, EngineRecord& run) {
+  f("engine", run.engine);
+  f("version", run.version);
+  f("precision", run.precision);
+  f("profile", run.profile);
+  f("settings", run.settings);
+  f("rate", run.rate);
+  f("status", run.status);
+  if (run.status != RunStatus::ok) f.reason(run.reason, "not known");
+  f("cpu_seconds", run.cpu_seconds);
+  f("steps", run.steps);
+  f("phases", run.phases);
+  f("observables", run.observables);
+  f("errors", run.errors);
+  if (run.expect && run.expect->status)
+    f.derived("expected_status", [&] { return *run.expect->status; });
+  else if (run.expect)
+    f.derived("expected", [&] { return run.expectations(); });
+  f("not_represented", run.applied.not_represented);
+  f("applied", run.applied.settings);
+  f("warnings", run.warnings);
+}
+
+template <class Fields>
+void describe(Fields& f, SceneRecord& scene) {
+  f("scenario", scene.scenario);
+  f.object("reference", [&](auto& reference) { describe_reference(reference, scene); });
+  if constexpr (Fields::kReads)
+    f("runs", scene.runs);
+  else
+    f("runs", shown_runs(scene));
+  f.derived("verdict", [&] {
+    return std::string(is_reference_alone(scene) ? "reference alone" : name_of(scene.verdict()));
+  });
+}
+
+nlohmann::ordered_json json_of(const SceneRecord& scene) {
+  nlohmann::ordered_json json{{"schema", "slipcheck-result/1"}};
   put_context(json);
-  json["scenario"] = {{"name", valid_utf8(scenario.name)},
-                      {"title", valid_utf8(scenario.title)},
-                      {"file", valid_utf8(scenario.file)},
-                      {"sha256", scenario.sha256},
-                      {"text", valid_utf8(scenario.text)}};
-  json["reference"] = reference_json(scene);
-  json["runs"] = Json::array();
-  for (const EngineRecord& run : scene.runs) json["runs"].push_back(run_json(scenario, run));
-  json["verdict"] = is_reference_alone(scene) ? "reference alone" : name_of(scene.verdict());
+  json.update(written(scene));
   return json;
 }
 
-Json json_of(const std::vector<SceneRecord>& scenes) {
+nlohmann::ordered_json json_of(const std::vector<SceneRecord>& scenes) {
   if (scenes.size() == 1) return json_of(scenes.front());
-  Json json;
+  nlohmann::ordered_json json;
   json["schema"] = "slipcheck-results/1";
-  json["results"] = Json::array();
+  json["results"] = nlohmann::ordered_json::array();
   for (const SceneRecord& scene : scenes) json["results"].push_back(json_of(scene));
   return json;
+}
+
+SceneRecord read_result(const JsonNode& result) {
+  auto scene = read_record<SceneRecord>(result);
+  scene.scene = solved_scene(scene.scenario);
+  add_expectations(scene.scenario, scene.runs);
+  return scene;
 }
 
 }  // namespace slipcheck

@@ -7,12 +7,10 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
-#include <stdexcept>
-#include <string_view>
 #include <utility>
 
+#include "base/text.h"
 #include "harness/observe/observables.h"
-#include "report/terminal/text.h"
 
 namespace slipcheck {
 namespace {
@@ -64,74 +62,26 @@ void put_motion(Json& json, const RecordedMotion& motion) {
 
 // --- read ----------------------------------------------------------------------------------------
 
-[[noreturn]] void fail(const std::string& place, std::string_view rule) {
-  throw std::runtime_error(fmt::format("{}: must be {}", place, rule));
+void expect(const JsonNode& node, const std::string& value) {
+  if (node.text() != value) node.fault("must be " + value);
 }
 
-/// A value of the file with its place, as in "runs[1].time".
-class Item {
- public:
-  Item(const Json& json, std::string place) : json_(&json), place_(std::move(place)) {}
+int integer(const JsonNode& node, int least, std::size_t most) {
+  const double value = node.json().is_number_integer() ? node.number() : kNotObserved;
+  if (!(value >= least && value <= static_cast<double>(most)))
+    node.fault(fmt::format("must be a whole number from {} to {}", least, most));
+  return static_cast<int>(value);
+}
 
-  Item operator[](const char* key) const {
-    const std::string place = place_.empty() ? key : fmt::format("{}.{}", place_, key);
-    if (!json_->is_object() || !json_->contains(key)) fail(place, "there");
-    return {(*json_)[key], place};
-  }
-  std::vector<Item> list() const {
-    if (!json_->is_array()) fail(place_, "a list");
-    std::vector<Item> items;
-    for (std::size_t k = 0; k < json_->size(); ++k)
-      items.emplace_back((*json_)[k], fmt::format("{}[{}]", place_, k));
-    return items;
-  }
-  std::vector<Item> list(std::size_t size) const {
-    std::vector<Item> items = list();
-    if (items.size() != size)
-      fail(place_, fmt::format("a list of {}, is of {}", size, items.size()));
-    return items;
-  }
-  std::vector<double> numbers(std::size_t size) const {
-    if (!json_->is_array() || json_->size() != size ||
-        !std::ranges::all_of(*json_, [](const Json& each) { return each.is_number(); }))
-      fail(place_, fmt::format("a list of {} numbers", size));
-    return json_->get<std::vector<double>>();
-  }
-  double number() const {
-    if (!json_->is_number()) fail(place_, "a number");
-    return json_->get<double>();
-  }
-  int integer(int low, std::size_t high) const {
-    const double value = json_->is_number_integer() ? number() : kNotObserved;
-    if (!(value >= low && value <= static_cast<double>(high)))
-      fail(place_, fmt::format("a whole number from {} to {}", low, high));
-    return static_cast<int>(value);
-  }
-  std::string text() const {
-    if (!json_->is_string()) fail(place_, "a text");
-    return json_->get<std::string>();
-  }
-  void expect(std::string_view value) const {
-    if (const std::string found = text(); found != value)
-      fail(place_, fmt::format("{}, is {}", value, found));
-  }
-  const Json& json() const { return *json_; }
-  const std::string& place() const { return place_; }
-
- private:
-  const Json* json_;
-  std::string place_;
-};
-
-double read_error(const Item& item) {
-  if (item.json().is_null()) return kNotObserved;
-  if (item.json().is_number()) return item.number();
-  item.expect(kInfinite);
+double read_error(const JsonNode& node) {
+  if (node.json().is_null()) return kNotObserved;
+  if (node.json().is_number()) return node.number();
+  expect(node, kInfinite);
   return std::numeric_limits<double>::infinity();
 }
 
-void read_states(const Item& item, RecordedMotion& motion, Vector3 BodyState::*member) {
-  const std::vector<Item> frames = item.list(motion.frames.size());
+void read_states(const JsonNode& node, RecordedMotion& motion, Vector3 BodyState::*member) {
+  const std::vector<JsonNode> frames = node.items(motion.frames.size());
   for (std::size_t k = 0; k < frames.size(); ++k) {
     std::vector<BodyState>& bodies = motion.frames[k].bodies;
     const std::vector<double> numbers = frames[k].numbers(3 * bodies.size());
@@ -140,47 +90,47 @@ void read_states(const Item& item, RecordedMotion& motion, Vector3 BodyState::*m
   }
 }
 
-RecordedMotion read_motion(const Item& item, std::size_t bodies) {
+RecordedMotion read_motion(const JsonNode& node, std::size_t bodies) {
   RecordedMotion motion;
-  motion.role = item["role"].text();
-  motion.phase = static_cast<std::size_t>(item["phase"].integer(0, 1'000'000'000));
-  motion.error = read_error(item["error"]);
+  motion.role = node["role"].text();
+  motion.phase = node["phase"].count(1'000'000'000);
+  motion.error = read_error(node["error"]);
 
-  const std::vector<Item> times = item["time"].list();
-  if (times.empty()) fail(item["time"].place(), "a list of one time at least");
-  const std::vector<Item> substrate = item["substrate"].list(times.size());
+  const std::vector<JsonNode> times = node["time"].items();
+  if (times.empty()) node["time"].fault("must be a list of one time at least");
+  const std::vector<JsonNode> substrate = node["substrate"].items(times.size());
   for (std::size_t k = 0; k < times.size(); ++k) {
     MotionFrame& frame = motion.frames.emplace_back();
     frame.time = times[k].number();
     if (k > 0 && frame.time <= motion.frames[k - 1].time)
-      fail(times[k].place(), "later than the one before");
+      times[k].fault("must be later than the one before");
     frame.substrate = Vector3(substrate[k].numbers(3).data());
     frame.bodies.resize(bodies);
   }
-  read_states(item["position"], motion, &BodyState::position);
-  read_states(item["velocity"], motion, &BodyState::velocity);
-  read_states(item["angular_velocity"], motion, &BodyState::angular_velocity);
-  for (const Item& touch : item["touches"].list()) {
-    const std::vector<Item> parts = touch.list(3);
-    const auto frame = static_cast<std::size_t>(parts[0].integer(0, times.size() - 1));
-    motion.frames[frame].touches.emplace_back(parts[1].integer(0, bodies - 1),
-                                              parts[2].integer(kSubstrate, bodies - 1));
+  read_states(node["position"], motion, &BodyState::position);
+  read_states(node["velocity"], motion, &BodyState::velocity);
+  read_states(node["angular_velocity"], motion, &BodyState::angular_velocity);
+  for (const JsonNode& touch : node["touches"].items()) {
+    const std::vector<JsonNode> parts = touch.items(3);
+    motion.frames[parts[0].count(times.size() - 1)].touches.emplace_back(
+        integer(parts[1], 0, bodies - 1), integer(parts[2], kSubstrate, bodies - 1));
   }
   return motion;
 }
 
 /// The run of the result that a motion of this role is of.
-EngineRecord& run_of(const Item& item, const std::string& role, std::vector<EngineRecord>& runs) {
-  const std::string engine = item["engine"].text(), precision = item["precision"].text();
-  const std::string profile = item["profile"].text();
-  const double rate = item["rate"].number();
+EngineRecord& run_of(const JsonNode& node, const std::string& role,
+                     std::vector<EngineRecord>& runs) {
+  const std::string engine = node["engine"].text(), precision = node["precision"].text();
+  const std::string profile = node["profile"].text();
+  const double rate = node["rate"].number();
   for (EngineRecord& run : runs)
     if (valid_utf8(run.engine) == engine && run.precision == precision &&
         valid_utf8(run.profile) == profile && run.rate == rate &&
         std::ranges::none_of(run.motions, [&](const auto& other) { return other.role == role; }))
       return run;
-  fail(item.place(), fmt::format("of a run of the result, is of {} {} {} at {} Hz", engine,
-                                 precision, profile, rate));
+  node.fault_alone(fmt::format("must be of a run of the result, is of {} {} {} at {} Hz", engine,
+                               precision, profile, rate));
 }
 
 }  // namespace
@@ -211,22 +161,21 @@ Json motion_json_of(const SceneRecord& scene) {
   return json;
 }
 
-void read_motions(const Json& json, SceneRecord& scene) {
-  const Item file(json, "");
-  file["schema"].expect(kSchema);
-  file["scenario"]["name"].expect(valid_utf8(scene.scenario.name));
-  file["scenario"]["sha256"].expect(scene.scenario.sha256);
+void read_motions(const JsonNode& file, SceneRecord& scene) {
+  expect(file["schema"], kSchema);
+  expect(file["scenario"]["name"], valid_utf8(scene.scenario.name));
+  expect(file["scenario"]["sha256"], scene.scenario.sha256);
   const std::vector<Body>& bodies = scene.scenario.bodies;
-  const std::vector<Item> names = file["bodies"].list(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) names[i].expect(valid_utf8(bodies[i].name));
+  const std::vector<JsonNode> names = file["bodies"].items(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) expect(names[i], valid_utf8(bodies[i].name));
 
   std::optional<RecordedMotion> reference;
-  if (json.contains("reference")) reference = read_motion(file["reference"], bodies.size());
+  if (file.has("reference")) reference = read_motion(file["reference"], bodies.size());
   std::vector<EngineRecord> runs = scene.runs;
   for (EngineRecord& run : runs) run.motions.clear();
-  for (const Item& item : file["runs"].list()) {
-    RecordedMotion motion = read_motion(item, bodies.size());
-    run_of(item, motion.role, runs).motions.push_back(std::move(motion));
+  for (const JsonNode& node : file["runs"].items()) {
+    RecordedMotion motion = read_motion(node, bodies.size());
+    run_of(node, motion.role, runs).motions.push_back(std::move(motion));
   }
   scene.reference.motion = std::move(reference);
   scene.runs = std::move(runs);

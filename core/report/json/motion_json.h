@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_node.h"
 #include "harness/compare/record.h"
 
 namespace slipcheck {
@@ -15,8 +16,7 @@ nlohmann::ordered_json motion_json_of(const SceneRecord& scene);
 
 /// Gives motions back to the scene that they are of, and to its runs: each goes to the first run of
 /// the same engine, precision, profile and rate that has none of its role yet. Throws
-/// std::runtime_error, which names the key, for what is not such a file or of another scene, and
-/// leaves `scene` as it is.
-void read_motions(const nlohmann::ordered_json& json, SceneRecord& scene);
+/// BadJson for what is not such a file or of another scene, and leaves `scene` as it is.
+void read_motions(const JsonNode& file, SceneRecord& scene);
 
 }  // namespace slipcheck

@@ -10,10 +10,11 @@
 #include <system_error>
 #include <utility>
 
+#include "report/json/common_fields.h"
+#include "report/json/json_report.h"
 #include "report/json/motion_json.h"
-#include "report/json/read_parts.h"
-#include "report/json/read_result.h"
-#include "report/json/read_studies.h"
+#include "report/json/precision_json.h"
+#include "report/json/stability_json.h"
 
 namespace slipcheck {
 namespace {
@@ -23,21 +24,8 @@ namespace fs = std::filesystem;
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw BadResults(fmt::format("{}: cannot be read", file.string()));
+  if (!stream) throw BadJson(fmt::format("{}: cannot be read", file.string()));
   return text;
-}
-
-template <class Json>
-Json parsed(const std::string& text, const std::string& file) {
-  try {
-    return Json::parse(text);
-  } catch (const nlohmann::json::parse_error& error) {
-    // "[json.exception.parse_error.101] parse error at line 3, column 5: …"
-    const std::string_view words = error.what();
-    const std::size_t end = words.find("] ");
-    throw BadResults(fmt::format("{}: must be JSON: {}", file,
-                                 end == std::string_view::npos ? words : words.substr(end + 2)));
-  }
 }
 
 /// The JSON files of a folder by name.
@@ -48,8 +36,7 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   for (; !error && entries != fs::directory_iterator(); entries.increment(error))
     if (entries->path().extension() == ".json" && entries->is_regular_file(error))
       files.push_back(entries->path());
-  if (error)
-    throw BadResults(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  if (error) throw BadJson(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
   std::ranges::sort(files);
   return files;
 }
@@ -68,13 +55,11 @@ class Reader {
   /// Whether it is part of a report.
   bool take(const fs::path& path) {
     const std::string file = path.string();
-    const std::string text = text_of(path);
-    const auto json = parsed<nlohmann::json>(text, file);
+    nlohmann::json json = JsonNode::parse(text_of(path), file);
     const std::string schema = schema_of(json);
     const auto reader = readers().find(schema);
     if (schema == kMotion) {
-      motions_.push_back({file, JsonNode(json, file).at("scenario").text("name"),
-                          parsed<nlohmann::ordered_json>(text, file)});
+      motions_.push_back({file, std::move(json)});
       return true;
     }
     if (reader == readers().end()) {
@@ -124,20 +109,19 @@ class Reader {
     for (const auto& [name, read] : readers()) names.push_back(name);
     for (const std::string& name : names)
       if (is_other(name))
-        throw_bad_results(file, "schema", fmt::format("must be {} for this version", name),
-                          &json["schema"]);
+        JsonNode(json, file)["schema"].fault(fmt::format("must be {} for this version", name));
   }
 
   void note_scene(std::map<std::string, std::string>& files, const std::string& scene,
                   const JsonNode& node) {
     const auto [known, is_new] = files.emplace(scene, node.file());
     if (!is_new)
-      throw BadResults(
+      throw BadJson(
           fmt::format("{}: the scene {} is in {} already", node.file(), scene, known->second));
   }
 
   void note_context(const JsonNode& node) {
-    const Context found = read_context(node);
+    const auto found = read_record<Context>(node);
     Context& all = results_.content.context;
     for (const auto part : {&Context::version, &Context::commit, &Context::build,
                             &Context::compiler, &Context::system, &Context::cpu})
@@ -153,7 +137,7 @@ class Reader {
   }
 
   void add_results(const JsonNode& node) {
-    for (const JsonNode& result : node.list("results")) add_result(result);
+    for (const JsonNode& result : node["results"].items()) add_result(result);
   }
 
   void add_precision(const JsonNode& node) {
@@ -169,7 +153,7 @@ class Reader {
     StabilityFile stability = read_stability(node);
     if (criteria_.is_null()) criteria_ = node.json()["criteria"];
     if (criteria_ != node.json()["criteria"])
-      node.fault("criteria", "must be the same in all files, else their cases do not compare");
+      node["criteria"].fault("must be the same in all files, else their cases do not compare");
     ReportContent& content = results_.content;
     content.criteria = stability.criteria;
     for (StabilityCase& scene : stability.cases) {
@@ -181,22 +165,19 @@ class Reader {
   }
 
   struct Motion {
-    std::string file, scene;
-    nlohmann::ordered_json json;
+    std::string file;
+    nlohmann::json json;
   };
   void add_motion(const Motion& motion) {
+    const JsonNode node(motion.json, motion.file);
+    const std::string name = node["scenario"]["name"].text();
     std::vector<SceneRecord>& scenes = results_.content.scenes;
     const auto scene = std::ranges::find_if(
-        scenes, [&](const SceneRecord& each) { return each.scenario.name == motion.scene; });
-    if (scene == scenes.end()) {
+        scenes, [&](const SceneRecord& each) { return each.scenario.name == name; });
+    if (scene == scenes.end())
       results_.ignored.push_back(fmt::format("{}: there is no result of its scene", motion.file));
-      return;
-    }
-    try {
-      read_motions(motion.json, *scene);
-    } catch (const std::runtime_error& error) {
-      throw BadResults(fmt::format("{}: {}", motion.file, error.what()));
-    }
+    else
+      read_motions(node, *scene);
   }
 
   ReadResults results_;
@@ -212,14 +193,14 @@ ReadResults read_folders(const std::vector<fs::path>& paths) {
   for (const fs::path& path : paths) {
     std::error_code error;
     if (!fs::exists(path, error))
-      throw BadResults(fmt::format("{}: there is no such file or folder", path.string()));
+      throw BadJson(fmt::format("{}: there is no such file or folder", path.string()));
     bool any = false;
     const bool is_folder = fs::is_directory(path, error);
     for (const fs::path& file : is_folder ? files_of(path) : std::vector{path})
       any |= reader.take(file);
     if (!any)
-      throw BadResults(fmt::format("{} {}", path.string(),
-                                   is_folder ? "holds no result file" : "is no result file"));
+      throw BadJson(fmt::format("{} {}", path.string(),
+                                is_folder ? "holds no result file" : "is no result file"));
   }
   return reader.finish();
 }

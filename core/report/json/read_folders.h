@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report/json/json_node.h"
+#include "base/json_node.h"
 #include "report/rows/report_content.h"
 
 namespace slipcheck {
@@ -18,7 +18,7 @@ struct ReadResults {
 /// Reads the JSON files of these folders, by name, and files that are named themselves: results,
 /// motions, precision and stability. Files of folders that are nothing of that are ignored.
 ///
-/// Throws BadResults for what is not there or cannot be read, faulty files and those of newer
+/// Throws BadJson for what is not there or cannot be read, faulty files and those of newer
 /// versions, a scene that occurs twice, and paths that hold no result.
 ReadResults read_folders(const std::vector<std::filesystem::path>& paths);
 

@@ -1,163 +1,183 @@
 #include "report/json/stability_json.h"
 
-#include <cmath>
-#include <utility>
-
-#include "report/json/json_number.h"
+#include "report/json/common_fields.h"
 #include "report/rows/stability_rows.h"
-#include "report/terminal/text.h"
 
 namespace slipcheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// Those that occur.
-Json counts_json(const OutcomeCounts& counts) {
-  Json json = Json::object();
-  for (std::size_t k = 0; k < kOutcomes; ++k)
-    if (counts[k] > 0) json[name_of(static_cast<Outcome>(k))] = counts[k];
-  return json;
-}
-
-Json criteria_json(const OutcomeCriteria& criteria) {
-  return {{"creep", criteria.creep},
-          {"energy", criteria.energy},
-          {"exploded", criteria.exploded},
-          {"least_rest", criteria.least_rest},
-          {"conserved", criteria.conserved}};
-}
-
-Json reference_json(const ReferenceOutcome& reference) {
-  Json json{{"outcome", reference.accurate  ? "accurate"
-                        : reference.refused ? "refused"
-                                            : "failed"}};
-  if (!reference.why.empty()) json["why"] = valid_utf8(reference.why);
-  put_number(json, "worst_uncertainty", reference.worst_uncertainty,
-             "no uncertainty stands beside a tolerance");
-  put_number(json, "cpu_seconds", reference.cpu_seconds);
-  return json;
-}
-
-Json run_json(const StabilityRun& run) {
-  const EngineRecord& record = run.record;
-  Json json{{"engine", record.engine},
-            {"version", record.version},
-            {"precision", record.precision},
-            {"profile", valid_utf8(record.profile)},
-            {"settings", settings_json(record.settings)}};
-  put_number(json, "rate", record.rate);
-  json["status"] = name_of(record.status);
-  add_reason(json, record.reason);
-  json["outcome"] = name_of(run.outcome);
-  if (!run.why.empty()) json["why"] = valid_utf8(run.why);
-  json["phases"] = counts_json(run.phases);
-  put_number(json, "worst_error", run.worst_error, kNoError);
-  json["worst_observable"] = run.worst_observable;
-  put_number(json, "energy_gain", run.energy_gain, kNoEnergy);
-  put_number(json, "creep", run.creep, kNothingRests);
-  put_number(json, "depth", run.depth, kNoOverlap);
-  put_number(json, "cpu_seconds", record.cpu_seconds);
-  json["steps"] = record.steps;
-  return json;
-}
-
-Json case_json(const StabilityCase& scene) {
-  Json json{
-      {"name", valid_utf8(scene.scenario.name)}, {"title", valid_utf8(scene.scenario.title)},
-      {"file", valid_utf8(scene.scenario.file)}, {"sha256", scene.scenario.sha256},
-      {"text", valid_utf8(scene.scenario.text)}, {"reference", reference_json(scene.reference)}};
-  Json& runs = json["runs"] = Json::array();
-  for (const StabilityRun& run : scene.runs) runs.push_back(run_json(run));
-  return json;
-}
-
-Json totals_json(const StabilityOverview& overview) {
-  Json json{{"reference",
-             {{"accurate", overview.accurate},
-              {"refused", overview.refused},
-              {"failed", overview.failed}}}};
-  for (std::size_t m = 0; m < overview.methods.size(); ++m)
-    json[valid_utf8(overview.methods[m].label())] = counts_json(overview.totals[m]);
-  return json;
-}
-
-Json limit_json(const Limit& limit) {
-  Json json{{"kind", key_of(limit.kind)},
-            {"method", limit.method},
-            {"version", limit.version},
-            {"precision", limit.precision},
-            {"profile", valid_utf8(limit.profile)},
-            {"scene", valid_utf8(limit.scene)}};
-  add_reason(json, limit.reason);
-  put_number(json, "good", limit.good.value_or(kNotObserved), kNoGood);
-  put_number(json, "bad", limit.bad.value_or(kNotObserved), kNoBad);
-  put_number(json, "low", limit.low);
-  put_number(json, "high", limit.high);
-  if (limit.bad) json["beyond"] = name_of(limit.beyond);
-  if (!limit.why.empty()) json["why"] = valid_utf8(limit.why);
-  json["islands"] = limit.islands;
-  json["strays"] = limit.strays;
-  if (limit.theory) {
-    put_number(json, "theory", *limit.theory);
-    json["theory_name"] = valid_utf8(limit.theory_name);
-    put_number(json, "ratio_to_theory", ratio_to_theory(limit), kNoRatio);
-  }
-  return json;
-}
-
-Json axis_json(const OutcomeMap::Axis& axis) {
-  return {{"label", valid_utf8(axis.label)},
-          {"logarithmic", axis.logarithmic},
-          {"values", axis.values}};
-}
-
-Json map_json(const OutcomeMap& map) {
-  Json json{
-      {"name", valid_utf8(map.name)}, {"title", valid_utf8(map.title)},     {"method", map.method},
-      {"precision", map.precision},   {"profile", valid_utf8(map.profile)}, {"x", axis_json(map.x)},
-      {"y", axis_json(map.y)}};
-  const std::size_t columns = map.x.values.size();
-  Json outcome = Json::array(), error = Json::array();
-  bool any_null = false;
-  for (std::size_t k = 0; k < map.outcome.size(); ++k) {
-    if (k % columns == 0) {
-      outcome.push_back(Json::array());
-      error.push_back(Json::array());
-    }
-    outcome.back().push_back(name_of(map.outcome[k]));
-    const double worst = k < map.worst_error.size() ? map.worst_error[k] : kNotObserved;
-    error.back().push_back(std::isfinite(worst) ? Json(worst) : Json(nullptr));
-    any_null |= !std::isfinite(worst);
-  }
-  json["outcome"] = std::move(outcome);
-  json["worst_error"] = std::move(error);
-  if (any_null) add_reason(json, "null where there is no error");
-  json["error_label"] = valid_utf8(map.error_label);
-  if (!map.theory.empty()) {
-    json["theory"] = map.theory;
-    json["theory_name"] = valid_utf8(map.theory_name);
-  }
-  return json;
-}
+/// How the reference came out.
+enum class ReferenceEnd { accurate, refused, failed };
 
 }  // namespace
 
-Json json_of(const std::vector<StabilityCase>& cases, const StabilityGrid& grid,
-             const LimitResults& limits) {
-  Json json{{"schema", "slipcheck-stability/1"}};
+template <>
+inline constexpr std::array kNamesOf<ReferenceEnd> = {"accurate", "refused", "failed"};
+
+/// Those that occur.
+template <class Fields>
+void describe(Fields& f, OutcomeCounts& counts) {
+  for (std::size_t k = 0; k < kOutcomes; ++k) f.if_any(kNamesOf<Outcome>[k], counts[k]);
+}
+
+template <class Fields>
+void describe(Fields& f, OutcomeCriteria& criteria) {
+  f("creep", criteria.creep);
+  f("energy", criteria.energy);
+  f("exploded", criteria.exploded);
+  f("least_rest", criteria.least_rest);
+  f("conserved", criteria.conserved);
+}
+
+template <class Fields>
+void describe(Fields& f, StabilityGrid& grid) {
+  f("engines", grid.engines.engines);
+  f("precisions", grid.engines.precisions);
+  f("profiles", grid.engines.profiles);
+  f("rates", grid.rates);
+}
+
+template <class Fields>
+void describe(Fields& f, ReferenceOutcome& reference) {
+  ReferenceEnd end = reference.accurate  ? ReferenceEnd::accurate
+                     : reference.refused ? ReferenceEnd::refused
+                                         : ReferenceEnd::failed;
+  f("outcome", end);
+  if constexpr (Fields::kReads) {
+    reference.accurate = end == ReferenceEnd::accurate;
+    reference.refused = end == ReferenceEnd::refused;
+  }
+  f.if_any("why", reference.why);
+  f("worst_uncertainty", reference.worst_uncertainty, "no uncertainty stands beside a tolerance");
+  f("cpu_seconds", reference.cpu_seconds);
+}
+
+template <class Fields>
+void describe(Fields& f, StabilityRun& run) {
+  EngineRecord& record = run.record;
+  f("engine", record.engine);
+  f("version", record.version);
+  f("precision", record.precision);
+  f("profile", record.profile);
+  f("settings", record.settings);
+  f("rate", record.rate);
+  f("status", record.status);
+  f.reason(record.reason);
+  f("outcome", run.outcome);
+  f.if_any("why", run.why);
+  f("phases", run.phases);
+  f("worst_error", run.worst_error, "no error could be taken");
+  f("worst_observable", run.worst_observable);
+  f("energy_gain", run.energy_gain, "no energy could be taken");
+  f("creep", run.creep, "nothing rests in the reference");
+  f("depth", run.depth, "no overlap could be taken");
+  f("cpu_seconds", record.cpu_seconds);
+  f("steps", record.steps);
+}
+
+template <class Fields>
+void describe(Fields& f, StabilityCase& scene) {
+  describe(f, scene.scenario);
+  f("reference", scene.reference);
+  f("runs", scene.runs);
+}
+
+template <class Fields>
+void describe(Fields& f, Limit& limit) {
+  f("kind", limit.kind);
+  f("method", limit.method);
+  f("version", limit.version);
+  f("precision", limit.precision);
+  f("profile", limit.profile);
+  f("scene", limit.scene);
+  f.reason(limit.reason);
+  f.or_null("good", limit.good, "no value was found good");
+  f.or_null("bad", limit.bad, "no value was found bad");
+  f("low", limit.low);
+  f("high", limit.high);
+  if (limit.bad) f("beyond", limit.beyond);
+  f.if_any("why", limit.why);
+  f("islands", limit.islands);
+  f("strays", limit.strays);
+  f("theory", limit.theory);
+  if (!limit.theory) return;
+  f("theory_name", limit.theory_name);
+  f.derived(
+      "ratio_to_theory", [&] { return ratio_to_theory(limit); }, "there is no limit to divide");
+}
+
+template <class Fields>
+void describe(Fields& f, OutcomeMap::Axis& axis) {
+  f("label", axis.label);
+  f("logarithmic", axis.logarithmic);
+  f("values", axis.values);
+}
+
+/// The cells of a map, row by row.
+template <class Fields, class Value>
+void describe_cells(Fields& f, const char* key, const OutcomeMap& map, std::vector<Value>& cells,
+                    const char* why = "") {
+  const std::size_t width = map.x.values.size();
+  if constexpr (Fields::kReads) {
+    for (const JsonNode& row : f[key].items(map.y.values.size()))
+      for (const JsonNode& cell : row.items(width)) FieldReader::read(cell, cells.emplace_back());
+  } else {
+    std::vector<std::vector<Value>> rows;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      if (k % width == 0) rows.emplace_back();
+      rows.back().push_back(cells[k]);
+    }
+    f(key, rows, why);
+  }
+}
+
+template <class Fields>
+void describe(Fields& f, OutcomeMap& map) {
+  f("name", map.name);
+  f("title", map.title);
+  f("method", map.method);
+  f("precision", map.precision);
+  f("profile", map.profile);
+  f("x", map.x);
+  f("y", map.y);
+  describe_cells(f, "outcome", map, map.outcome);
+  describe_cells(f, "worst_error", map, map.worst_error, "null where there is no error");
+  f("error_label", map.error_label);
+  f.if_any("theory", map.theory);
+  if (!map.theory.empty()) f("theory_name", map.theory_name);
+}
+
+nlohmann::ordered_json json_of(const std::vector<StabilityCase>& cases, const StabilityGrid& grid,
+                               const LimitResults& limits) {
+  nlohmann::ordered_json json{{"schema", "slipcheck-stability/1"}};
   put_context(json);
-  json["criteria"] = criteria_json(grid.criteria);
-  json["grid"] = {{"engines", grid.engines.engines},
-                  {"precisions", grid.engines.precisions},
-                  {"profiles", grid.engines.profiles},
-                  {"rates", grid.rates}};
-  json["totals"] = totals_json(overview_of(cases));
-  for (const char* list : {"cases", "limits", "maps"}) json[list] = Json::array();
-  for (const StabilityCase& scene : cases) json["cases"].push_back(case_json(scene));
-  for (const Limit& limit : limits.limits) json["limits"].push_back(limit_json(limit));
-  for (const OutcomeMap& map : limits.maps) json["maps"].push_back(map_json(map));
+  FieldWriter fields(json);
+  fields("criteria", grid.criteria);
+  fields("grid", grid);
+  const StabilityOverview overview = overview_of(cases);
+  fields.object("totals", [&](auto& totals) {
+    totals.object("reference", [&](auto& reference) {
+      reference("accurate", overview.accurate);
+      reference("refused", overview.refused);
+      reference("failed", overview.failed);
+    });
+    for (std::size_t m = 0; m < overview.methods.size(); ++m)
+      totals(valid_utf8(overview.methods[m].label()), overview.totals[m]);
+  });
+  fields("cases", cases);
+  fields("limits", limits.limits);
+  fields("maps", limits.maps);
   return json;
+}
+
+StabilityFile read_stability(const JsonNode& file) {
+  StabilityFile result;
+  FieldReader fields(file);
+  fields("criteria", result.criteria);
+  fields("cases", result.cases);
+  fields("limits", result.limits.limits);
+  fields("maps", result.limits.maps);
+  return result;
 }
 
 }  // namespace slipcheck

@@ -3,22 +3,24 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "base/json_node.h"
 #include "studies/stability/limits.h"
 #include "studies/stability/stability.h"
 
 namespace slipcheck {
 
-// Why numbers of the file are null.
-inline constexpr const char* kNoError = "no error could be taken";
-inline constexpr const char* kNoEnergy = "no energy could be taken";
-inline constexpr const char* kNothingRests = "nothing rests in the reference";
-inline constexpr const char* kNoOverlap = "no overlap could be taken";
-inline constexpr const char* kNoGood = "no value was found good";
-inline constexpr const char* kNoBad = "no value was found bad";
-inline constexpr const char* kNoRatio = "there is no limit to divide";
-
 /// Catalogue, limits and maps as "slipcheck-stability/1" (docs/result-file.md). All values are SI.
 nlohmann::ordered_json json_of(const std::vector<StabilityCase>& cases, const StabilityGrid& grid,
                                const LimitResults& limits);
+
+/// What such a file holds.
+struct StabilityFile {
+  std::vector<StabilityCase> cases;
+  LimitResults limits;
+  OutcomeCriteria criteria;
+};
+/// Such that json_of() gives the same again. Of each run's record what the file does not name is
+/// missing. Throws BadJson.
+StabilityFile read_stability(const JsonNode& file);
 
 }  // namespace slipcheck

@@ -1,21 +1,11 @@
 #include "report/json/tuning_json.h"
 
-#include <variant>
-
-#include "report/rows/context.h"
-#include "report/terminal/text.h"
+#include "report/json/common_fields.h"
 
 namespace slipcheck {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json settings_json(const Settings& settings) {
-  Json json = Json::object();
-  for (const auto& [name, value] : settings)
-    std::visit([&json, &key = name](const auto& plain) { json[key] = plain; }, value);
-  return json;
-}
 
 Json score_json(const Score& score) {
   return {{"worst", score.worst},
@@ -25,8 +15,7 @@ Json score_json(const Score& score) {
 }
 
 Json finalist_json(const TuningRecord& tuning, const TuningFinalist& finalist) {
-  Json json{{"settings", settings_json(finalist.settings)},
-            {"training", score_json(finalist.training)}};
+  Json json{{"settings", written(finalist.settings)}, {"training", score_json(finalist.training)}};
   if (finalist.held_out) json["held_out"] = score_json(*finalist.held_out);
   for (std::size_t k = 0; k < tuning.tasks.size(); ++k) {
     const TuningTask& task = tuning.tasks[k];
@@ -62,8 +51,7 @@ Json json_of(const TuningRecord& tuning) {
   const TuningResult& result = tuning.result;
   Json json{
       {"schema", "slipcheck-tuning/1"},
-      {"slipcheck",
-       {{"version", context().version}, {"commit", context().commit}, {"build", context().build}}},
+      {"slipcheck", written(context())["slipcheck"]},
       {"engine",
        {{"name", tuning.engine}, {"version", tuning.version}, {"precision", tuning.precision}}},
       {"profile", tuning.profile},
@@ -87,7 +75,7 @@ Json json_of(const TuningRecord& tuning) {
   Json& front = json["trade_off"] = Json::array();
   for (const TuningCandidate& candidate : result.front) {
     Json one = score_json(candidate.score);
-    one["settings"] = settings_json(candidate.settings);
+    one["settings"] = written(candidate.settings);
     front.push_back(std::move(one));
   }
   return json;

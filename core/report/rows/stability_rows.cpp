@@ -133,20 +133,6 @@ const char* words_of(Limit::Kind kind) {
   return "";
 }
 
-const char* key_of(Limit::Kind kind) {
-  switch (kind) {
-    case Limit::Kind::stable_step:
-      return "stable_step";
-    case Limit::Kind::accurate_step:
-      return "accurate_step";
-    case Limit::Kind::length_scale:
-      return "length_scale";
-    case Limit::Kind::mass_ratio:
-      return "mass_ratio";
-  }
-  return "";
-}
-
 std::string label_of(const Limit& limit) {
   std::string label = limit.method;
   if (!limit.precision.empty()) label += " " + limit.precision;

@@ -61,8 +61,6 @@ std::vector<const OutcomeMap*> complete_maps(const LimitResults& results);
 
 /// "largest stable step"
 const char* words_of(Limit::Kind kind);
-/// "stable_step", for files
-const char* key_of(Limit::Kind kind);
 /// "bullet double tuned", "fixed-step"
 std::string label_of(const Limit& limit);
 /// A value of this kind, "4.17 ms" or "0.0123".

@@ -5,23 +5,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text.h"
+
 namespace slipcheck {
-
-/// Well-formed UTF-8, with U+FFFD for each byte that is not: JSON and HTML can hold nothing else.
-std::string valid_utf8(std::string_view text);
-
-/// The same fit for a terminal or a page: control characters, which could move the cursor or
-/// reverse the direction of writing, become U+FFFD, and line breaks and tabs blanks.
-std::string printable(std::string_view text);
-
-/// How many columns of a terminal well-formed UTF-8 takes.
-std::size_t display_width(std::string_view text);
 
 /// Filled up with blanks to a display width, at the end or, `right`, at the beginning.
 std::string padded(std::string_view text, std::size_t width, bool right = false);
-
-/// Cut to a display width, with "…" for what is missing.
-std::string shortened(std::string_view text, std::size_t width);
 
 /// Broken at blanks into lines of at most `width` columns (longer words stay whole). Never empty.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width);

@@ -294,42 +294,4 @@ SceneCheck baseline_without_scene(const std::string& scene, const std::string& f
               fmt::format("no scene has this name; {} is left over", file));
 }
 
-const char* name_of(Change::Statistic statistic) {
-  switch (statistic) {
-    case Statistic::value:
-      return "value";
-    case Statistic::median:
-      return "median";
-    case Statistic::min:
-      return "min";
-    case Statistic::max:
-      return "max";
-    case Statistic::missing:
-      return "missing";
-    case Statistic::status:
-      return "status";
-    case Statistic::verdict:
-      return "verdict";
-    case Statistic::solver:
-      return "solver";
-    case Statistic::file:
-      return "file";
-    case Statistic::presence:
-      return "presence";
-  }
-  return "";
-}
-
-const char* name_of(Direction direction) {
-  switch (direction) {
-    case Direction::moved:
-      return "moved";
-    case Direction::better:
-      return "better";
-    case Direction::worse:
-      return "worse";
-  }
-  return "";
-}
-
 }  // namespace slipcheck

@@ -11,6 +11,8 @@ namespace slipcheck {
 
 /// Where a move leads, as seen from the reference.
 enum class Direction { moved, better, worse };
+template <>
+inline constexpr std::array kNamesOf<Direction> = {"moved", "better", "worse"};
 
 /// Something that is not as in the baseline.
 struct Change {
@@ -43,6 +45,10 @@ struct Change {
   bool gates = true;  ///< turns the check red; else it is only told
   std::string note;   ///< why a run failed, what to do; may be empty
 };
+
+template <>
+inline constexpr std::array kNamesOf<Change::Statistic> = {
+    "value", "median", "min", "max", "missing", "status", "verdict", "solver", "file", "presence"};
 
 /// A part of a scene that was held against the baseline.
 struct CheckedPart {
@@ -82,8 +88,5 @@ SceneCheck check_scene(const SceneBaseline& baseline, const SceneRecord& scene);
 SceneCheck scene_without_baseline(const std::string& scene);
 /// A baseline, in this file, whose scene is not there.
 SceneCheck baseline_without_scene(const std::string& scene, const std::string& file);
-
-const char* name_of(Change::Statistic statistic);
-const char* name_of(Direction direction);
 
 }  // namespace slipcheck

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 SceneBaseline load_baseline(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw BadBaseline(file.string() + ": must be a readable file");
+  if (!stream) throw BadJson(file.string() + ": must be a readable file");
   return parse_baseline(text, file.string());
 }
 

@@ -20,7 +20,7 @@ struct BaselineUpdate {
 };
 
 /// The baselines of a folder by scene; empty for a folder that is not there. With `scenes` theirs
-/// alone. Throws BadBaseline.
+/// alone. Throws BadJson.
 std::map<std::string, SceneBaseline> load_baselines(const std::filesystem::path& folder,
                                                     const std::vector<std::string>& scenes = {});
 

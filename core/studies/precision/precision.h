@@ -66,6 +66,9 @@ struct Convergence {
   double finest = kNotObserved;       ///< and at the last
   double largest = kNotObserved;      ///< of all worst errors
 };
+template <>
+inline constexpr std::array kNamesOf<Convergence::Kind> = {"exact", "converges",
+                                                           "does_not_converge", "unknown"};
 
 /// A method over its knob.
 struct MethodCurve {
@@ -82,11 +85,12 @@ struct MethodCurve {
   std::vector<WorkPrecision> points;  ///< from coarse to fine
   std::map<std::string, Convergence> convergence;  ///< by quantity
 };
+template <>
+inline constexpr std::array kNamesOf<MethodCurve::Kind> = {"engine", "contact", "fixed_step",
+                                                           "event"};
 
 /// "bullet double tuned, 50 iterations", "contact".
 std::string label_of(const MethodCurve& curve);
-const char* name_of(MethodCurve::Kind kind);
-const char* name_of(Convergence::Kind kind);
 /// In words: "order 1.00 ± 0.02", "does not converge".
 std::string words_of(const Convergence& convergence);
 

@@ -24,34 +24,6 @@ std::string label_of(const MethodCurve& curve) {
   return "";
 }
 
-const char* name_of(MethodCurve::Kind kind) {
-  switch (kind) {
-    case MethodCurve::Kind::engine:
-      return "engine";
-    case MethodCurve::Kind::contact:
-      return "contact";
-    case MethodCurve::Kind::fixed_step:
-      return "fixed_step";
-    case MethodCurve::Kind::event:
-      return "event";
-  }
-  return "";
-}
-
-const char* name_of(Convergence::Kind kind) {
-  switch (kind) {
-    case Convergence::Kind::exact:
-      return "exact";
-    case Convergence::Kind::converges:
-      return "converges";
-    case Convergence::Kind::does_not_converge:
-      return "does_not_converge";
-    case Convergence::Kind::unknown:
-      return "unknown";
-  }
-  return "";
-}
-
 std::string words_of(const Convergence& convergence) {
   switch (convergence.kind) {
     case Convergence::Kind::exact:

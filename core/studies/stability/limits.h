@@ -39,6 +39,9 @@ struct Limit {
   /// Geometric mean of good and bad; NaN without both.
   double value() const;
 };
+template <>
+inline constexpr std::array kNamesOf<Limit::Kind> = {"stable_step", "accurate_step", "length_scale",
+                                                     "mass_ratio"};
 
 /// How it comes out over two parameters.
 struct OutcomeMap {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include "base/enum_names.h"
 #include "harness/run/engine_state.h"
 
 namespace slipcheck {
@@ -21,10 +22,11 @@ enum class Outcome {
   crashed,
   refused,  ///< the engine or the reference says beforehand why it cannot; not bad, but no result
 };
-inline constexpr std::size_t kOutcomes = 10;
-
-/// "energy growing", "NaN".
-const char* name_of(Outcome outcome);
+template <>
+inline constexpr std::array kNamesOf<Outcome> = {
+    "accurate", "degraded", "drifting",  "energy growing", "tunnelled",
+    "exploded", "NaN",      "timed out", "crashed",        "refused"};
+inline constexpr std::size_t kOutcomes = kNamesOf<Outcome>.size();
 
 /// How many phases came out how.
 using OutcomeCounts = std::array<std::size_t, kOutcomes>;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace slipcheck {
+
+/// Well-formed UTF-8, with U+FFFD for each byte that is not: JSON and HTML can hold nothing else.
+std::string valid_utf8(std::string_view text);
+
+/// The same fit for a terminal or a page: control characters, which could move the cursor or
+/// reverse the direction of writing, become U+FFFD, and line breaks and tabs blanks.
+std::string printable(std::string_view text);
+
+/// How many columns of a terminal well-formed UTF-8 takes.
+std::size_t display_width(std::string_view text);
+
+/// Cut to a display width, with "…" for what is missing.
+std::string shortened(std::string_view text, std::size_t width);
+
+}  // namespace slipcheck
