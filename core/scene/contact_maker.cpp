@@ -233,11 +233,9 @@ NormalForce ContactMaker::with_given_restitution(const NormalForce& force, const
     try {
       dissipation_ =
           dissipation_for(impact_scales(force, pair.mass(), speed).law, end(), restitution);
-    } catch (const std::domain_error& error) {
-      std::string rule = error.what();
-      rule.erase(0, rule.find("must"));  // the key comes before it
+    } catch (const UnreachableRestitution& unreachable) {
       throw BadScenario({fault_of(scenario_, contact_.path + ".normal.restitution",
-                                  fmt::format("{} at {:.6g} m/s", rule, speed),
+                                  fmt::format("{} at {:.6g} m/s", unreachable.rule, speed),
                                   fmt::format("{:.6g}", restitution))});
     }
   }

@@ -27,14 +27,13 @@ NormalForce with_restitution(const NormalForce& force, double reduced_mass, doub
   }
   if (std::holds_alternative<HertzForce>(force)) {
     if (restitution == 1) return force;
-    throw std::domain_error(
-        fmt::format("restitution must be 1 at {:.6g} m/s: hertz is elastic", speed));
+    throw UnreachableRestitution(fmt::format("must be 1 at {:.6g} m/s: hertz is elastic", speed));
   }
   try {
     const ScaledLaw law = impact_scales(force, reduced_mass, speed).law;
     return with_dissipation(force, reduced_mass, speed, dissipation_for(law, end, restitution));
-  } catch (const std::domain_error& error) {
-    throw std::domain_error(fmt::format("{} at {:.6g} m/s", error.what(), speed));
+  } catch (const UnreachableRestitution& unreachable) {
+    throw UnreachableRestitution(fmt::format("{} at {:.6g} m/s", unreachable.rule, speed));
   }
 }
 

@@ -167,8 +167,8 @@ double dissipation_for(const ScaledLaw& law, ContactEnd end, double restitution)
   };
   // e falls from 1 to 0; 1 − e is in proportion to D where that is small.
   const auto out_of_reach = [&](double least, double most, const char* left, const char* right) {
-    throw std::domain_error(
-        fmt::format("restitution must be in {}{:.4g}, {:.8g}{}", left, least, most, right));
+    throw UnreachableRestitution(
+        fmt::format("must be in {}{:.4g}, {:.8g}{}", left, least, most, right));
   };
   if (!(restitution > 0 && restitution <= 1)) out_of_reach(0, 1, "(", "]");
   double high = std::log(std::min(10 * (1 - restitution), 1.0)), at_high = excess(high);

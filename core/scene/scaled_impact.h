@@ -1,5 +1,8 @@
 #pragma once
 
+#include <stdexcept>
+#include <string>
+
 #include "physics/contact/normal_force.h"
 
 namespace slipcheck {
@@ -48,8 +51,15 @@ struct Impact {
 /// as spheres that stay, restitution 0 and infinite times. Throws IntegrationFailure.
 Impact scaled_impact(const ScaledLaw& law, double D, ContactEnd end, double tolerance);
 
-/// The D at which the scaled law has this restitution, in (0, 1]. Throws std::domain_error, which
-/// says the reachable range, where there is none.
+/// No dissipation gives this restitution.
+struct UnreachableRestitution : std::domain_error {
+  explicit UnreachableRestitution(const std::string& reachable)
+      : std::domain_error("restitution " + reachable), rule(reachable) {}
+  std::string rule;  ///< "must be in [0.1, 1]"
+};
+
+/// The D at which the scaled law has this restitution, in (0, 1]. Throws UnreachableRestitution
+/// where there is none.
 double dissipation_for(const ScaledLaw& law, ContactEnd end, double restitution);
 
 }  // namespace slipcheck
