@@ -79,16 +79,24 @@ class FieldWriter {
     } else if constexpr (std::is_floating_point_v<Value> &&
                          not_finite == NotFinite::null_with_reason) {
       put_number(object_, key, value, why);
+      put_own_reason();
     } else {
       object_[key] = json_of_value(value);
-      if constexpr (not_finite == NotFinite::null_with_reason)
+      if constexpr (not_finite == NotFinite::null_with_reason) {
+        note_infinities(key, value);
         if (!why.empty() && has_null(object_[key])) add_reason(object_, why);
+        put_own_reason();
+      }
     }
   }
   void operator()(const std::string& key, double value, NumberRange) { (*this)(key, value); }
 
   /// A number of which reason() says why it is null.
-  void untold(const std::string& key, double value) { object_[key] = json_of_value(value); }
+  void untold(const std::string& key, double value) {
+    object_[key] = json_of_value(value);
+    if (!std::isfinite(value)) note_null(object_, key, value);
+    put_own_reason();
+  }
   /// Left out where it is what a fresh one is.
   template <class Value>
   void if_any(const std::string& key, const Value& value, const std::string& why = {}) {
@@ -101,18 +109,22 @@ class FieldWriter {
   /// null where there is none.
   void or_null(const std::string& key, const std::optional<double>& value,
                const std::string& why = {}) {
-    if (value) return put_number(object_, key, *value, why);
-    object_[key] = nullptr;
-    add_reason(object_, why);
+    if (value)
+      put_number(object_, key, *value, why);
+    else
+      put_nothing(object_, key, why);
+    put_own_reason();
   }
   /// What follows from other fields, and is not read.
   template <class Make>
   void derived(const std::string& key, const Make& make, const std::string& why = {}) {
     (*this)(key, make(), why);
   }
-  /// Why the record is as it is; where it does not say, `otherwise`.
+  /// Why the record is as it is; where it does not say, `otherwise` for people.
   void reason(const std::string& reason, const std::string& otherwise = {}) {
     add_reason(object_, reason.empty() ? otherwise : reason);
+    own_reason_ = valid_utf8(reason);
+    put_own_reason();
   }
   /// An object whose fields `describe_fields` lists.
   template <class Describe>
@@ -159,7 +171,24 @@ class FieldWriter {
     return json.is_null() || (json.is_array() && std::ranges::any_of(json, has_null));
   }
 
+  /// Entries of lists: a null of which nothing is said is NaN.
+  template <class Value>
+  void note_infinities(const std::string&, const Value&) {}
+  void note_infinities(const std::string& key, double value) {
+    if (std::isinf(value)) note_null(object_, key, value);
+  }
+  template <class Value>
+  void note_infinities(const std::string& key, const std::vector<Value>& values) {
+    for (std::size_t k = 0; k < values.size(); ++k)
+      note_infinities(key + "[" + std::to_string(k) + "]", values[k]);
+  }
+  /// What "reason" tells of nulls is not the record's own.
+  void put_own_reason() {
+    if (!own_reason_.empty() && object_.contains("nulls")) object_["own_reason"] = own_reason_;
+  }
+
   Json& object_;
+  std::string own_reason_;
 };
 
 /// Takes the fields of a record from an object; throws BadJson for what is no such record.
@@ -245,7 +274,7 @@ class BasicFieldReader {
       const std::vector<std::pair<std::string, JsonNode>> members = node.members();
       const bool any_null = std::ranges::any_of(node.json(), &nlohmann::json::is_null);
       for (const auto& [name, member] : members)
-        if (!any_null || name != "reason") read(member, value[name]);  // which is of the null
+        if (!any_null || (name != "reason" && name != "nulls")) read(member, value[name]);
     } else {
       BasicFieldReader fields(node);
       describe(fields, value);

@@ -54,7 +54,7 @@ JsonNode JsonNode::operator[](const std::string& key) const {
   if (found == json_->end()) JsonNode(*json_, *file_, place_of(key)).fault_alone("must be there");
   JsonNode node(*found, *file_, place_of(key));
   node.object_ = json_;
-  node.key_ = &found.key();
+  node.key_begin_ = node.place_.size() - key.size();
   return node;
 }
 
@@ -72,8 +72,12 @@ std::vector<JsonNode> JsonNode::items() const {
   if (!json_->is_array()) fault("must be a list");
   std::vector<JsonNode> nodes;
   nodes.reserve(json_->size());
-  for (const Json& each : *json_)
-    nodes.push_back({each, *file_, fmt::format("{}[{}]", place_, nodes.size())});
+  for (const Json& each : *json_) {
+    JsonNode& node =
+        nodes.emplace_back(JsonNode(each, *file_, fmt::format("{}[{}]", place_, nodes.size())));
+    node.object_ = object_;
+    node.key_begin_ = key_begin_;
+  }
   return nodes;
 }
 
@@ -111,7 +115,7 @@ double JsonNode::number(double least, double most) const {
 
 std::optional<double> JsonNode::number_or_null() const {
   if (json_->is_null() && object_ == nullptr) return std::nullopt;
-  if (json_->is_null()) return number_of_null(*object_, *key_);
+  if (json_->is_null()) return number_of_null(*object_, place_.substr(key_begin_));
   if (!json_->is_number()) fault("must be a number");
   return json_->get<double>();
 }

@@ -82,9 +82,9 @@ class JsonNode {
 
   const Json* json_;
   const std::string* file_;
-  std::string place_;                 // "runs[2].rate", empty of the whole
-  const Json* object_ = nullptr;      // that it is a member of
-  const std::string* key_ = nullptr;  // by which it is that
+  std::string place_;             // "runs[2].rate", empty of the whole
+  const Json* object_ = nullptr;  // that it, or the list that it is in, is a member of
+  std::size_t key_begin_ = 0;     // in the place, of what leads to it from there
 };
 
 }  // namespace slipcheck

@@ -1,61 +1,31 @@
 #include "base/not_finite.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
-#include <vector>
 
+#include "base/old_reasons.h"
 #include "base/text.h"
 
 namespace slipcheck {
 namespace {
 
-constexpr double kNotFinite[] = {std::numeric_limits<double>::quiet_NaN(),
-                                 std::numeric_limits<double>::infinity(),
-                                 -std::numeric_limits<double>::infinity()};
-
-constexpr std::string_view kBetweenReasons = "; ";
-
-const char* words_of(double not_finite) {
-  return std::isnan(not_finite) ? " is not a number"
-         : not_finite > 0       ? " is infinite"
-                                : " is minus infinite";
-}
-
-/// The parts of "reason".
-std::vector<std::string_view> reasons_of(const nlohmann::json& object) {
-  std::vector<std::string_view> parts;
-  const auto found = object.find("reason");
-  if (found == object.end() || !found->is_string()) return parts;
-  for (std::string_view rest = found->get_ref<const std::string&>(); !rest.empty();) {
-    const std::size_t end = std::min(rest.find(kBetweenReasons), rest.size());
-    parts.push_back(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + kBetweenReasons.size(), rest.size()));
-  }
-  return parts;
-}
-
-/// Whether a part of a reason was put beside a null alone.
-bool tells_of_null(const nlohmann::json& object, std::string_view part) {
-  static constexpr std::string_view kSentences[] = {
-      "the error is infinite",    "the error is not a number", "no error could be taken",
-      "no energy could be taken", "no overlap could be taken", "nothing rests in the reference",
-      "no value was found good",  "no value was found bad",    "there is no limit to divide"};
-  return std::ranges::find(kSentences, part) != std::end(kSentences) ||
-         std::ranges::any_of(kNotFinite, [&](double value) {
-           const std::string_view words = words_of(value);
-           if (!part.ends_with(words)) return false;
-           const auto key = object.find(std::string(part.substr(0, part.size() - words.size())));
-           return key != object.end() && key->is_null();
-         });
+NullMeaning meaning_of(double not_finite) {
+  return std::isnan(not_finite) ? NullMeaning::nan
+         : not_finite > 0       ? NullMeaning::infinite
+                                : NullMeaning::minus_infinite;
 }
 
 }  // namespace
 
 std::string if_not_finite(const std::string& what, double value) {
   if (std::isfinite(value)) return {};
-  return what + words_of(value);
+  return what + (std::isnan(value) ? " is not a number"
+                 : value > 0       ? " is infinite"
+                                   : " is minus infinite");
+}
+
+void note_null(nlohmann::ordered_json& object, const std::string& key, double value) {
+  object["nulls"][key] = name_of(meaning_of(value));
 }
 
 void put_number(nlohmann::ordered_json& object, const std::string& key, double value,
@@ -65,7 +35,15 @@ void put_number(nlohmann::ordered_json& object, const std::string& key, double v
     return;
   }
   object[key] = nullptr;
+  note_null(object, key, value);
   add_reason(object, reason.empty() ? if_not_finite(key, value) : reason);
+}
+
+void put_nothing(nlohmann::ordered_json& object, const std::string& key,
+                 const std::string& reason) {
+  object[key] = nullptr;
+  object["nulls"][key] = name_of(NullMeaning::absent);
+  add_reason(object, reason);
 }
 
 void add_reason(nlohmann::ordered_json& object, const std::string& reason) {
@@ -80,19 +58,21 @@ void add_reason(nlohmann::ordered_json& object, const std::string& reason) {
 }
 
 std::optional<double> number_of_null(const nlohmann::json& object, const std::string& key) {
-  for (const std::string_view part : reasons_of(object))
-    for (const double value : kNotFinite)
-      if (part == if_not_finite(key, value) ||
-          (key == "max" && part == if_not_finite("the error", value)))
-        return value;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto nulls = object.find("nulls");
+  if (nulls == object.end() || !nulls->is_object()) return number_of_reason(object, key);
+  const auto meaning = nulls->find(key);
+  if (meaning == nulls->end()) return std::nullopt;
+  if (*meaning == name_of(NullMeaning::infinite)) return kInfinity;
+  if (*meaning == name_of(NullMeaning::minus_infinite)) return -kInfinity;
+  if (*meaning == name_of(NullMeaning::nan)) return std::numeric_limits<double>::quiet_NaN();
   return std::nullopt;
 }
 
 std::string own_reason(const nlohmann::json& object) {
-  std::vector<std::string_view> parts = reasons_of(object);
-  while (!parts.empty() && tells_of_null(object, parts.back())) parts.pop_back();
-  if (parts.empty()) return {};
-  return {parts.front().begin(), parts.back().end()};
+  if (!object.contains("nulls")) return reason_without_nulls(object);
+  const auto own = object.find("own_reason");
+  return own == object.end() || !own->is_string() ? std::string() : own->get<std::string>();
 }
 
 }  // namespace slipcheck

@@ -161,6 +161,15 @@ TEST(JsonReport, WritesNullWithAReasonForWhatIsNotFinite) {
   EXPECT_EQ(run["errors"]["j.sliding_time"]["reason"], "the error is infinite");
   EXPECT_TRUE(run["applied"]["limit"].is_null());
   EXPECT_EQ(run["applied"]["reason"], "limit is infinite");
+
+  const Json& sliding = reference["observables"]["i.sliding_time"];
+  EXPECT_EQ(sliding["nulls"], Json({{"uncertainty", "infinite"}}));
+  EXPECT_EQ(reference["closed_form"]["nulls"], Json({{"i.sliding_time", "nan"}}));
+  EXPECT_EQ(run["nulls"], Json({{"cpu_seconds", "infinite"}}));
+  EXPECT_FALSE(run.contains("own_reason"));  // it is of cpu_seconds alone
+  EXPECT_EQ(run["errors"]["i.sliding_time"]["own_reason"], "the reference is 0");
+  EXPECT_FALSE(run["errors"]["j.sliding_time"].contains("own_reason"));
+  EXPECT_EQ(run["applied"]["nulls"], Json({{"limit", "infinite"}}));
 }
 
 TEST(JsonReport, SaysWhatTheReferenceDoesNotShow) {
@@ -170,6 +179,7 @@ TEST(JsonReport, SaysWhatTheReferenceDoesNotShow) {
   EXPECT_TRUE(entry["value"].is_null());
   EXPECT_TRUE(entry["uncertainty"].is_null());
   EXPECT_EQ(entry["reason"], "it does not occur in the reference");
+  EXPECT_EQ(entry["nulls"], Json({{"value", "absent"}, {"uncertainty", "absent"}}));
 
   scene.reference.observables.erase("i-j.restitution");
   scene.reference.observables.erase("i-j.effective_restitution");
@@ -255,8 +265,10 @@ TEST(JsonReport, SetsWhatIsExpectedBesideWhatIs) {
   EXPECT_EQ(run["expected"][1], Json({{"observable", "j.jump_height"},
                                       {"statistic", "none"},
                                       {"value", nullptr},
+                                      {"nulls", {{"value", "nan"}}},
                                       {"met", true},
-                                      {"reason", "no phase shows it"}}));
+                                      {"reason", "no phase shows it"},
+                                      {"own_reason", "no phase shows it"}}));
   // Errors are as ever, but the verdict is not theirs.
   EXPECT_EQ(run["errors"]["i-j.effective_restitution"]["within"], false);
   EXPECT_EQ(json["verdict"], "within");

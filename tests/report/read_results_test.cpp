@@ -109,6 +109,36 @@ TEST(ReadResult, FindsAgainWhatIsExpected) {
   EXPECT_EQ(scene.runs[4].verdict(), Verdict::undecided);
 }
 
+/// As it was written once, with nothing but reasons beside nulls.
+Json of_before(Json json) {
+  if (json.is_object()) {
+    json.erase("nulls");
+    json.erase("own_reason");
+  }
+  if (json.is_structured())
+    for (Json& each : json) each = of_before(each);
+  return json;
+}
+
+TEST(ReadResult, ReadsFilesThatHaveReasonsAlone) {
+  const Json old = of_before(as_file(json_of(rich_record())));
+  const SceneRecord scene = read_result(JsonNode(old, kFile));
+  EXPECT_EQ(of_before(as_file(json_of(scene))), old);
+  const ReferenceResult& reference = scene.reference;
+  EXPECT_EQ(reference.run.reason, "the run's limit of 5 s; it still slides");
+  EXPECT_EQ(reference.observables.at("i-j.restitution").uncertainty, kInfinity);
+  EXPECT_TRUE(std::isnan(reference.observables.at("i.spin").uncertainty));
+  EXPECT_TRUE(std::isnan(reference.observables.at("j.spin").value));
+  EXPECT_FALSE(reference.observables.contains("i.jump_height"));
+  EXPECT_EQ(reference.closed_form.at("j.sliding_time"), -kInfinity);
+  EXPECT_EQ(scene.runs[0].reason, "");
+  EXPECT_EQ(scene.runs[0].cpu_seconds, kInfinity);
+  EXPECT_EQ(scene.runs[0].applied.settings.at("limit"), Setting(-kInfinity));
+  EXPECT_EQ(scene.runs[0].errors.at("j.sliding_time").max, kInfinity);
+  EXPECT_EQ(scene.runs[0].errors.at("j.sliding_time").reason, "");
+  EXPECT_EQ(scene.runs[3].reason, "10 s; cpu_seconds are 10");
+}
+
 TEST(ReadResult, KeepsASeries) {
   SceneRecord scene = box_scene(250);
   scene.scenario = rich_record().scenario;
@@ -287,6 +317,7 @@ TEST(ReadStability, GivesTheSameFileAgain) {
   EXPECT_EQ(run.phases, cases[1].runs[0].phases);
   EXPECT_EQ(run.outcome, Outcome::not_finite);
   EXPECT_TRUE(std::isnan(run.worst_error));
+  EXPECT_EQ(run.energy_gain, kInfinity);
   EXPECT_TRUE(read.cases[2].reference.refused);
   ASSERT_EQ(read.limits.limits.size(), 4u);
   EXPECT_EQ(read.limits.limits[0].strays, (std::vector<double>{0.05, 0.06}));
@@ -297,6 +328,17 @@ TEST(ReadStability, GivesTheSameFileAgain) {
   EXPECT_EQ(read.limits.maps[0].outcome, limits.maps[0].outcome);
   EXPECT_EQ(read.limits.maps[0].worst_error[5], 0.2);
   EXPECT_EQ(read.limits.maps[0].theory, limits.maps[0].theory);
+}
+
+TEST(ReadStability, ReadsFilesThatHaveReasonsAlone) {
+  const Json old = of_before(as_file(json_of(rich_cases(), StabilityGrid{}, rich_limits())));
+  const StabilityFile read = read_stability(JsonNode(old, kFile));
+  EXPECT_EQ(of_before(as_file(json_of(read.cases, StabilityGrid{}, read.limits))), old);
+  EXPECT_EQ(read.cases[1].runs[0].record.reason, "NaN at step 7; it went on");
+  EXPECT_TRUE(std::isnan(read.cases[1].runs[0].energy_gain));  // its reason is in other words
+  EXPECT_FALSE(read.limits.limits[1].bad);
+  EXPECT_EQ(read.limits.limits[1].reason, "");
+  EXPECT_EQ(read.limits.limits[2].reason, "interrupted");
 }
 
 TEST(ReadStability, SaysWhatIsWrongAndWhere) {
