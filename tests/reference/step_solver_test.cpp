@@ -264,7 +264,7 @@ TEST(StepPair, ViscousForceIsTheLaw) {
       const Vector3 slip = speed * Vector3(2, -1, 2) / 3;
       TangentialBranch branch;
       follow(pair.law, normal, speed, branch);
-      const Vector3 law = tangential_force(pair.law, branch, normal, slip, Vector3());
+      const Vector3 law = tangential_force(pair.law, branch, normal, slip, no_vector<Vector3>());
       EXPECT_LE((pair.force({}, normal, slip) - law).norm(), 4e-16 * law.norm()) << normal;
     }
 }

@@ -76,7 +76,7 @@ struct PrintedAsperityPair {
   }
   Vector3 force(const Bend& bend, double normal, const Vector3&) const {
     const TangentialBranch branch{.broken = std::floor(bend.bend.norm() / law.size)};
-    return tangential_force(law, branch, normal, Vector3(), bend.bend);
+    return tangential_force(law, branch, normal, no_vector<Vector3>(), bend.bend);
   }
 };
 
@@ -102,7 +102,8 @@ struct PassiveAsperityPair {
     bend.normal = std::max(normal, 0.0);
   }
   Vector3 force(const Bend& bend, double normal, const Vector3&) const {
-    return tangential_force(law, {.growing = false}, std::max(normal, 0.0), Vector3(), bend.bend);
+    return tangential_force(law, {.growing = false}, std::max(normal, 0.0), no_vector<Vector3>(),
+                            bend.bend);
   }
 };
 
