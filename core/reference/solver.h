@@ -37,7 +37,8 @@ struct EnergyBalance {
   double work = 0;        ///< done on the bodies by the substrate's or the walls' motion [J]
   double scale = 0;       ///< of the energies that took part [J]
   /// (energy − initial − work + dissipated)/scale.
-  double error() const { return scale > 0 ? (energy - initial - work + dissipated) / scale : 0; }
+  /// 0 where no energy took part; NaN where one is NaN.
+  double error() const { return scale == 0 ? 0 : (energy - initial - work + dissipated) / scale; }
 };
 
 /// A run in numbers, whichever solver made it.

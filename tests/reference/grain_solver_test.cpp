@@ -223,6 +223,15 @@ TEST(GrainSolver, StepsBeyondTheLimitOfStabilityEnd) {
   EXPECT_THROW(unstable.advance(1'000'000), StepTooLong);
 }
 
+TEST(StepSolver, ARunInStepsThatAreTooLongHasFailed) {
+  const ContactScene scene = periodic_gas(100, 0.6, false, 1.0);
+  StepSolver solver(scene, scene.hard.initial, {.step = 1.3 * 2 / M_PI * 1e-2});
+  const SolvedRun run = solver.run(until_time(1e4), nullptr);
+  EXPECT_TRUE(run.failed);
+  EXPECT_FALSE(run.reached);
+  EXPECT_NE(run.reason.find("more than half a radius in a step"), std::string::npos) << run.reason;
+}
+
 TEST(GrainSolver, TellsWhatItDoesNotTake) {
   const auto refusal = [](auto change) {
     ContactScene scene = periodic_gas(9, 0.1, true, 0.9);

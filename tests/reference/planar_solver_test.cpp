@@ -86,6 +86,14 @@ TEST(PlanarSolver, ABallInAnElasticBoxGoesOnForEver) {
   EXPECT_EQ(run.collisions, 0u);
 }
 
+TEST(EnergyBalance, HidesNoNaN) {
+  EXPECT_EQ(EnergyBalance{}.error(), 0);
+  EXPECT_DOUBLE_EQ((EnergyBalance{1.25, 1, 0.25, 0.25, 2}).error(), 0.125);
+  const double nan = std::nan("");
+  EXPECT_TRUE(std::isnan((EnergyBalance{nan, 1, 0, 0, nan}).error()));
+  EXPECT_TRUE(std::isnan((EnergyBalance{1, 1, 0, 0, nan}).error()));
+}
+
 TEST(PlanarSolver, KnowsWhatStaysInAPlane) {
   const Scene gas = test::smooth_gas(9, 0.1, contact(0.9));
   const auto is_planar = [](const Scene& scene) {

@@ -179,13 +179,14 @@ WorkPrecision Curves::stepped_point(double step) const {
     SampledPath path(times_, &events);
     StepSolver solver(*scene_.contact, hard.initial, {h});
     const SolvedRun run = solver.run(end_, &path);
-    if (run.failed) {
+    path.stop_telling();
+    const bool goes_on = !run.failed && path.centres.size() < times_.size();
+    const SolvedRun last = goes_on ? solver.run(until_time(times_.back()), &path) : run;
+    if (last.failed) {
       point.status = RunStatus::unstable;
-      point.reason = run.reason;
+      point.reason = last.reason;
       return point;
     }
-    path.stop_telling();
-    if (path.centres.size() < times_.size()) solver.run(until_time(times_.back()), &path);
     // The end as an engine's run has it.
     const double ended = !run.reached                        ? run.end_time
                          : end_.until == Run::Until::time    ? end_.time

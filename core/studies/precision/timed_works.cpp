@@ -49,11 +49,14 @@ TimedWork timed_steps(const PreparedScene& scene, const ReferenceSolver& solver,
                     kFixedSteps));
   const auto steps = static_cast<double>(stretch->steps);
   const double step = point.knob, time = (steps - 0.5) * step;
-  return {&point, steps, 1 / step, [&scene, stretch, step, time] {
-            return least_cpu_seconds([&] {
+  return {
+      &point, steps, 1 / step, [&scene, stretch, step, time] {
+        return least_cpu_seconds([&] {
+          const SolvedRun run =
               StepSolver(*scene.contact, stretch->states, {step}).run(until_time(time), nullptr);
-            });
-          }};
+          if (run.failed) throw std::runtime_error(run.reason);
+        });
+      }};
 }
 
 /// A run of the event or the contact solver as a whole.

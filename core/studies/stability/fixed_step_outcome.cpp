@@ -74,6 +74,10 @@ FixedStepOutcome fixed_step_outcome(const ReferencePath& path, double step, std:
       const double end = path.end() - start;
       try {
         const SolvedRun done = steps.run(until_time(end), &run);
+        if (done.failed) {
+          result.why = done.reason;
+          return result;
+        }
         seen.push_back(
             named_values(run.observables(start + done.end_time), body_names(scene.scenario)));
       } catch (const Lost& run_lost) {
