@@ -63,9 +63,10 @@ ExplainSection sliding_onset(const SlidingOnset& onset) {
   section.add("t_min", quantity(onset.time, kTime), "its time, undamped and to first order");
   section.add("", std::isinf(onset.exact_time) ? "never" : quantity(onset.exact_time, kTime),
               "with damping and the inertia of rolling");
-  section.add("v^a", quantity(onset.v_a, kVelocity), "they slide from this closing speed on");
+  section.add("v_slide", quantity(onset.sliding_speed, kVelocity),
+              "they slide from this closing speed on");
   section.add("v^b", quantity(onset.v_b, kVelocity), "K's estimate without damping");
-  section.add("v^d", quantity(onset.v_d, kVelocity), "at the first touch already");
+  section.add("v^c", quantity(onset.v_c, kVelocity), "at the first touch already");
   return section;
 }
 
@@ -80,7 +81,7 @@ ExplainSection rubbing(const PairInsight& insight, bool confined) {
 }
 
 void add_jump(ExplainSection& section, const Jump& jump, const std::string& name) {
-  section.add("v^c", quantity(jump.v_c, kVelocity),
+  section.add("v^d", quantity(jump.v_d, kVelocity),
               "sum of speeds from which rubbing lifts a body");
   if (jump.speed <= 0) return;
   section.add("v^z", quantity(jump.speed, kVelocity), name + " leaves the substrate with this");
@@ -118,6 +119,8 @@ ExplainSection of_both(const PairInsight& insight) {
   section.add("Δt_col", fmt::format("{:+.3g}", insight.collision_time_change),
               "relative, by the substrate's friction (App. D)");
   section.add("Δx_max", fmt::format("{:+.3g}", insight.largest_overlap_change), "the same");
+  section.add("v^a", quantity(insight.v_a, kVelocity),
+              "closing speed far above which both are small");
   return section;
 }
 

@@ -94,8 +94,8 @@ PaperFigure figure_k5() {
   figure.caption += fmt::format(
       "(c) The onset of sliding without damping (e_n = 1): it rolls until t_{{min}} = 2(1+A) μ_s "
       "g/(v_{{rel}} ω_0²) = {:.2f} ns, twice what (33)–(36) give as printed. Damped as in (a), "
-      "(b), it slides from the first touch on, as v_{{rel}} is above v^d = {:.2f} cm/s. ",
-      without_damping.onset.time / 1e-9, insight.onset.v_d / kCentimetre);
+      "(b), it slides from the first touch on, as v_{{rel}} is above v^c = {:.2f} cm/s. ",
+      without_damping.onset.time / 1e-9, insight.onset.v_c / kCentimetre);
   figure.caption +=
       "(d) What the substrate's friction adds to v and R Ω: the reference less spheres without "
       "substrate, beside the first order. K on one collision and the onset of sliding. ";

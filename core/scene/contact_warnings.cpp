@@ -45,9 +45,11 @@ double relative_speed(const Velocities& a, const Velocities& b) {
   return (a.most - b.least).cwiseMax(b.most - a.least).norm();
 }
 
-/// [m/s]; infinite without a density.
+/// Transversal [m/s]; infinite without a density.
 double sound(const Material& material) {
-  return material.density ? sound_speed(*material.young_modulus, *material.density) : kInfinity;
+  return material.density ? transversal_sound_speed(*material.young_modulus,
+                                                    *material.poisson_ratio, *material.density)
+                          : kInfinity;
 }
 
 /// A of a law of B [s], 0 for Hertz'; none for the others.
@@ -101,17 +103,16 @@ void look_at_quasistatic(const ClassPair& pair, double A, double speed, Worst& w
 
 /// The pair of classes whose printed asperities can create energy at the lowest impact speed
 /// counts.
-void look_at_asperities(const ClassPair& pair, const SoftContact& soft, std::optional<double>& bend,
-                        Worst& worst) {
+void look_at_asperities(const ClassPair& pair, const SoftContact& soft,
+                        std::optional<PassiveSpeeds>& speeds, Worst& worst) {
   const auto* asperity = std::get_if<AsperityForce>(&soft.tangential);
   if (!asperity || asperity->form != AsperityForce::Form::printed || asperity->friction == 0)
     return;
-  const ImpactScales at_one = impact_scales(soft.normal, pair.mass(), 1);
-  if (!bend) bend = largest_passive_bend(at_one.law.alpha);
+  if (!speeds) speeds.emplace(soft.end);
   const double kappa = tangential_mass_ratio(pair.first, pair.second);
   worst.passive_speed =
-      std::min(worst.passive_speed,
-               passive_speed(at_one, *bend, asperity->friction / (kappa * asperity->size)));
+      std::min(worst.passive_speed, speeds->of(impact_scales(soft.normal, pair.mass(), 1),
+                                               asperity->friction / (kappa * asperity->size)));
 }
 
 }  // namespace
@@ -121,7 +122,7 @@ std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneO
   const BodyContact& contact = maker.contact();
   const std::vector<Velocities> velocities = velocities_of(outline);
   Worst worst;
-  std::optional<double> bend;
+  std::optional<PassiveSpeeds> passive;
   const auto look = [&](const ClassPair& pair, double speed) {
     if (maker.is_viscoelastic_restitution()) {
       look_at_quasistatic(pair, ContactMaker::hard_viscoelastic(pair).dissipation_time, speed,
@@ -130,7 +131,7 @@ std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneO
       const SoftContact soft = maker.soft(pair);
       if (const auto A = dissipation_time_of(soft.normal))
         look_at_quasistatic(pair, *A, speed, worst);
-      look_at_asperities(pair, soft, bend, worst);
+      look_at_asperities(pair, soft, passive, worst);
       look_at_depth(pair, soft.normal, speed, worst);
     }
   };
@@ -155,15 +156,16 @@ std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneO
   };
   const char* normal = maker.is_soft() ? ".normal.model" : ".normal.restitution";
   if (worst.fast.too_fast()) {
-    warn(normal, fmt::format("impacts at up to {:.3g} m/s are {:.2g} of the speed of sound; the "
-                             "law holds where that is far below 1 (B 11)",
-                             worst.speed, worst.fast.speed_ratio));
+    warn(normal, fmt::format("impacts at up to {:.3g} m/s are {:.2g} of the transversal speed "
+                             "of sound; the law holds where the square of that is far below 1 "
+                             "(B B11)",
+                             worst.speed, std::sqrt(worst.fast.speed_ratio)));
   }
   if (worst.viscous.too_viscous()) {
     warn(
         normal,
         fmt::format("the dissipation time {:.3g} s is {:.2g} of an impact's duration {:.3g} s; the "
-                    "law holds where that is far below 1 (B 12)",
+                    "law holds where that is far below 1 (B B12)",
                     worst.dissipation_time, worst.viscous.time_ratio, worst.duration));
   }
   if (worst.depth > 1) {

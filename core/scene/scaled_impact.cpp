@@ -25,18 +25,6 @@ double odd_power(double x, double exponent) {
   return std::copysign(std::pow(std::abs(x), exponent), x);
 }
 
-double scaled_force(const ScaledLaw& law, double D, double x, double rate) {
-  if (law.compact) return odd_power(x + D * rate, law.alpha);
-  return odd_power(x, law.alpha) + D * std::pow(std::abs(x), law.gamma) * rate;
-}
-
-/// A function of the sign of F_N without the power of x that vanishes at the first touch.
-double force_sign(const ScaledLaw& law, double D, double x, double rate) {
-  if (law.compact) return x + D * rate;
-  const double least = std::min(law.alpha, law.gamma);
-  return odd_power(x, law.alpha - least) + D * std::pow(std::abs(x), law.gamma - least) * rate;
-}
-
 /// Whether the sphere on its way back, x > 0 and ẋ <= 0, never comes to x = 0.
 ///
 /// With w = −ẋ x^−s, s = α − γ, and l = ln(1/x) the law reads
@@ -63,6 +51,17 @@ Impact stuck_impact(const ScaledLaw& law, double D) {
 
 }  // namespace
 
+double scaled_force(const ScaledLaw& law, double D, double x, double rate) {
+  if (law.compact) return odd_power(x + D * rate, law.alpha);
+  return odd_power(x, law.alpha) + D * std::pow(std::abs(x), law.gamma) * rate;
+}
+
+double scaled_force_sign(const ScaledLaw& law, double D, double x, double rate) {
+  if (law.compact) return x + D * rate;
+  const double least = std::min(law.alpha, law.gamma);
+  return odd_power(x, law.alpha - least) + D * std::pow(std::abs(x), law.gamma - least) * rate;
+}
+
 Impact scaled_impact(const ScaledLaw& law, double D, ContactEnd end, double tolerance) {
   if (D > kSticks) return stuck_impact(law, D);
   const bool by_force = end == ContactEnd::zero_force && D > 0;
@@ -76,7 +75,7 @@ Impact scaled_impact(const ScaledLaw& law, double D, ContactEnd end, double tole
   ode.watch(
       2,
       [&](double, const double* y, double* value) {
-        value[0] = by_force ? force_sign(law, D, y[0], y[1]) : y[0];
+        value[0] = by_force ? scaled_force_sign(law, D, y[0], y[1]) : y[0];
         value[1] = y[1];
       },
       falling);

@@ -23,6 +23,12 @@ struct ScaledLaw {
   }
 };
 
+/// −ẍ of the scaled law at x and ẋ, odd in x.
+double scaled_force(const ScaledLaw& law, double D, double x, double rate);
+
+/// A function of its sign without the power of x that vanishes at the first touch.
+double scaled_force_sign(const ScaledLaw& law, double D, double x, double rate);
+
 /// What turns a collision into one of the scaled law and back.
 struct ImpactScales {
   ScaledLaw law;

@@ -110,7 +110,7 @@ TEST(Explain, ALawOfTheMaterials) {
   const double duration = 2.9432 * std::pow(mass / (0.8 * rho), 0.4) * std::pow(0.3, -0.2);
   expect_told(seen, "ρ", rho);
   expect_told(seen, "A/t_c", 1e-6 / duration);
-  expect_told(seen, "g/c", 0.3 / std::sqrt(2.06e11 / 7850));
+  expect_told(seen, "(g/c_t)²", 0.09 / (2.06e11 / (2 * 7850 * 1.28)));
   EXPECT_EQ(seen.value("A"), "1.000 µs");
   EXPECT_FALSE(seen.section("Warnings"));
 }

@@ -1,6 +1,6 @@
 // One test for each misprint of Kondic (K), Brilliantov et al. (B) and Luding (L) that
-// physics-notes.md and docs/model.md list: the corrected equation meets the integrated forces, the
-// printed one does not. Rows (44), (55), (61), (62), D and F have theirs beside the functions in
+// docs/model.md lists: the corrected equation meets the integrated forces, the printed one does
+// not. Rows (44), (55), (61), (62), D and F have theirs beside the functions in
 // closed_forms_test.cpp and pair_insight_test.cpp.
 
 #include <gtest/gtest.h>
@@ -16,6 +16,7 @@
 #include "physics/contact/elastic_pair.h"
 #include "physics/contact/normal_force.h"
 #include "physics/contact/pair_insight.h"
+#include "physics/contact/planar_collision.h"
 #include "physics/contact/tangential_force.h"
 #include "soft_pair.h"
 
@@ -180,6 +181,119 @@ TEST(KondicErratum, AppBCollisionTimeOfSteel) {
   EXPECT_NEAR(duration(modulus / 2, 1.0), 1.61e-5, 0.005e-5);
 }
 
+TEST(KondicErratum, K39DampingTakesAQuarterOfPiEpsilonFromTheOverlap) {
+  // x_max = (v/ω0)(1 − (π/4) ε); printed: (π/2) ε.
+  for (const double epsilon : {0.01, 0.067}) {
+    const double omega0 = elastic_steel().contact_frequency();
+    const LinearContact contact(kMass / 2, elastic_steel().stiffness(), epsilon * omega0,
+                                ContactEnd::zero_overlap);
+    const double seen =
+        integrated(contact, symmetric_pair(0.1), SubstrateFriction::off).collide().deepest;
+    EXPECT_NEAR(contact.largest_overlap(0.1) / seen, 1, 1e-8);  // one step of 5e-5 radian, squared
+    const double share = seen / (0.1 / omega0);
+    EXPECT_NEAR(share, 1 - M_PI / 4 * epsilon, epsilon * epsilon);
+    EXPECT_GT(share - (1 - M_PI / 2 * epsilon), 0.7 * epsilon);
+  }
+}
+
+TEST(KondicErratum, DampingRatioIsTwoOverPiOfTheLoss) {
+  // ε ≈ (2/π)(1 − e_n), printed with a minus; and ω0, printed 1e-5 s, is 1/(8.1e-6 s).
+  for (const double loss : {1e-3, 1e-2}) {
+    const auto contact =
+        LinearContact::with_collision_time(kMass / 2, 1 - loss, 2.55e-5, ContactEnd::zero_overlap);
+    EXPECT_NEAR(contact.damping_ratio() / (2 / M_PI * loss), 1, loss);
+  }
+  EXPECT_NEAR(1 / elastic_steel().contact_frequency(), 8.1e-6, 0.05e-6);
+}
+
+TEST(KondicErratum, VcIsTheOnsetAtTheFirstTouch) {
+  // γ_N m̄ v = (1 + A) μ_s m g: v^c = 2 (1 + A) μ_s g/γ_N = 0.416 cm/s with γ_N = −(2/t_col) ln e_n;
+  // printed g μ_s/γ_N.
+  const auto contact =
+      LinearContact::with_collision_time(kMass / 2, 0.9, 2.55e-5, ContactEnd::zero_overlap);
+  const double v_c = 2 * 3.5 * 0.5 * kGravity * 2.55e-5 / (-2 * std::log(0.9));
+  EXPECT_NEAR(v_c, 0.416e-2, 0.001e-2);
+  EXPECT_NEAR(pair_insight(contact, symmetric_pair(0.1)).onset.v_c, v_c, 1e-15);
+  const auto slides_from = [&](double v) {
+    return integrated(contact, symmetric_pair(v), SubstrateFriction::on).collide().slides_from;
+  };
+  EXPECT_EQ(slides_from(1.002 * v_c), 0);
+  EXPECT_GT(slides_from(0.998 * v_c), 0);
+}
+
+TEST(KondicErratum, C8RubbingHoldsTheLiftedSphereByItsWholeForce) {
+  // F_N = (1 + A) μ_s m g + F_R [A − (1 + A) μ_s] at the first touch, with F_R = γ_S m̄ |v_p| below
+  // the weight: the second term is printed with half of that.
+  const auto contact =
+      LinearContact::with_collision_time(kMass / 2, 0.9, 2.55e-5, ContactEnd::zero_overlap);
+  const double gamma_n = contact.damping_rate(), gamma_s = gamma_n / 2;
+  const double v_p = kGravity / gamma_s;  // F_R is half of the weight
+  const auto v_m = [&](double of_rubbing) {
+    return (2 * 3.5 * 0.5 * kGravity + of_rubbing * gamma_s * v_p * (2.5 - 3.5 * 0.5)) / gamma_n;
+  };
+  const auto slides_from = [&](double v) {
+    RollingPair pair = symmetric_pair(v);
+    for (RollingSphere& s : pair.spheres) s.speed += 0.5 * v_p;
+    pair.rubbing_rate = gamma_s;
+    pair.rubbing_friction = std::numeric_limits<double>::infinity();
+    SoftPair soft = integrated(contact, pair, SubstrateFriction::on);
+    soft.mu_s[1] = 1e9;  // of the sphere that is pressed down nothing is asked
+    return soft.collide().slides_from;
+  };
+  EXPECT_EQ(slides_from(1.001 * v_m(1)), 0);
+  EXPECT_GT(slides_from(0.999 * v_m(1)), 0);
+  EXPECT_GT(slides_from(1.001 * v_m(0.5)), 0);
+}
+
+TEST(KondicErratum, E6CapOfTheRubbingEndsAtTwiceThePrintedOverlap) {
+  // γ_S |v_p| = ν_s ω0² x/ω0·(ω0/|v_m|)…: x_crit/x_max = γ_S |v_p|/(ν_s ω0 |v_m|) without damping.
+  const LinearContact contact = elastic_steel();
+  const double omega0 = contact.contact_frequency(), gamma_s = 0.02 * omega0, cap = 0.5;
+  RollingPair pair = symmetric_pair(0.1);
+  pair.spheres[0].speed = 0.1, pair.spheres[1].speed = 0;
+  pair.rubbing_rate = gamma_s;
+  pair.rubbing_friction = cap;
+  SoftPair soft = integrated(contact, pair, SubstrateFriction::off);
+  // The largest force of friction while the cap rules is that at its end: F_R = ν_s k x_crit.
+  const double critical = gamma_s * 0.1 / (cap * omega0 * 0.1);  // x_crit/x_max
+  const double end_of_cap = cap * contact.stiffness() * critical * 0.1 / omega0;
+  // Up to there the slip has fallen by A ν_s x_crit²/(x_max²)/2…: of second order in ε.
+  EXPECT_NEAR(soft.collide().largest_rubbing / end_of_cap, 1, 2.5 * cap * critical * critical);
+  EXPECT_GT(soft.collide().largest_rubbing, 1.9 * (0.5 * end_of_cap));  // printed: half
+}
+
+TEST(KondicErratum, K66RubbingAddsToTheLossBySliding) {
+  // Of a pair whose target was at rest: v^f² − v^s² of both over v², (2 A e (1 + e) + e² − 1 +
+  // 4 C (1 + A) − 4 C²)/(2 (1 + A)²), which grows with C. K says that it falls.
+  const auto contact =
+      LinearContact::with_collision_time(kMass / 2, 0.9, 2.55e-5, ContactEnd::zero_overlap);
+  const auto loss = [&](double rubbing_rate, double& share) {
+    RollingPair pair = symmetric_pair(0.1);
+    pair.spheres[0].speed = 0.1, pair.spheres[1].speed = 0;
+    pair.rubbing_rate = rubbing_rate;
+    pair.rubbing_friction = std::numeric_limits<double>::infinity();
+    SoftPair soft = integrated(contact, pair, SubstrateFriction::off);
+    const SoftPair::State end = soft.collide().end;
+    share = -end.w[1] / 0.1;
+    double sum = 0;
+    for (std::size_t i : {0u, 1u}) {
+      soft.mu_k[i] = 0.1;
+      const double rolls = soft.slide(end, i).velocity;
+      sum += end.v[i] * end.v[i] - rolls * rolls;
+    }
+    return sum / 0.01;
+  };
+  const auto expected = [](double C) {
+    return (5 * 0.9 * 1.9 + 0.81 - 1 + 14 * C - 4 * C * C) / (2 * 3.5 * 3.5);
+  };
+  double share = 0;
+  EXPECT_NEAR(loss(0, share), expected(0), 1e-5);
+  EXPECT_NEAR(expected(0), 0.3412, 5e-5);
+  const double rubbed = loss(contact.damping_rate() / 2, share);
+  EXPECT_NEAR(rubbed, expected(share), 1e-5);
+  EXPECT_GT(rubbed, 0.39);
+}
+
 // --- B -------------------------------------------------------------------------------------------
 
 /// Two free spheres in a plane, their line of centres along x (it turns by far less than t_c): a
@@ -336,6 +450,48 @@ TEST(BrilliantovErratum, B42B43ImpulsesOfBothRestitutions) {
   }
 }
 
+TEST(BrilliantovErratum, B40GainTermTakesTheJacobianOfTheCollision) {
+  // The velocities that a collision takes to others fill ε^N (ε^T)² of their volume in three
+  // dimensions, the flux of pairs changes by ε^N: the gain term has 1/((ε^N)² (ε^T)²), as printed,
+  // for constant coefficients there alone. In a plane the power of ε^T is 1.
+  std::mt19937_64 random(11);
+  const HardPair before = oblique_pair(random);
+  const double e_n = 0.8, e_t = 0.4;
+  const auto jacobian = [&](bool planar) {
+    // Central differences of a linear map: exact but for rounding.
+    const Vector3 n = before.n(), k = Vector3::UnitZ();
+    const int size = planar ? 6 : 12;
+    Eigen::MatrixXd columns(size, size);
+    const auto collided = [&](int i, double h) {
+      HardPair pair = before;
+      if (planar) pair.sa.position = 0.005 * n.cross(k).normalized();
+      for (BodyState* s : {&pair.sa, &pair.sb}) {
+        if (!planar) break;
+        s->velocity.z() = 0;
+        s->angular_velocity = s->angular_velocity.z() * k;
+      }
+      const auto value = [&](int j) -> double& {
+        BodyState& s = j < size / 2 ? pair.sa : pair.sb;
+        const int c = j % (size / 2);
+        if (planar) return c < 2 ? s.velocity[c] : s.angular_velocity[2];
+        return c < 3 ? s.velocity[c] : s.angular_velocity[c - 3];
+      };
+      value(i) += h;
+      pair.collide_with({e_n, 1e9, -e_t});
+      Eigen::VectorXd out(size);
+      for (int j = 0; j < size; ++j) out[j] = value(j);
+      return out;
+    };
+    for (int i = 0; i < size; ++i) {
+      const double h = i % (size / 2) < size / 4 + (planar ? 1 : 0) ? 1e-3 : 1e-1;
+      columns.col(i) = (collided(i, h) - collided(i, -h)) / (2 * h);
+    }
+    return std::abs(columns.determinant());
+  };
+  EXPECT_NEAR(jacobian(false), e_n * e_t * e_t, 1e-9);
+  EXPECT_NEAR(jacobian(true), e_n * e_t, 1e-9);
+}
+
 TEST(BrilliantovErratum, Figure2RoughReversesAndSmoothKeepsTheTangentialVelocity) {
   // Printed: "ε^T → −1" in both limits.
   std::mt19937_64 random(8);
@@ -374,6 +530,28 @@ TEST(Luding, L5L12TangentsOfTheAnglesBeforeAndAfter) {
   }
   EXPECT_GT(sticks, 20);
   EXPECT_GT(slides, 20);
+}
+
+/// Ψ2 of a collision with Ψ1 against a wall, for a solid ball.
+double psi_after(double psi, double e, double mu, double beta0) {
+  const double mass = 1e-3, kappa = 2.0 / 7;
+  const PlanarImpulse impulse = planar_impulse({e, mu, beta0}, mass, kappa, -1, psi);
+  return psi + impulse.tangential / (kappa * mass);
+}
+
+TEST(Luding, Figure5SlidesBeyond222WithFrictionOneHalf) {
+  // −tan γ0 = (7/2) μ (1 + e)/(1 + β0): 2.22 for μ = 0.5, e = 0.9, β0 = 0.5. Printed is 1.33, that
+  // of μ = 0.3; at the offset 0.8 d Ψ1 = 4/3 the pair still sticks.
+  EXPECT_NEAR(psi_after(4.0 / 3, 0.9, 0.5, 0.5), -0.5 * 4 / 3, 1e-15);
+  EXPECT_NEAR(psi_after(2.2, 0.9, 0.5, 0.5), -0.5 * 2.2, 1e-15);
+  EXPECT_GT(psi_after(2.23, 0.9, 0.5, 0.5), -0.5 * 2.23 + 1e-3);
+  EXPECT_GT(psi_after(1.35, 0.9, 0.3, 0.5), -0.5 * 1.35 + 1e-3);
+}
+
+TEST(Luding, Figure4SlidesAtItsUppermostCollisionWithBetaZeroToo) {
+  // Ψ1 = 3.5 > 3.325 = −tan γ0.
+  EXPECT_NEAR(psi_after(3.0, 0.9, 0.5, 0), 0, 1e-15);
+  EXPECT_NEAR(psi_after(3.5, 0.9, 0.5, 0), 3.5 - 3.325, 1e-15);
 }
 
 }  // namespace

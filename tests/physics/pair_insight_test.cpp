@@ -122,13 +122,13 @@ TEST(PairInsight, K33SlidingOnsetWithoutDamping) {
 }
 
 TEST(PairInsight, SlidingOnsetWithDampingAndUnlikeSpheres) {
-  // v between v^a and v^d, where it begins inside the collision.
+  // v between the sliding speed and v^c, where it begins inside the collision.
   for (double ratio : {0.0, 0.3, 0.7, 0.95}) {
     RollingPair pair = unlike_pair();
     pair.rubbing_rate = 0;
     const LinearContact contact = contact_of(pair, ratio);
     const SlidingOnset any = pair_insight(contact, pair).onset;
-    const double v = 0.5 * (any.v_a + std::min(any.v_d, 2 * any.v_a));
+    const double v = 0.5 * (any.sliding_speed + std::min(any.v_c, 2 * any.sliding_speed));
     pair.spheres[0].speed = v;
     pair.spheres[1].speed = 0;
     const SlidingOnset onset = pair_insight(contact, pair).onset;
@@ -139,7 +139,7 @@ TEST(PairInsight, SlidingOnsetWithDampingAndUnlikeSpheres) {
   }
 }
 
-TEST(PairInsight, SlidingBeginsAtTheSpeedsVaAndVd) {
+TEST(PairInsight, SlidingBeginsAtItsSpeedAndAtVc) {
   for (double ratio : {0.0, 0.3, 0.9, 1.4}) {
     RollingPair pair = unlike_pair();
     pair.rubbing_rate = 0;
@@ -150,15 +150,15 @@ TEST(PairInsight, SlidingBeginsAtTheSpeedsVaAndVd) {
       return integrated(contact, pair, SubstrateFriction::on).collide().slides_from;
     };
     const SlidingOnset onset = pair_insight(contact, pair).onset;
-    EXPECT_TRUE(std::isinf(slides_from(0.999 * onset.v_a))) << ratio;
-    EXPECT_FALSE(std::isinf(slides_from(1.001 * onset.v_a))) << ratio;
+    EXPECT_TRUE(std::isinf(slides_from(0.999 * onset.sliding_speed))) << ratio;
+    EXPECT_FALSE(std::isinf(slides_from(1.001 * onset.sliding_speed))) << ratio;
     if (ratio > 0) {
-      EXPECT_GT(slides_from(0.999 * onset.v_d), 0) << ratio;
-      EXPECT_EQ(slides_from(1.001 * onset.v_d), 0) << ratio;
+      EXPECT_GT(slides_from(0.999 * onset.v_c), 0) << ratio;
+      EXPECT_EQ(slides_from(1.001 * onset.v_c), 0) << ratio;
     }
-    pair.spheres[0].speed = 0.999 * onset.v_a;
+    pair.spheres[0].speed = 0.999 * onset.sliding_speed;
     EXPECT_FALSE(pair_insight(contact, pair).slides);
-    pair.spheres[0].speed = 1.001 * onset.v_a;
+    pair.spheres[0].speed = 1.001 * onset.sliding_speed;
     EXPECT_TRUE(pair_insight(contact, pair).slides);
   }
 }
@@ -169,7 +169,7 @@ TEST(PairInsight, VbIsTheSpeedOfEqualSpheresWhoseOverlapReachesXmin) {
   EXPECT_NEAR(insight.onset.v_b, 2 * 3.5 * 0.5 * kGravity / elastic.contact_frequency(), 1e-18);
   EXPECT_NEAR(elastic.largest_overlap(insight.onset.v_b) / insight.onset.overlap, 1, 1e-14);
   // Spheres that roll carry 1.4 times their mass: they slide from √(A/(1 + A)) v^b on.
-  EXPECT_NEAR(insight.onset.v_a / insight.onset.v_b, std::sqrt(2.5 / 3.5), 1e-14);
+  EXPECT_NEAR(insight.onset.sliding_speed / insight.onset.v_b, std::sqrt(2.5 / 3.5), 1e-14);
 }
 
 TEST(PairInsight, AfterCollisionMatchesCollisionAndSlideInTime) {
@@ -243,15 +243,15 @@ TEST(PairInsight, AppFJump) {
   EXPECT_EQ(pair_insight(steel(), pair).jump.speed, 0);
 }
 
-TEST(PairInsight, AppFNoJumpBelowVc) {
-  // v^c = 2 g/γ_S at equal speeds but for v_c; damping lets F_N begin high enough.
+TEST(PairInsight, AppFNoJumpBelowVd) {
+  // v^d = 2 g/γ_S at equal speeds but for v_d; damping lets F_N begin high enough.
   RollingPair pair = rolling_pair(0.1, 0);
   pair.confined = false;
-  const double v_c = pair_insight(steel(), pair).jump.v_c;
-  EXPECT_NEAR(v_c, 2 * kGravity / pair.rubbing_rate, 1e-15);
+  const double v_d = pair_insight(steel(), pair).jump.v_d;
+  EXPECT_NEAR(v_d, 2 * kGravity / pair.rubbing_rate, 1e-15);
   for (double factor : {0.99, 1.01}) {
-    pair.spheres[0].speed = 0.05 + 0.5 * factor * v_c;
-    pair.spheres[1].speed = -0.05 + 0.5 * factor * v_c;
+    pair.spheres[0].speed = 0.05 + 0.5 * factor * v_d;
+    pair.spheres[1].speed = -0.05 + 0.5 * factor * v_d;
     const bool lifts =
         !std::isinf(integrated(steel(), pair, SubstrateFriction::off).collide().lifts_from);
     EXPECT_EQ(lifts, factor > 1);
@@ -260,7 +260,7 @@ TEST(PairInsight, AppFNoJumpBelowVc) {
   pair.rubbing_friction = 1e-3;  // ν_s F_N stays below the weight
   pair.spheres[0].speed = 0.01;
   pair.spheres[1].speed = 0;
-  EXPECT_TRUE(std::isinf(pair_insight(steel(), pair).jump.v_c));
+  EXPECT_TRUE(std::isinf(pair_insight(steel(), pair).jump.v_d));
   EXPECT_TRUE(std::isinf(integrated(steel(), pair, SubstrateFriction::off).collide().lifts_from));
 }
 

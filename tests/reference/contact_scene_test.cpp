@@ -116,8 +116,8 @@ TEST(ContactScene, ViscoelasticFromTimeOrViscosities) {
   EXPECT_NEAR(time.modulus / (2 * 2e11 * std::sqrt(0.05) / (3 * 0.91)), 1, 1e-14);
   const auto viscous = normal_of<CompactViscoelasticForce>(
       scene_of(pair_text("{model: viscoelastic, viscosity: [0, 3e5], form: compact}")));
-  // B (23) with η1 = 0: η2 (1 − ν²)(1 − 2ν)/(Y ν²).
-  EXPECT_NEAR(viscous.dissipation_time / (3e5 * 0.91 * 0.4 / (2e11 * 0.09)), 1, 1e-14);
+  // B (23) corrected, with η1 = 0: η2 (1 + ν)(1 − 2ν)²/(Y (1 − ν)).
+  EXPECT_NEAR(viscous.dissipation_time / (3e5 * 1.3 * 0.16 / (2e11 * 0.7)), 1, 1e-14);
 }
 
 TEST(ContactScene, RestitutionAtASpeedHoldsForEveryPairOfBodies) {
@@ -305,13 +305,18 @@ TEST(ContactScene, MayBeAskedForByName) {
 // --- warnings ------------------------------------------------------------------------------------
 
 TEST(ContactScene, WarnsOfImpactsThatAreNotQuasistatic) {
-  // Sound in a steel rod: √(2e11/7850) = 5048 m/s.
+  // Transversal sound in steel: √(2e11/(2 7850 1.3)) = 3130 m/s, a hundredth of which is allowed.
   const std::string fast = with(pair_text("hertz"), "velocity: [-1, 0]", "velocity: [-100, 0]");
   EXPECT_EQ(
       scene_of(fast).warnings,
       std::vector<std::string>{"s.yaml:8:13: contacts[0].normal.model: impacts at up to 100 m/s "
-                               "are 0.02 of the speed of sound; the law holds where that is "
-                               "far below 1 (B 11)"});
+                               "are 0.032 of the transversal speed of sound; the law holds where "
+                               "the square of that is far below 1 (B B11)"});
+  const auto at = [&](const char* speed) {
+    return scene_of(with(pair_text("hertz"), "velocity: [-1, 0]", speed)).warnings.size();
+  };
+  EXPECT_EQ(at("velocity: [-31.2, 0]"), 0u);
+  EXPECT_EQ(at("velocity: [-31.4, 0]"), 1u);
   EXPECT_TRUE(scene_of(pair_text("hertz")).warnings.empty());
   // The same in another law, which is not B's.
   EXPECT_TRUE(scene_of(with(pair_text("{model: linear, restitution: 1, stiffness: 1e9}"),

@@ -12,7 +12,7 @@ namespace slipcheck {
 struct ElasticMaterial {
   double young_modulus = 0;     ///< Y [Pa], > 0
   double poisson_ratio = 0;     ///< ν [-], in (−1, 0.5]
-  double dissipation_time = 0;  ///< A of B (23) [s], >= 0
+  double dissipation_time = 0;  ///< A, dissipation_time() [s], >= 0
 
   /// (1 − ν²)/Y [1/Pa].
   double compliance() const { return (1 - poisson_ratio * poisson_ratio) / young_modulus; }
@@ -48,15 +48,20 @@ inline double hertz_modulus(const ElasticMaterial& first, const ElasticMaterial&
   return 4.0 / 3 * effective_modulus(first, second) * std::sqrt(effective_radius);
 }
 
-/// A of B (23) [s] from the viscosities η1, η2 [Pa s], >= 0, of a material with ν ≠ 0:
-///   A = (1/3) (3 η2 − η1)²/(3 η2 + 2 η1) · (1 − ν²)(1 − 2ν)/(Y ν²).
+/// A [s] from the viscosities η1 of shear and η2 of compression [Pa s], >= 0; B (23) corrected:
+///   A = (1 + ν)/(Y (1 − ν)) [(2/3)(1 − ν + ν²) η1 + (1 − 2ν)² η2].
+///
+/// A contact's stiffness is in proportion to S = Y/(1 − ν²) = E1 (E1 + 6 E2)/(2 E1 + 3 E2), with
+/// E1 = Y/(1 + ν) and E2 = Y/(3 (1 − 2ν)). The energy of a deformation is of first order in E1 and
+/// E2 and, at rest, stationary in the displacements: ∂S/∂E1 and ∂S/∂E2 are what shear and
+/// compression have in it, so that the power lost is in proportion to η1 ∂S/∂E1 + η2 ∂S/∂E2 and
+/// A = (η1 ∂S/∂E1 + η2 ∂S/∂E2)/S. η_i = τ E_i makes A = τ. Goldobin et al., Eur. Phys. J. E 38, 55
+/// (2015), give the same and where (A24) goes wrong.
 inline double dissipation_time(double eta1, double eta2, double young_modulus,
                                double poisson_ratio) {
-  const double sum = 3 * eta2 + 2 * eta1;
-  if (sum == 0) return 0;
-  const double difference = 3 * eta2 - eta1, nu = poisson_ratio;
-  return difference * difference / (3 * sum) * (1 - nu * nu) * (1 - 2 * nu) /
-         (young_modulus * nu * nu);
+  const double nu = poisson_ratio, compressed = 1 - 2 * nu;
+  return (1 + nu) / (young_modulus * (1 - nu)) *
+         (2.0 / 3 * (1 - nu + nu * nu) * eta1 + compressed * compressed * eta2);
 }
 
 /// A [s] of a pair, the mean of both weighted with their compliances c_i.
@@ -93,9 +98,10 @@ inline double viscoelastic_constant(double effective_mass, double hertz_modulus)
   return std::pow(1.5, 2.5) * hertz_modulus / effective_mass;
 }
 
-/// Speed of sound [m/s] √(Y/density), that of a thin rod: B (11) asks for impacts far slower.
-inline double sound_speed(double young_modulus, double density) {
-  return std::sqrt(young_modulus / density);
+/// c_t [m/s], the transversal speed of sound √(Y/(2 ρ (1 + ν))), B (B3): (B11) asks for impacts far
+/// slower.
+inline double transversal_sound_speed(double young_modulus, double poisson_ratio, double density) {
+  return std::sqrt(young_modulus / (2 * density * (1 + poisson_ratio)));
 }
 
 }  // namespace slipcheck

@@ -52,7 +52,7 @@ SlidingOnset sliding_onset(const LinearContact& contact, const RollingPair& pair
   onset.overlap = force / contact.stiffness();
   onset.time = onset.overlap / v;
   onset.v_b = onset.overlap * omega0;
-  onset.v_d = damping > 0 ? force / damping : kInfinity;
+  onset.v_c = damping > 0 ? force / damping : kInfinity;
 
   // While both roll, a sphere's inertia is m (1 + A)/A.
   double inverse_mass = 0;
@@ -62,10 +62,10 @@ SlidingOnset sliding_onset(const LinearContact& contact, const RollingPair& pair
   }
   const Oscillator rolling{std::sqrt(contact.stiffness() * inverse_mass), damping * inverse_mass};
   const double threshold = force * inverse_mass, peak = rolling.peak_time();
-  onset.v_a = threshold / rolling.force(peak);
+  onset.sliding_speed = threshold / rolling.force(peak);
   if (v * rolling.force(0) >= threshold) {
     onset.exact_time = 0;
-  } else if (v <= onset.v_a) {
+  } else if (v <= onset.sliding_speed) {
     onset.exact_time = kInfinity;
   } else {
     // F_N grows steadily up to its peak.
@@ -113,7 +113,7 @@ Jump jump(const LinearContact& contact, const RollingPair& pair, const Rubbing& 
       contact.reduced_mass() * pair.closing_speed() * sliding.force(sliding.peak_time());
   const bool can =
       pair.rubbing_rate > 0 && !pair.confined && pair.rubbing_friction * largest_force > weight;
-  result.v_c = can ? weight / (pair.rubbing_rate * contact.reduced_mass()) : kInfinity;
+  result.v_d = can ? weight / (pair.rubbing_rate * contact.reduced_mass()) : kInfinity;
   return result;
 }
 
@@ -129,6 +129,7 @@ PairInsight pair_insight(const LinearContact& contact, const RollingPair& pair) 
   out.restitution = contact.restitution();
   out.largest_overlap = contact.largest_overlap(v);
   const double braking = (first.kinetic_friction + second.kinetic_friction) * g;
+  out.v_a = 0.5 * braking / out.contact_frequency;
   out.collision_time_change = collision_time_change(braking, v, out.contact_frequency);
   out.largest_overlap_change = largest_overlap_change(braking, v, out.contact_frequency);
 
@@ -141,7 +142,7 @@ PairInsight pair_insight(const LinearContact& contact, const RollingPair& pair) 
                     mobility, lifted.sphere.mass, g, pair.confined});
 
   out.onset = sliding_onset(contact, pair);
-  out.slides = v > out.onset.v_a;
+  out.slides = v > out.onset.sliding_speed;
   if (out.slides) {
     // The sphere that slides first, or either of two like ones.
     const RollingSphere& s = sliding_force(first, g) <= sliding_force(second, g) ? first : second;

@@ -49,16 +49,16 @@ struct SlidingOnset {
   /// (0), and with the inertia of spheres that roll [s]; infinite: they never slide.
   double exact_time = 0;
 
-  // Speeds v_rel [m/s]. The letters are the project's where K's text was not at hand.
-  /// v^a: sliding begins above it, exactly: the largest F_N over a damped collision of spheres that
-  /// roll reaches the threshold. v^b √(A/(1 + A)) without damping.
-  double v_a = 0;
-  /// v^b = x_min ω0 = 2 (1 + A) μ_s g/ω0 for equal spheres: the overlap v/ω0 of an undamped
-  /// collision of sliding spheres reaches x_min.
+  // Speeds v_rel [m/s]; v^b and v^c are K's letters.
+  /// Sliding begins above it, exactly: the largest F_N over a damped collision of spheres that roll
+  /// reaches the threshold. v^b √(A/(1 + A)) without damping.
+  double sliding_speed = 0;
+  /// v^b = x_min ω0 = 2 (1 + A) μ_s g/ω0 for equal spheres, K (35) corrected: the overlap v/ω0 of
+  /// an undamped collision of sliding spheres reaches x_min.
   double v_b = 0;
-  /// v^d = 2 (1 + A) μ_s g/γ_N for equal spheres: above it sliding begins at the first touch;
-  /// infinite without damping.
-  double v_d = 0;
+  /// v^c = 2 (1 + A) μ_s g/γ_N for equal spheres, App. C corrected: above it sliding begins at the
+  /// first touch; infinite without damping.
+  double v_c = 0;
 };
 
 /// From the collision to rolling; K (38)-(44), (57)-(64). See SlideToRoll for the last part.
@@ -81,10 +81,10 @@ struct Jump {
   double speed = 0;   ///< v^z: (∫ F_R dt)/m less g t from the lift-off to the end [m/s]
   double height = 0;  ///< h^z = v^z²/(2g) [m]
   double time = 0;    ///< t^z = 2 v^z/g [s]
-  /// v^c = m g/(γ_S m̄) (2g/γ_S for equal spheres) [m/s]: |v_i + v_j| above which viscous rubbing
+  /// v^d = m g/(γ_S m̄) (2g/γ_S for equal spheres) [m/s]: |v_i + v_j| above which viscous rubbing
   /// exceeds the weight at the first touch; infinite where Coulomb's cap ν_s F_N never lets it, at
   /// this v_rel.
-  double v_c = 0;
+  double v_d = 0;
 };
 
 struct PairInsight {
@@ -97,13 +97,15 @@ struct PairInsight {
   /// order t_col grows by 4 μ_k g/(π v_rel ω0) and x_max by 2 μ_k g/(v_rel ω0) of itself [-].
   double collision_time_change = 0;
   double largest_overlap_change = 0;
+  /// v^a = μ_k g/ω0, μ_k of both in the mean [m/s]: above it both changes are small.
+  double v_a = 0;
 
   double rubbing_constant = 0;   ///< C, K (55): first order of the share of Ω_i + Ω_j [-]
   double exponential_share = 0;  ///< ½ (1 − e^(−2C)), without the cap [-]
   Rubbing rubbing;               ///< with the cap and, unless confined, the lift-off
 
   SlidingOnset onset;
-  bool slides = false;  ///< v_rel > v^a; if not, what follows does not hold
+  bool slides = false;  ///< v_rel > onset.sliding_speed; if not, what follows does not hold
   /// The substrate's friction turns each sphere during the collision: first as it rolls, then as it
   /// slides. To first order in ω0 t_min, without damping, R ΔΩ = A g (μ_s t_min/2 + μ_k (t_col −
   /// t_min)) [m/s] for equal spheres, the corrections of K (36), (37). Not part of AfterCollision.
