@@ -124,7 +124,7 @@ void add_viscoelastic(ExplainSection& section, double modulus, double dissipatio
   section.add("ρ", in_unit(modulus, "N/m^1.5"), form);
   section.add("A", quantity(dissipation_time, kTime), "dissipation time");
   const double t_c = hertz_duration(mass, modulus, speed);
-  section.add("A/t_c", pure(dissipation_time / t_c), "far below 1 where the law holds, B (12)");
+  section.add("A/t_c", pure(dissipation_time / t_c), "far below 1 where the law holds, B (B12)");
 }
 void add_normal(ExplainSection& section, const ViscoelasticForce& law, const SoftContact& soft,
                 double mass, double speed) {
@@ -147,7 +147,12 @@ void add_tangential(ExplainSection& section, const AsperityForce& law, double) {
   section.add("ζ0", quantity(law.size, kLength), "size of asperities");
 }
 
-/// B (11), for laws made from the materials.
+void add_tangential(ExplainSection& section, const ImpactAngleForce& law, double) {
+  section.add("μ", pure(law.friction), "friction");
+  section.add("β0", pure(law.tangential_restitution), "tangential restitution where it sticks");
+}
+
+/// B (B11), for laws made from the materials.
 void add_sound(ExplainSection& section, const Scenario& scenario, const BodyContact& contact,
                double speed) {
   double slowest = HUGE_VAL;
@@ -155,13 +160,16 @@ void add_sound(ExplainSection& section, const Scenario& scenario, const BodyCont
     const auto found = scenario.materials.find(name);
     if (found == scenario.materials.end()) continue;
     const Material& material = found->second;
-    if (material.young_modulus && material.density)
-      slowest = std::min(slowest, sound_speed(*material.young_modulus, *material.density));
+    if (material.young_modulus && material.poisson_ratio && material.density)
+      slowest =
+          std::min(slowest, transversal_sound_speed(*material.young_modulus,
+                                                    *material.poisson_ratio, *material.density));
   }
   if (std::isfinite(slowest))
-    section.add("g/c", pure(speed / slowest),
-                fmt::format("impact speed over that of sound, {}; far below 1, B (11)",
-                            quantity(slowest, kVelocity)));
+    section.add(
+        "(g/c_t)²", pure((speed / slowest) * (speed / slowest)),
+        fmt::format("impact speed over the transversal one of sound, {}; far below 1, B (B11)",
+                    quantity(slowest, kVelocity)));
 }
 
 void add_hard(ExplainSection& section, const PairContact& contact, double speed) {
@@ -192,7 +200,8 @@ ExplainSections explain_contacts(const Scenario& scenario, const ContactScene& s
                                  const std::optional<Meeting>& meeting, double typical_speed) {
   constexpr const char* kNormal[] = {"linear", "hertz", "power", "viscoelastic, expanded",
                                      "viscoelastic, compact"};
-  constexpr const char* kTangential[] = {"no rubbing", "viscous rubbing", "asperities"};
+  constexpr const char* kTangential[] = {"no rubbing", "viscous rubbing", "asperities",
+                                         "sticking or sliding by the impact's angle"};
   ExplainSections sections;
   for (const BodyContact& contact : scenario.contacts) {
     const auto found = partners(scenario, scene, contact, meeting, typical_speed);

@@ -10,6 +10,7 @@
 #include "reference/events/event_solver.h"
 #include "reference/events/planar_solver.h"
 #include "reference/forces/contact_solver.h"
+#include "reference/forces/instant_collision.h"
 #include "reference/forces/soft_box_solver.h"
 #include "reference/initial_contacts.h"
 #include "reference/lasting_contacts.h"
@@ -83,10 +84,12 @@ void ReferenceSolver::choose_in_box() {
     harden();
 }
 
-/// What is solved has no contact that lasts.
+/// What is solved has no contact that lasts; on a plane its collisions are the limit of those that
+/// do.
 void ReferenceSolver::harden() {
   made_ = with_hard_contacts(scene_->hard);
   made_->warnings = scene_->warnings;
+  if (!scene_->hard.box) made_->hard.laws = instant_collisions(*scene_);
 }
 
 void ReferenceSolver::choose_on_plane() {
@@ -178,6 +181,11 @@ SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
   std::optional<ContactScene> softer;
   if (softened_to() > 0 && accuracy.softness != 1)
     softer = with_lasting_contacts(scene_->hard, accuracy.softness * collision_time_);
+  if (hardens() && accuracy.softness != 1) {
+    softer = scene();
+    if (!softer->hard.laws.empty())
+      softer->hard.laws = instant_collisions(*scene_, accuracy.softness);
+  }
   std::optional<StepsAsEvents> events;
   if (is_stepped() && sink) events.emplace(*sink);
   const std::unique_ptr<Solver> solver = at_start(softer ? *softer : scene(), accuracy, end);

@@ -42,7 +42,7 @@ TangentialForce tangential(const AsperityTangential& model, const NormalForce&,
   return asperity_force(model, pair.radius());
 }
 TangentialForce tangential(const HardTangential&, const NormalForce&, const ClassPair&) {
-  return NoTangentialForce{};  // the loader refuses it beside a soft normal model
+  return NoTangentialForce{};  // made by soft(), which knows the restitution
 }
 
 /// [s]; of a law whose duration depends on the speed, that at 1 m/s.
@@ -93,6 +93,10 @@ SoftContact ContactMaker::soft(const ClassPair& pair) {
   made.end = end();
   made.tangential = std::visit(
       [&](const auto& model) { return tangential(model, made.normal, pair); }, contact_.tangential);
+  if (const auto* hard = std::get_if<HardTangential>(&contact_.tangential))
+    made.tangential = ImpactAngleForce{hard->friction, hard->tangential_restitution,
+                                       tangential_mass_ratio(pair.first, pair.second),
+                                       restitution_of(made, pair)};
   check_stiffness(made, pair);
   check_damping(made, pair);
   return made;
@@ -134,15 +138,18 @@ void ContactMaker::check_damping(const SoftContact& made, const ClassPair& pair)
           viscous->damping / pair.mass());
 }
 
-PairContact ContactMaker::hard_equivalent(const SoftContact& soft, const ClassPair& pair) {
-  PairContact hard;
+RestitutionLaw ContactMaker::restitution_of(const SoftContact& soft, const ClassPair& pair) {
   if (const auto* linear = std::get_if<LinearForce>(&soft.normal)) {
     const double rate = linear->damping / pair.mass();
-    hard.restitution = LinearContact(pair.mass(), linear->stiffness, rate, soft.end).restitution();
-  } else {
-    const ImpactScales at_one = impact_scales(soft.normal, pair.mass(), 1);
-    hard.restitution = curve(at_one.law).over_speed(at_one.dissipation);
+    return LinearContact(pair.mass(), linear->stiffness, rate, soft.end).restitution();
   }
+  const ImpactScales at_one = impact_scales(soft.normal, pair.mass(), 1);
+  return curve(at_one.law).over_speed(at_one.dissipation);
+}
+
+PairContact ContactMaker::hard_equivalent(const SoftContact& soft, const ClassPair& pair) {
+  PairContact hard;
+  hard.restitution = restitution_of(soft, pair);
   if (const auto* viscous = std::get_if<ViscousForce>(&soft.tangential)) {
     // Between free spheres κ m_eff u̇_t = −c u_t below Coulomb's cap, so that over a collision u_t
     // falls to exp(−c t_col/(κ m_eff)) = −β0 of itself.
@@ -156,6 +163,9 @@ PairContact ContactMaker::hard_equivalent(const SoftContact& soft, const ClassPa
     // slip is given back here.
     hard.friction = 0.5 * asperity->friction;
     hard.tangential_restitution = 0;
+  } else if (const auto* angle = std::get_if<ImpactAngleForce>(&soft.tangential)) {
+    hard.friction = angle->friction;
+    hard.tangential_restitution = angle->tangential_restitution;
   }
   return hard;
 }

@@ -66,6 +66,8 @@ class ContactMaker {
   NormalForce normal(const HertzNormal& model, const ClassPair& pair);
   NormalForce normal(const PowerNormal& model, const ClassPair& pair);
   NormalForce normal(const ViscoelasticNormal& model, const ClassPair& pair);
+  /// Over the impact speed, of the normal law alone.
+  RestitutionLaw restitution_of(const SoftContact& soft, const ClassPair& pair);
   NormalForce with_given_restitution(const NormalForce& force, const ClassPair& pair,
                                      double restitution, double speed);
   RestitutionCurve& curve(const ScaledLaw& law);

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
-#include "physics/contact/hard_contact.h"
+#include "physics/contact/collision.h"
 #include "physics/motion/shaken_floor.h"
 #include "physics/motion/substrate_motion.h"
 #include "physics/sphere.h"
@@ -52,10 +53,12 @@ struct Scene {
   std::vector<std::size_t> material;
   std::vector<SubstrateContact> substrate;  ///< by material
   std::vector<PairContact> pairs;           ///< by material × material, symmetric
-  double gravity = 0;                       ///< along −z, normal to the plane [m/s²], >= 0
-  Vector2 downhill = Vector2::Zero();       ///< gravity along the tilted plane [m/s²]
-  SubstrateMotion motion;                   ///< of the plane
-  bool confined = false;                    ///< bodies never leave the plane
+  /// The same, or empty: what those pairs exchange instead that have one.
+  std::vector<std::shared_ptr<const CollisionLaw>> laws;
+  double gravity = 0;                  ///< along −z, normal to the plane [m/s²], >= 0
+  Vector2 downhill = Vector2::Zero();  ///< gravity along the tilted plane [m/s²]
+  SubstrateMotion motion;              ///< of the plane
+  bool confined = false;               ///< bodies never leave the plane
   /// Lengths of the cell in which the plane repeats itself [m], 0 in a direction in which it does
   /// not. Positions are not folded into the cell.
   Vector2 periodic = Vector2::Zero();
@@ -63,8 +66,19 @@ struct Scene {
   CollapseRule collapse;
 
   const SubstrateContact& on_substrate(std::size_t body) const { return substrate[material[body]]; }
-  const PairContact& between(std::size_t i, std::size_t j) const {
-    return pairs[material[i] * substrate.size() + material[j]];
+  const PairContact& between(std::size_t i, std::size_t j) const { return pairs[place_of(i, j)]; }
+  /// Two bodies of these materials that touch exchange their impulse; states as seen from the
+  /// substrate.
+  CollisionResult collide(std::size_t i, std::size_t j, const CollisionRule& rule,
+                          const CollidingBody& first, const CollidingBody& second) const {
+    const CollisionLaw* law = laws.empty() ? nullptr : laws[place_of(i, j)].get();
+    return law ? law->collide(rule, first, second)
+               : slipcheck::collide(between(i, j), rule, first, second);
+  }
+
+ private:
+  std::size_t place_of(std::size_t i, std::size_t j) const {
+    return material[i] * substrate.size() + material[j];
   }
 };
 

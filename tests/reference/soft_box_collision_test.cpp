@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "physics/contact/collision.h"
 #include "reference/forces/contact_solver.h"
 #include "scene/impact.h"
 #include "soft_box_scenes.h"
@@ -83,7 +84,9 @@ TEST(SoftBoxCollision, TangentialLawsAgainstTheOtherContactSolver) {
           TangentialForce(AsperityForce{0.2, 3e-7, AsperityForce::Form::printed}),
           TangentialForce(AsperityForce{0.2, 3e-8, AsperityForce::Form::printed}),
           TangentialForce(AsperityForce{0.2, 3e-7, AsperityForce::Form::passive}),
-          TangentialForce(AsperityForce{0.2, 3e-8, AsperityForce::Form::passive})}) {
+          TangentialForce(AsperityForce{0.2, 3e-8, AsperityForce::Form::passive}),
+          TangentialForce(ImpactAngleForce{0.05, 0.4, 2.0 / 7, 0.8}),
+          TangentialForce(ImpactAngleForce{10, 0.4, 2.0 / 7, 0.8})}) {
       box.end = end;
       ContactScene scene = box.scene(initial);
       scene.soft[0]->tangential = law;
@@ -98,6 +101,52 @@ TEST(SoftBoxCollision, TangentialLawsAgainstTheOtherContactSolver) {
                     kRadius * exact[i].angular_velocity.y(), 1e-6)
             << law.index();
       }
+    }
+}
+
+TEST(SoftBoxCollision, LAppBExchangesTheImpulseOfTheHardRule) {
+  // To first order in t_col, in which the line of centres turns: a tenth of it for a tenth of that.
+  // The first two slide, the others stick and are thrown back, stopped, and let go on.
+  BeadBox box;
+  box.gravity = 0;
+  box.restitution = 0.8;
+  std::vector<BodyState> initial = meeting(0.3);
+  initial[0].angular_velocity.y() = 150;
+  initial[1].angular_velocity.y() = 40;
+  initial[1].velocity.z() = 0.02;
+  initial[1].position.z() += 1e-4;
+  const PairContact rules[] = {
+      {0.8, 0.02, 0.4}, {0.8, 0.05, 0.4}, {0.8, 10, 0.6}, {0.8, 10, 0}, {0.8, 10, -0.7}};
+  for (const ContactEnd end : {ContactEnd::zero_overlap, ContactEnd::zero_force})
+    for (const PairContact& rule : rules) {
+      box.end = end;
+      const auto difference = [&](double collision_time) {
+        box.collision_time = collision_time;
+        ContactScene scene = box.scene(initial);
+        scene.soft[0]->tangential =
+            ImpactAngleForce{rule.friction, rule.tangential_restitution, 2.0 / 7, 0.8};
+        const std::vector<BodyState> soft = after(scene, 1e-4, 100);
+        // The hard rule where they touch, after 0.3 m/s and more along the line of centres.
+        Vector3 dx = initial[0].position - initial[1].position;
+        const Vector3 dv = initial[0].velocity - initial[1].velocity;
+        const double b = dx.dot(dv), c = dx.squaredNorm() - 4 * kRadius * kRadius;
+        const double t = (-b - std::sqrt(b * b - dv.squaredNorm() * c)) / dv.squaredNorm();
+        std::vector<BodyState> hard = initial;
+        for (BodyState& s : hard) s.position += t * s.velocity;
+        const Sphere ball{kRadius, BeadBox::mass(), 0.4};
+        const SubstrateContact none;
+        collide(rule, {}, {ball, none, hard[0], false}, {ball, none, hard[1], false});
+        double most = 0;
+        for (std::size_t i = 0; i < 2; ++i) {
+          most = std::max(most, (soft[i].velocity - hard[i].velocity).norm());
+          most = std::max(most,
+                          kRadius * (soft[i].angular_velocity - hard[i].angular_velocity).norm());
+        }
+        return most;
+      };
+      const double left = difference(1e-5), tenth = difference(1e-6);
+      EXPECT_LT(left, 0.3 * 0.3 * 1e-5 / kRadius);
+      EXPECT_NEAR(left / tenth, 10, 1) << rule.friction << ' ' << rule.tangential_restitution;
     }
 }
 

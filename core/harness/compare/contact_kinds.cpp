@@ -21,6 +21,7 @@ ContactKinds contact_kinds(const std::vector<PairContact>& hard,
       kinds.any_soft = true;
       kinds.viscous |= std::holds_alternative<ViscousForce>(soft[k]->tangential);
       kinds.asperity |= std::holds_alternative<AsperityForce>(soft[k]->tangential);
+      kinds.impulse |= std::holds_alternative<ImpactAngleForce>(soft[k]->tangential);
       continue;
     }
     const double* number = std::get_if<double>(&hard[k].restitution);

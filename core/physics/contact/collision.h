@@ -44,4 +44,13 @@ struct CollisionRule {
 CollisionResult collide(const PairContact& contact, const CollisionRule& rule, CollidingBody first,
                         CollidingBody second);
 
+/// What two spheres that touch exchange at once where it is another law than that of hard spheres.
+class CollisionLaw {
+ public:
+  virtual ~CollisionLaw() = default;
+  /// Changes both states, seen from the substrate, as collide() does.
+  virtual CollisionResult collide(const CollisionRule& rule, CollidingBody first,
+                                  CollidingBody second) const = 0;
+};
+
 }  // namespace slipcheck

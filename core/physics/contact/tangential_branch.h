@@ -44,8 +44,9 @@ inline double along(double v, double, double amount) { return v < 0 ? -amount : 
 inline Vector3 along(const Vector3& v, double size, double amount) { return (amount / size) * v; }
 
 // --- F_T [N] on the first body -------------------------------------------------------------------
-// At F_N = `normal` [N], the slip u [m/s], and the state of the asperity: its displacement or bend
-// ζ [m], or of a passive one while F_N grows the sum ∫F_N dζ [N m].
+// At F_N = `normal` [N], the slip u [m/s], and what the contact remembers: of an asperity its
+// displacement or bend ζ [m], or of a passive one while F_N grows the sum ∫F_N dζ [N m]; of the
+// impact's angle −φ along the first slip [-].
 
 template <class V>
 V tangential_force(const NoTangentialForce&, const TangentialBranch&, double, const V&, const V&) {
@@ -74,6 +75,12 @@ V tangential_force(const AsperityForce& law, const TangentialBranch& branch, dou
 }
 
 template <class V>
+V tangential_force(const ImpactAngleForce&, const TangentialBranch&, double normal, const V&,
+                   const V& bend) {
+  return V(normal * bend);
+}
+
+template <class V>
 V tangential_force(const TangentialForce& law, const TangentialBranch& branch, double normal,
                    const V& slip, const V& bend) {
   return std::visit(
@@ -81,13 +88,35 @@ V tangential_force(const TangentialForce& law, const TangentialBranch& branch, d
       law);
 }
 
-/// The rate of an asperity's state, without the turning of the contact.
+/// Whether the contact remembers anything.
+inline bool has_memory(const TangentialForce& law) {
+  return std::holds_alternative<AsperityForce>(law) ||
+         std::holds_alternative<ImpactAngleForce>(law);
+}
+
+/// What it remembers from the first touch on, at which the bodies close in at `closing` [m/s].
 template <class V>
-V bend_rate(const AsperityForce& law, const TangentialBranch& branch, double normal,
+V first_bend(const TangentialForce& law, double closing, const V& slip) {
+  const auto* angle = std::get_if<ImpactAngleForce>(&law);
+  const double size = angle ? size_of(slip) : 0;
+  return size > 0 ? along(slip, size, -angle->ratio(closing, size)) : no_vector<V>();
+}
+
+/// The rate of that, without the turning of the contact.
+template <class V>
+V bend_rate(const TangentialForce& law, const TangentialBranch& branch, double normal,
             const V& slip) {
-  if (law.form == AsperityForce::Form::printed) return slip;
+  const auto* asperity = std::get_if<AsperityForce>(&law);
+  if (!asperity) return no_vector<V>();
+  if (asperity->form == AsperityForce::Form::printed) return slip;
   if (branch.force_sign < 0) return no_vector<V>();
   return (branch.growing ? normal : 1.0) * slip;
+}
+
+/// What is left of it where F_N has fallen to zero for good, or for a while.
+template <class V>
+V bend_without_force(const TangentialForce& law, const V& bend) {
+  return std::holds_alternative<ImpactAngleForce>(law) ? bend : no_vector<V>();
 }
 
 // --- from piece to piece -------------------------------------------------------------------------

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <variant>
 
+#include "physics/contact/hard_contact.h"
+
 namespace slipcheck {
 
 // Tangential forces between two spheres that touch. u is the velocity of the first sphere's surface
@@ -42,6 +44,27 @@ struct AsperityForce {
   }
 };
 
-using TangentialForce = std::variant<NoTangentialForce, ViscousForce, AsperityForce>;
+/// L App. B: the rule of hard spheres, L (5)-(12), for contacts that last. F_T = −φ F_N along the
+/// slip of the first touch as long as the contact lasts, with
+///   φ = μ min(1, tan γ/tan γ0),  tan γ = u_t/g_N,  tan γ0 = μ (1 + e)/(κ (1 + β0)),
+/// so that the sum of F_T is the impulse of the hard rule whatever the course of F_N; L (B2), (B3).
+struct ImpactAngleForce {
+  double friction = 0;                ///< μ [-], >= 0
+  double tangential_restitution = 0;  ///< β0 [-], in [−1, 1]
+  double mass_ratio = 2.0 / 7;        ///< κ of the pair, tangential_mass_ratio() [-]
+  RestitutionLaw restitution = 1.0;   ///< e of the normal law at its impact speed
+
+  /// φ [-] of an impact at g_N = `closing` [m/s] with the slip |u_t| [m/s]; where bodies do not
+  /// approach, what slides slides.
+  double ratio(double closing, double slip) const {
+    if (!(closing > 0)) return slip > 0 ? friction : 0;
+    const double sticking = mass_ratio * (1 + tangential_restitution) * slip /
+                            ((1 + restitution_at(restitution, closing)) * closing);
+    return std::min(friction, sticking);
+  }
+};
+
+using TangentialForce =
+    std::variant<NoTangentialForce, ViscousForce, AsperityForce, ImpactAngleForce>;
 
 }  // namespace slipcheck

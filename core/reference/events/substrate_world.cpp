@@ -243,7 +243,7 @@ std::span<const std::uint32_t> SubstrateWorld<Phase, Near>::collide(std::uint32_
     ++collapses_;
     resolve_cluster(now);
   } else {
-    exchange_impulse(0, 1, is_quick ? kElastic : scene_->between(i, j), now);
+    exchange_impulse(0, 1, is_quick, now);
     if (is_quick || was_altered_) ++collapses_;
   }
   for (std::size_t k = 0; k < changed_.size(); ++k) {
@@ -262,7 +262,7 @@ double SubstrateWorld<Phase, Near>::slowest_rebound(std::uint32_t i, std::uint32
 
 template <class Phase, class Near>
 void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_t second,
-                                                   const PairContact& contact, double now) {
+                                                   bool elastic, double now) {
   const std::uint32_t i = changed_[first], j = changed_[second];
   BodyState &of_i = states_[first], &of_j = states_[second];
   // Next to each other, and seen from the substrate, which has a part in it.
@@ -274,10 +274,11 @@ void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_
   const auto is_supported = [&](std::uint32_t k, const BodyState& state) {
     return phases_[k].is_supported() && state.velocity.z() <= 0;
   };
+  const CollisionRule rule{scene_->confined, slowest_rebound(i, j)};
+  const CollidingBody a{scene_->bodies[i], scene_->on_substrate(i), of_i, is_supported(i, of_i)};
+  const CollidingBody b{scene_->bodies[j], scene_->on_substrate(j), of_j, is_supported(j, of_j)};
   const CollisionResult result =
-      slipcheck::collide(contact, {scene_->confined, slowest_rebound(i, j)},
-                         {scene_->bodies[i], scene_->on_substrate(i), of_i, is_supported(i, of_i)},
-                         {scene_->bodies[j], scene_->on_substrate(j), of_j, is_supported(j, of_j)});
+      elastic ? slipcheck::collide(kElastic, rule, a, b) : scene_->collide(i, j, rule, a, b);
   of_j.position -= image;
   of_i.velocity += frame;
   of_j.velocity += frame;
@@ -317,9 +318,8 @@ void SubstrateWorld<Phase, Near>::resolve_cluster(double now) {
   const auto slowest = [&](const std::array<std::uint32_t, 2>& pair) {
     return slowest_rebound(changed_[pair[0]], changed_[pair[1]]);
   };
-  collide_cluster(pairs, approach, slowest, [&](std::uint32_t a, std::uint32_t b) {
-    exchange_impulse(a, b, scene_->between(changed_[a], changed_[b]), now);
-  });
+  collide_cluster(pairs, approach, slowest,
+                  [&](std::uint32_t a, std::uint32_t b) { exchange_impulse(a, b, false, now); });
 }
 
 /// That the body touches the substrate; frames of the reference do not say how hard.

@@ -110,11 +110,10 @@ class SubstrateWorld {
   BodyState path_state(std::uint32_t i, double now) const {
     return phases_[i].at(now - bodies_[i].start);
   }
-  /// Of the bodies at two places of `changed_`, which touch, or nearly.
   /// At which these two part at least [m/s].
   double slowest_rebound(std::uint32_t i, std::uint32_t j) const;
-  void exchange_impulse(std::size_t first, std::size_t second, const PairContact& contact,
-                        double now);
+  /// Of the bodies at two places of `changed_`, which touch, or nearly; by their law or elastic.
+  void exchange_impulse(std::size_t first, std::size_t second, bool elastic, double now);
   void resolve_cluster(double now);
   void land_body(std::uint32_t i, BodyState& state, double now);
   Touch substrate_touch(std::uint32_t i) const;

@@ -255,17 +255,16 @@ void ContactDynamics::right_side(double t, const double* y, double* rate) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const ContactMode& contact = contacts[c];
     const ContactForces& f = scratch_.contacts[c];
-    const auto* asperity = std::get_if<AsperityForce>(&contact.law->tangential);
     double* out = rate + slot_at(contact.slot);
     out[0] = f.closing;
-    if (!asperity || contact.clamped) continue;
+    if (contact.clamped || !has_memory(contact.law->tangential)) continue;
     const Vector3 dv = velocity_of(y, contact.first) - velocity_of(y, contact.second);
     const double distance = between_centres(contact.first, contact.second, y).norm();
     // ζ stays in the tangent plane as n turns.
     const Vector3 turning = (dv + f.closing * f.n) / distance;
     const Vector3 zeta = vector_at(y + slot_at(contact.slot) + 1);
-    store(bend_rate(*asperity, contact.branch, f.normal, f.slip) - zeta.dot(turning) * f.n,
-          out + 1);
+    const Vector3 bending = bend_rate(contact.law->tangential, contact.branch, f.normal, f.slip);
+    store(bending - zeta.dot(turning) * f.n, out + 1);
   }
   rate[dissipated_at()] = scratch_.dissipation;
   rate[work_at()] = scratch_.work;

@@ -97,6 +97,8 @@ void ContactIntegrator::set_floors() {
         bend *= std::visit([&](const auto& law) { return law.elastic(contact.overlap_scale); },
                            contact.law->normal);
     }
+    if (const auto* angle = std::get_if<ImpactAngleForce>(&contact.law->tangential))
+      bend = std::max(angle->friction, 1e-3);
     std::fill_n(floor + 1, 3, tolerance * bend);
   }
   floor_[dynamics.dissipated_at()] = floor_[dynamics.work_at()] =

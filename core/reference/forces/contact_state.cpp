@@ -131,6 +131,9 @@ void ContactState::begin_contact(std::size_t i, std::size_t j, double overlap) {
   ContactMode& made = dynamics_.contacts.back();
   const auto& forces = evaluation_.contacts.back();
   follow(law->tangential, forces.normal, forces.slip.norm(), made.branch);
+  const Vector3 bend = first_bend(law->tangential, forces.closing, forces.slip);
+  for (int k = 0; k < 3; ++k)
+    y[dynamics_.slot_at(made.slot) + 1 + static_cast<std::size_t>(k)] = bend[k];
   if (overlap == 0) return;
   made.clamped = law->end == ContactEnd::zero_force && forces.normal <= 0;
   const double growth = dynamics_.growth(made, forces, y.data());
@@ -151,7 +154,9 @@ void ContactState::clamp_contact(std::size_t index) {
   y[dynamics_.dissipated_at()] +=
       std::visit([&](const auto& law) { return law.energy(slot[0]); }, contact.law->normal);
   contact.clamped = true;
-  slot[1] = slot[2] = slot[3] = 0;
+  const Vector3 bend =
+      bend_without_force(contact.law->tangential, Vector3(slot[1], slot[2], slot[3]));
+  for (int k = 0; k < 3; ++k) slot[1 + k] = bend[k];
   contact.branch.broken = 0;
   contact.branch.growing = true;
 }
@@ -220,9 +225,9 @@ CollisionResult ContactState::collide_now(std::size_t i, std::size_t j) {
   const double fraction = scene_->between(i, j) ? 0 : scales_.rebound_fraction;
   const double hardest = std::max(hardest_impact_[i], hardest_impact_[j]);
   const CollisionResult result =
-      collide(scene.between(i, j), {scene.confined, fraction * hardest},
-              {scene.bodies[i], scene.on_substrate(i), a, dynamics_.modes[i].on_plane()},
-              {scene.bodies[j], scene.on_substrate(j), b, dynamics_.modes[j].on_plane()});
+      scene.collide(i, j, {scene.confined, fraction * hardest},
+                    {scene.bodies[i], scene.on_substrate(i), a, dynamics_.modes[i].on_plane()},
+                    {scene.bodies[j], scene.on_substrate(j), b, dynamics_.modes[j].on_plane()});
   for (const std::size_t k : bodies)
     hardest_impact_[k] = std::max(hardest_impact_[k], result.impact_speed);
   a.velocity += frame;

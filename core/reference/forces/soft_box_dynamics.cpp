@@ -184,8 +184,8 @@ void SoftBoxDynamics::evaluate(double t, const State& state, Rates& out) const {
       continue;
     }
     TangentialBranch branch = touch.branch;
-    if (const auto* asperity = std::get_if<AsperityForce>(&touch.law->tangential))
-      rate.bends[c] = bend_rate(*asperity, branch, f.normal, f.at.slip);
+    if (has_memory(touch.law->tangential))
+      rate.bends[c] = bend_rate(touch.law->tangential, branch, f.normal, f.at.slip);
     else
       follow(touch.law->tangential, f.normal, std::abs(f.at.slip), branch);
     f.tangential =

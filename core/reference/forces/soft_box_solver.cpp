@@ -161,7 +161,8 @@ class SoftBoxSolver::Impl {
     const auto at = dynamics_.meeting(near.first, near.partner, now_, one, other);
     flight_.find(near.first, near.partner).touching = true;
     dynamics_.touches.push_back(dynamics_.touch(near.first, near.partner, at));
-    state_.bends.push_back(0);
+    state_.bends.push_back(
+        first_bend(dynamics_.touches.back().law->tangential, at.closing, at.slip));
     ++(is_pair ? collisions_ : bounces_);
   }
 
@@ -322,7 +323,7 @@ class SoftBoxSolver::Impl {
     if (item.what == What::force) {
       touch.pushes = !touch.pushes;
       touch.branch = {};
-      bend = 0;
+      bend = bend_without_force(touch.law->tangential, bend);
     } else {
       cross(item.edge, item.turn < 0, touch.law->tangential, rates_.forces[item.index].normal,
             touch.branch, bend);

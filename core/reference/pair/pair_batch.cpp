@@ -84,6 +84,9 @@ BatchNormal normal_of(const SoftContact& contact) {
 }
 
 BatchTangential tangential_of(const SoftContact& contact) {
+  if (std::holds_alternative<ImpactAngleForce>(contact.tangential))
+    throw std::domain_error(
+        "the rule of the impact's angle needs no integration: it is the hard one");
   if (std::holds_alternative<ViscousForce>(contact.tangential)) return BatchTangential::viscous;
   const auto* asperity = std::get_if<AsperityForce>(&contact.tangential);
   if (!asperity) return BatchTangential::none;

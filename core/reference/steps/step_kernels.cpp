@@ -116,6 +116,10 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
         throw Unsupported(
             "steps of fixed length need soft contacts between all bodies that can "
             "meet; a hard one happens at an instant");
+      if (std::holds_alternative<ImpactAngleForce>(contact->tangential))
+        throw Unsupported(
+            "steps of fixed length know no tangential model hard; compare.reference may be "
+            "contact");
       mixed |= some && (some->normal.index() != contact->normal.index() ||
                         tangential_of(*some).index() != tangential_of(*contact).index());
       some = &*contact;

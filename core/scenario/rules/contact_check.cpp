@@ -71,16 +71,6 @@ void check_models(const WrittenContact& contact, const WrittenScene& written, Re
       need_elastic(name, contact.path + ".normal", what, written, reading);
     }
   }
-  const auto* viscoelastic = std::get_if<ViscoelasticNormal>(&normal);
-  if (viscoelastic && viscoelastic->viscosity) {
-    for (const std::string& name : std::set(contact.between.begin(), contact.between.end())) {
-      const auto found = written.materials.find(name);
-      if (found == written.materials.end() || found->second.poisson_ratio != 0.0) continue;
-      reading.fault_at(
-          "materials." + name + ".poisson_ratio",
-          fmt::format("must not be 0, as {}.normal.viscosity divides by it (B 23)", contact.path));
-    }
-  }
   // The viscous law takes its ratio from a normal damping rate, which only two models have.
   const auto* viscous = std::get_if<ViscousTangential>(&contact.body.tangential);
   if (viscous && viscous->damping_ratio && !std::holds_alternative<LinearNormal>(normal)) {
@@ -90,10 +80,6 @@ void check_models(const WrittenContact& contact, const WrittenScene& written, Re
   if (hard && (viscous || std::holds_alternative<AsperityTangential>(contact.body.tangential))) {
     reading.fault_at(contact.path + ".tangential.model",
                      "must be none or hard with the normal model hard");
-  }
-  if (!hard && std::holds_alternative<HardTangential>(contact.body.tangential)) {
-    reading.fault_at(contact.path + ".tangential.model",
-                     "must not be hard unless the normal model is");
   }
 }
 

@@ -189,7 +189,9 @@ Rule<TangentialModel> tangential_rule() {
        alternative<TangentialModel>("viscous", "viscous, capped by Coulomb; K (4), B (39)",
                                     viscous),
        alternative<TangentialModel>("asperity", "breaking asperities; B (35)", asperity),
-       alternative<TangentialModel>("hard", "sticking or sliding collisions; L (5)-(12)", hard)});
+       alternative<TangentialModel>(
+           "hard", "sticking or sliding collisions; L (5)-(12), of soft contacts by L App. B",
+           hard)});
 }
 
 Rule<SubstrateFriction> friction_rule() {
