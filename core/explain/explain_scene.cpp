@@ -16,7 +16,7 @@
 #include "reference/events/planar_solver.h"
 #include "reference/initial_contacts.h"
 #include "reference/reference_solver.h"
-#include "scenario/observable_names.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
@@ -78,14 +78,6 @@ ExplainSections substrate(const Scenario& scenario, const Scene& scene) {
   return {section};
 }
 
-/// SI unit of "i.sliding_time" or "i-j.restitution".
-std::string unit_of(const std::string& value_name) {
-  const std::string name = value_name.substr(value_name.find('.') + 1);
-  for (const ObservableName& observable : observable_names())
-    if (observable.name == name) return observable.dimension.si;
-  return {};
-}
-
 ExplainSection expectations(const Scenario& scenario, const ContactScene& scene,
                             const ReferenceSolver& solver) {
   const double contact = solver.first_contact(run_end(scenario).last());
@@ -117,14 +109,13 @@ ExplainSection expectations(const Scenario& scenario, const ContactScene& scene,
                   ? "closed forms, with hard contacts of the same restitution and without rubbing"
                   : "closed forms, with hard contacts of the same restitution");
   for (const auto& [name, value] : values)
-    if (name.ends_with("effective_restitution") && value < 0)
+    if (observable_key(name).observable == "effective_restitution" && value < 0)
       section.add(name + " is below 0: they meet again, and these hold until then");
   for (const auto& [name, value] : values) {
-    const bool is_component = name[name.size() - 2] == '.';
-    if (!is_component) {
-      const std::string unit = unit_of(name);
-      section.add(name, fmt::format("{:.10g}{}{}", value, unit.empty() ? "" : " ", unit));
-    }
+    const ObservableKey key = observable_key(name);
+    if (key.component != '\0') continue;
+    const std::string unit = key.known()->dimension.si;
+    section.add(name, fmt::format("{:.10g}{}{}", value, unit.empty() ? "" : " ", unit));
   }
   return section;
 }

@@ -7,6 +7,7 @@
 #include "figures/asymmetric_collision.h"
 #include "figures/columns.h"
 #include "figures/paper_figure.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
@@ -15,7 +16,7 @@ constexpr std::array kBodies = {"i", "j"};
 constexpr Look kFreeReference{Ink::purple, Line::none, Marker::triangle};
 
 /// A quantity of one sphere after the collision.
-struct Quantity {
+struct SphereQuantity {
   std::string name;  ///< as plot_text.h, "u^f"
   std::string unit;  ///< "cm/s"
   double unit_in_si = 1;
@@ -28,7 +29,7 @@ struct Quantity {
 };
 
 /// One sphere's quantity over v_j/v_i by all ways to reckon it; `table` gets what is drawn.
-LineChart chart_of(const Quantity& quantity, std::size_t k, char letter, Table& table) {
+LineChart chart_of(const SphereQuantity& quantity, std::size_t k, char letter, Table& table) {
   const AsymmetricCollisions& all = asymmetric_collisions();
   const std::string unit = quantity.unit.empty() ? "" : " [" + quantity.unit + "]";
   LineChart chart;
@@ -46,7 +47,7 @@ LineChart chart_of(const Quantity& quantity, std::size_t k, char letter, Table& 
   };
   const auto seen = [&](const std::vector<ReferenceResult>& results) {
     std::vector<double> values;
-    const std::string name = std::string(kBodies[k]) + "." + quantity.observable;
+    const std::string name = observable_key(quantity.observable).of(kBodies[k]).text();
     for (std::size_t n = 0; n < results.size(); ++n)
       values.push_back(drawn(quantity.factor[k] * value_of(results[n], name), n));
     return values;
@@ -121,10 +122,10 @@ PaperFigure figure_k8() {
       started("K8", "Slip after asymmetric collisions",
               "(a), (b) Slip velocity u^f of both spheres at the end of the collision, (62) "
               "corrected. (c), (d) The exchanged share of the spins, c in R ΔΩ = −c(v_i + v_j).");
-  const Quantity slip{"u^f", "cm/s", kCentimetre, "slip_after_collision.x",
-                      [](const AfterCollision& a) { return a.slip; }};
-  Quantity share{"c", "", 1, "angular_velocity_after_collision.y",
-                 [](const AfterCollision& a) { return a.surface_velocity; }};
+  const SphereQuantity slip{"u^f", "cm/s", kCentimetre, "slip_after_collision.x",
+                            [](const AfterCollision& a) { return a.slip; }};
+  SphereQuantity share{"c", "", 1, "angular_velocity_after_collision.y",
+                       [](const AfterCollision& a) { return a.surface_velocity; }};
   share.factor = {kSteel.radius, kSteel.radius};
   share.drawn = [](double surface, std::size_t k, std::size_t n) {
     const auto before = speeds_at(n);
@@ -151,10 +152,10 @@ PaperFigure figure_k9() {
                   "meanwhile. (61), corrected, puts s_i = 0 with the exponential exchange at "
                   "v_j/v_i = −{:.3f}.",
                   -returning));
-  const Quantity time{"t^s", "ms", 1e-3, "sliding_time",
-                      [](const AfterCollision& a) { return a.sliding_time; }};
-  const Quantity way{"s", "mm", 1e-3, "sliding_distance",
-                     [](const AfterCollision& a) { return std::abs(a.sliding_distance); }};
+  const SphereQuantity time{"t^s", "ms", 1e-3, "sliding_time",
+                            [](const AfterCollision& a) { return a.sliding_time; }};
+  const SphereQuantity way{"s", "mm", 1e-3, "sliding_distance",
+                           [](const AfterCollision& a) { return std::abs(a.sliding_distance); }};
   LineChart s_i = chart_of(way, 0, 'c', figure.table);
   s_i.marks.push_back({returning, "(61)"});
   figure.drawing.panels = {chart_of(time, 0, 'a', figure.table),
@@ -170,8 +171,8 @@ PaperFigure figure_k10() {
       "− v_j), which the spin exchange leaves at (A e_n − 1)/(1+A); to first order the friction "
       "on the sphere that the rubbing presses down adds Aμ_k ∫F_R dt/((1+A) m v_{rel}). (d) e_n "
       "of the collision itself.");
-  const Quantity rolling{"v^s", "cm/s", kCentimetre, "rolling_velocity.x",
-                         [](const AfterCollision& a) { return a.rolling_velocity; }};
+  const SphereQuantity rolling{"v^s", "cm/s", kCentimetre, "rolling_velocity.x",
+                               [](const AfterCollision& a) { return a.rolling_velocity; }};
   figure.drawing.panels = {chart_of(rolling, 0, 'a', figure.table),
                            chart_of(rolling, 1, 'b', figure.table)};
 
@@ -223,10 +224,10 @@ PaperFigure figure_k11() {
   PaperFigure figure = started(
       "K11", "Energy and momentum lost while sliding after asymmetric collisions",
       "ΔE = |v^f|² − |v^s|² and Δp = v^f − v^s (per unit mass, ΔE times two) of each sphere.");
-  const Quantity energy{"ΔE", "cm²/s²", 1e-4, "energy_change_sliding",
-                        [](const AfterCollision& a) { return a.energy_change; }};
-  Quantity momentum{"Δp", "cm/s", kCentimetre, "momentum_change_sliding",
-                    [](const AfterCollision& a) { return a.momentum_change; }};
+  const SphereQuantity energy{"ΔE", "cm²/s²", 1e-4, "energy_change_sliding",
+                              [](const AfterCollision& a) { return a.energy_change; }};
+  SphereQuantity momentum{"Δp", "cm/s", kCentimetre, "momentum_change_sliding",
+                          [](const AfterCollision& a) { return a.momentum_change; }};
   momentum.factor = {-1, 1};  // observed along the line away from the other sphere
   figure.drawing.panels = {
       chart_of(energy, 0, 'a', figure.table), chart_of(energy, 1, 'b', figure.table),

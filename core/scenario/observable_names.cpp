@@ -62,11 +62,8 @@ constexpr std::array kNames = {
 std::span<const ObservableName> observable_names() { return kNames; }
 
 const ObservableName* find_observable(std::string_view name) {
-  const bool component = name.ends_with(".x") || name.ends_with(".y") || name.ends_with(".z");
-  if (component) name.remove_suffix(2);
   const auto found = std::ranges::find(kNames, name, &ObservableName::name);
-  if (found == kNames.end() || (component && !found->is_vector)) return nullptr;
-  return &*found;
+  return found == kNames.end() ? nullptr : &*found;
 }
 
 }  // namespace slipcheck

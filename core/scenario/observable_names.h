@@ -22,8 +22,7 @@ struct ObservableName {
 /// All observables, in alphabetical order.
 std::span<const ObservableName> observable_names();
 
-/// The observable of this name, which for a vector may end with a component ("final_velocity.x");
-/// null if there is none.
+/// The observable of this name, without a component; null if there is none.
 const ObservableName* find_observable(std::string_view name);
 
 }  // namespace slipcheck

@@ -40,27 +40,21 @@ bool has_form_of_owner(std::string_view text, ObservableScope scope, Wildcards w
 
 }  // namespace
 
-OwnedName owned_name(std::string_view name) {
-  const std::size_t dot = name.find('.');
-  if (dot == std::string_view::npos || find_observable(name)) return {"", name};
-  return {name.substr(0, dot), name.substr(dot + 1)};
-}
-
-std::string fault_of_owned_name(std::string_view key, Wildcards wildcards) {
-  const auto [owner, name] = owned_name(key);
-  const ObservableName* observable = find_observable(name);
+std::string fault_of_owned_name(std::string_view name, Wildcards wildcards) {
+  const ObservableKey key = observable_key(name);
+  const ObservableName* observable = key.known();
   if (!observable) {
     std::vector<std::string> known;
     for (const ObservableName& each : observable_names()) known.emplace_back(each.name);
-    const std::string near = nearest(std::string(name), known);
+    const std::string near = nearest(key.bare(), known);
     return near.empty() ? "must be an observable of a body, a pair or all, as in i.sliding_time"
                         : fmt::format("must be an observable (did you mean {}?)", near);
   }
-  if (has_form_of_owner(owner, observable->scope, wildcards)) return "";
+  if (has_form_of_owner(key.owner, observable->scope, wildcards)) return "";
   const char* example = observable->scope == ObservableScope::body   ? "a body, i."
                         : observable->scope == ObservableScope::pair ? "a pair, i-j."
                                                                      : "the scene, all.";
-  return fmt::format("must be of {}{}", example, name);
+  return fmt::format("must be of {}{}", example, key.bare());
 }
 
 json owned_names_schema(Wildcards wildcards,

@@ -5,22 +5,16 @@
 #include <string>
 #include <string_view>
 
-#include "scenario/observable_names.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
-
-/// "i.final_velocity.x" is of "i" and named "final_velocity.x"; a bare name has no owner.
-struct OwnedName {
-  std::string_view owner, observable;
-};
-OwnedName owned_name(std::string_view name);
 
 /// Whether owners may be written as a pattern, in which '*' stands for any text.
 enum class Wildcards { no, yes };
 
-/// Why a key as in "i-j.restitution" names no observable of a body, a pair or all by its form
+/// Why a name as in "i-j.restitution" names no observable of a body, a pair or all by its form
 /// alone, "" if it does.
-std::string fault_of_owned_name(std::string_view key, Wildcards wildcards);
+std::string fault_of_owned_name(std::string_view name, Wildcards wildcards);
 
 /// The same as JSON Schema: what may stand at such keys, by regular expressions of them.
 nlohmann::json owned_names_schema(

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "scenario/observable_key.h"
 #include "scenario/owned_names.h"
 
 namespace slipcheck {
@@ -10,7 +11,7 @@ namespace {
 
 /// How much a key says of the owner: nothing, by a pattern, all.
 std::size_t weight(std::string_view key) {
-  const std::string_view owner = owned_name(key).owner;
+  const std::string_view owner = observable_key(key).owner;
   const auto wildcards = static_cast<std::size_t>(std::ranges::count(owner, '*'));
   if (owner.empty()) return 0;
   return wildcards > 0 ? 1 + owner.size() - wildcards : std::numeric_limits<std::size_t>::max();
@@ -19,8 +20,8 @@ std::size_t weight(std::string_view key) {
 }  // namespace
 
 bool names_observable(const Scenario& scenario, std::string_view key, std::string_view full_name) {
-  const OwnedName name = owned_name(full_name), named = owned_name(key);
-  if (named.observable != name.observable) return false;
+  const ObservableKey name = observable_key(full_name), named = observable_key(key);
+  if (named.observable != name.observable || named.component != name.component) return false;
   if (!named.owner.empty()) return matches(named.owner, name.owner);
   return !name.owner.ends_with("-substrate") || scenario.bodies.size() == 1;
 }
@@ -36,17 +37,16 @@ std::optional<Tolerance> tolerance_of(const Scenario& scenario, const std::strin
   }
   if (best == nullptr || best->none) return std::nullopt;
   Tolerance tolerance = *best;
-  const ObservableName* observable = find_observable(owned_name(full_name).observable);
+  const ObservableName* observable = observable_key(full_name).known();
   tolerance.absolute |= observable != nullptr && observable->is_restitution;
   return tolerance;
 }
 
 std::optional<Tolerance> tolerance_of_part(const Scenario& scenario, const std::string& full_name) {
   if (auto tolerance = tolerance_of(scenario, full_name)) return tolerance;
-  const OwnedName name = owned_name(full_name);
-  const ObservableName* observable = find_observable(name.observable);
-  if (observable == nullptr || observable->name == name.observable) return std::nullopt;
-  return tolerance_of(scenario, std::string(name.owner) + "." + std::string(observable->name));
+  const ObservableKey key = observable_key(full_name);
+  if (key.component == '\0') return std::nullopt;
+  return tolerance_of(scenario, key.whole().text());
 }
 
 }  // namespace slipcheck

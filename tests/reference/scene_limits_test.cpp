@@ -5,6 +5,7 @@
 
 #include "../support/extremes.h"
 #include "bundled_scenes.h"
+#include "scenario/observable_key.h"
 
 // The contact solver against the event solver on bundled scenes of soft contacts: the instant that
 // stands for a soft one is its limit t_col → 0.
@@ -43,9 +44,9 @@ struct Both {
            name.compare(name.size() - end.size(), end.size(), end) == 0;
   }
   static bool is_velocity(const std::string& name) {
-    const std::size_t dot = name.find('.');
-    return name.compare(dot, 18, ".rolling_velocity.") == 0 ||
-           name.compare(dot, 26, ".velocity_after_collision.") == 0;
+    const ObservableKey key = observable_key(name);
+    return key.component != '\0' &&
+           (key.observable == "rolling_velocity" || key.observable == "velocity_after_collision");
   }
   /// contact − event, of velocities and sliding times in proportion to the fastest and longest.
   std::map<std::string, double> difference() const {

@@ -8,6 +8,7 @@
 #include "../support/bundled.h"
 #include "harness/run/prepared_scene.h"
 #include "scenario/load.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
@@ -32,9 +33,7 @@ void expect_similar(const Scenario& scenario, double lambda, double tolerance) {
   std::size_t compared = 0;
   const auto expect = [&](const std::string& name, double factor) {
     for (const auto& [full, seen] : before.observables) {
-      const std::size_t dot = full.find('.');
-      const std::string own = full.substr(dot + 1);
-      if (own != name && !own.starts_with(name + ".")) continue;
+      if (observable_key(full).observable != name) continue;
       ++compared;
       const double scaled = seen.value * factor;
       // What is zero but for rounding is so on the scale of what happens.

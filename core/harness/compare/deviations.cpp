@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -10,7 +11,7 @@
 
 #include "harness/compare/comparison.h"
 #include "harness/observe/observables.h"
-#include "scenario/owned_names.h"
+#include "scenario/observable_key.h"
 #include "scenario/tolerances.h"
 
 namespace slipcheck {
@@ -65,7 +66,8 @@ class Judge {
 
   /// Of an observable that the reference shows.
   Deviation deviation(const Ensemble& ensemble, const std::string& name) const {
-    const ObservableName* observable = find_observable(owned_name(name).observable);
+    const ObservableKey key = observable_key(name);
+    const ObservableName* observable = key.known();
     Deviation result;
     result.absolute = observable && observable->is_restitution;
     if (const auto tolerance = tolerance_of(scenario_, name)) {
@@ -75,14 +77,14 @@ class Judge {
     const EnsembleValue* seen = find(ensemble, name);
     const bool is_vector = observable && observable->is_vector;
     const Differences differences = is_vector
-                                        ? vector_differences(ensemble, name, *observable)
+                                        ? vector_differences(ensemble, key)
                                         : scalar_differences(reference_.observables.at(name), seen);
     const bool is_zero =
         !result.absolute && differences.scale <= slack_ * differences.scale_uncertainty;
     const bool good = measure(seen, differences, is_zero, result);
     if (!result.tolerance) return result;
     result.verdict = good ? Verdict::within : Verdict::deviates;
-    const bool is_length = is_vector && !is_zero && seen && name.ends_with(observable->name);
+    const bool is_length = is_vector && !is_zero && seen && key.component == '\0';
     if (is_length && is_too_long_or_short(*seen, name, differences, result)) return result;
     if (std::string reason = undecided_reason(name, differences, is_zero, result);
         !reason.empty()) {
@@ -103,7 +105,7 @@ class Judge {
 
   /// Of a tolerance that names nothing that there is.
   Deviation deviation_of_nothing(const std::string& key, Tolerance tolerance) const {
-    const ObservableName* observable = find_observable(owned_name(key).observable);
+    const ObservableName* observable = observable_key(key).known();
     tolerance.absolute |= observable && observable->is_restitution;
     return without_error(tolerance, Verdict::undecided, has_end() ? kNothingOccurs : kDidNotEnd);
   }
@@ -113,23 +115,21 @@ class Judge {
 
   /// Differences of a vector (its bare name) or of one component, on the scale of the vector's
   /// length; a position's scale is the way from the start.
-  Differences vector_differences(const Ensemble& ensemble, const std::string& name,
-                                 const ObservableName& observable) const {
-    const std::string owner(owned_name(name).owner);
-    const std::string vector = owner + "." + std::string(observable.name);
-    const bool is_way = observable.name == "final_position";
-    const auto body = bodies_.find(owner);
+  Differences vector_differences(const Ensemble& ensemble, const ObservableKey& key) const {
+    const bool is_way = key.observable == "final_position";
+    const auto body = bodies_.find(key.owner);
+    const std::array<std::string, 3> components = key.components();
     Vector3 length = Vector3::Zero(), uncertainty = Vector3::Zero(), own = Vector3::Zero();
     Differences differences;
     std::vector<double> squares;
     for (int k = 0; k < 3; ++k) {
-      const std::string component = vector + "." + "xyz"[k];
-      const UncertainValue& value = reference_.observables.at(component);
+      const auto at = static_cast<std::size_t>(k);
+      const UncertainValue& value = reference_.observables.at(components[at]);
       length[k] = value.value;
       uncertainty[k] = value.uncertainty;
       if (is_way && body != bodies_.end()) length[k] -= body->second->initial.position[k];
-      if (name != vector && name != component) continue;
-      const Differences one = scalar_differences(value, find(ensemble, component));
+      if (key.component != '\0' && key.component != kComponents[at]) continue;
+      const Differences one = scalar_differences(value, find(ensemble, components[at]));
       own[k] = one.uncertainty;
       squares.resize(one.by_phase.size());
       for (std::size_t p = 0; p < squares.size(); ++p)
@@ -140,7 +140,7 @@ class Judge {
     differences.scale = length.norm();
     // A length may be known where the direction is not.
     differences.scale_uncertainty =
-        is_way ? uncertainty.norm() : reference_.observables.at(vector).uncertainty;
+        is_way ? uncertainty.norm() : reference_.observables.at(key.whole().text()).uncertainty;
     return differences;
   }
 

@@ -5,12 +5,12 @@
 #include <limits>
 
 #include "reference/initial_contacts.h"
-#include "scenario/owned_names.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
 
 double NaturalScales::of(const std::string& full_name) const {
-  const ObservableName* observable = find_observable(owned_name(full_name).observable);
+  const ObservableName* observable = observable_key(full_name).known();
   const Dimension& d = observable ? observable->dimension : kPureNumber;
   const double geometry = d.time < 0 ? std::pow(speed, -d.time) * std::pow(small, d.length + d.time)
                                      : std::pow(large, d.length) * std::pow(time, d.time);

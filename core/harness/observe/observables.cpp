@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/frame.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
@@ -55,30 +56,30 @@ constexpr std::array kPairScalars = {
 constexpr std::size_t kOfBody = kScalars.size() + 4 * kVectors.size();
 
 /// What a body's values are called, in the order of flat_values().
-std::vector<std::string> names_of_body() {
-  std::vector<std::string> names;
-  for (const auto& scalar : kScalars) names.emplace_back(scalar.name);
+std::vector<ObservableKey> keys_of_body() {
+  std::vector<ObservableKey> keys;
+  for (const auto& scalar : kScalars) keys.push_back({"", scalar.name});
   for (const auto& vector : kVectors) {
-    names.emplace_back(vector.name);
-    for (const char* axis : {".x", ".y", ".z"}) names.push_back(std::string(vector.name) + axis);
+    keys.push_back({"", vector.name});
+    for (const char component : kComponents) keys.push_back({"", vector.name, component});
   }
-  return names;
+  return keys;
 }
 
 }  // namespace
 
 std::string value_name(const Observables& observables, const std::vector<std::string>& body_names,
                        std::size_t index) {
-  static const std::vector<std::string> kNames = names_of_body();
+  static const std::vector<ObservableKey> kKeys = keys_of_body();
   const std::size_t of_bodies = kOfBody * observables.bodies.size();
-  if (index < of_bodies) return body_names[index / kOfBody] + "." + kNames[index % kOfBody];
+  if (index < of_bodies) return kKeys[index % kOfBody].of(body_names[index / kOfBody]).text();
   const std::size_t left = index - of_bodies;
   const PairObservables& pair = observables.pairs[left / kPairScalars.size()];
-  const std::string second = pair.second == kSubstrate
-                                 ? std::string("substrate")
-                                 : body_names[static_cast<std::size_t>(pair.second)];
-  return body_names[static_cast<std::size_t>(pair.first)] + "-" + second + "." +
-         kPairScalars[left % kPairScalars.size()].name;
+  const std::string owner =
+      pair_owner(body_names[static_cast<std::size_t>(pair.first)],
+                 pair.second == kSubstrate ? std::string_view("substrate")
+                                           : body_names[static_cast<std::size_t>(pair.second)]);
+  return ObservableKey{owner, kPairScalars[left % kPairScalars.size()].name}.text();
 }
 
 std::vector<double> flat_values(const Observables& observables) {

@@ -12,6 +12,7 @@
 #include "harness/run/cpu_time.h"
 #include "reference/initial_contacts.h"
 #include "reference/lasting_contacts.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
@@ -57,7 +58,7 @@ const char* name_of(CollapseRule::Model model) {
 }
 
 bool is_time(const std::string& name) {
-  return name.ends_with("_time") || name.ends_with(".sliding_onset");
+  return observable_key(name).known()->dimension.name == std::string_view(kTime.name);
 }
 
 /// The run that the values come from and those that tell their uncertainty.

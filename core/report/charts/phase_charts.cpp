@@ -8,6 +8,7 @@
 
 #include "report/rows/comparison_rows.h"
 #include "report/rows/selection.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
@@ -24,7 +25,7 @@ std::vector<std::string> charted(const SceneRecord& scene) {
   std::vector<Candidate> candidates;
   for (const std::string& name : shown_observables(scene, false)) {
     if (!has_tolerance(scene.scenario, name)) continue;
-    Candidate candidate{name, name.ends_with(".effective_restitution"), 0};
+    Candidate candidate{name, observable_key(name).observable == "effective_restitution", 0};
     for (const EngineRecord& run : scene.runs)
       for (const ComparisonRow& row : comparison_rows(scene, run, {name}))
         candidate.severity = std::fmax(candidate.severity, row.severity);

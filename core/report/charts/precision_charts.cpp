@@ -12,6 +12,7 @@
 #include "report/files/file_stem.h"
 #include "report/rows/precision_rows.h"
 #include "report/rows/selection.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
@@ -41,11 +42,6 @@ double step_of(const MethodCurve& curve, const WorkPrecision& point) {
       break;
   }
   return kNotObserved;
-}
-
-/// Twins show the same: "j.sliding_time" beside "i.sliding_time".
-std::string bare_name(const std::string& quantity) {
-  return quantity.substr(quantity.find('.') + 1);
 }
 
 bool has_point(const Curve& curve) {
@@ -180,9 +176,9 @@ std::map<std::string, Look> method_looks(const std::vector<PrecisionScene>& scen
 
 std::vector<std::string> drawn_quantities(const PrecisionScene& scene) {
   std::vector<std::string> result;
-  std::set<std::string> bare;
+  std::set<std::string> bare;  // twins show the same: "j.sliding_time" beside "i.sliding_time"
   for (const std::string& quantity : judged_quantities(scene))
-    if (result.size() < kMostQuantities && bare.insert(bare_name(quantity)).second)
+    if (result.size() < kMostQuantities && bare.insert(observable_key(quantity).bare()).second)
       result.push_back(quantity);
   const std::vector<std::string> shown = shown_quantities(scene, false);
   if (std::find(shown.begin(), shown.end(), kTrajectory) != shown.end())

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/compare/observable_scale.h"
 #include "report/rows/comparison_rows.h"
 #include "report/rows/quantity.h"
 #include "report/rows/selection.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
@@ -18,9 +20,9 @@ constexpr double kFarOff = 0.05;
 std::vector<double> distances(const ReferenceResult& reference, const EngineRecord& run,
                               const std::string& vector) {
   std::vector<double> squares;
-  for (const char* axis : {".x", ".y", ".z"}) {
-    const auto component = run.observables.find(vector + axis);
-    const auto expected = reference.observables.find(vector + axis);
+  for (const std::string& name : observable_key(vector).components()) {
+    const auto component = run.observables.find(name);
+    const auto expected = reference.observables.find(name);
     if (component == run.observables.end() || expected == reference.observables.end()) return {};
     const std::vector<double>& values = component->second.values;
     squares.resize(values.size());
@@ -29,20 +31,6 @@ std::vector<double> distances(const ReferenceResult& reference, const EngineReco
   }
   for (double& square : squares) square = std::sqrt(square);
   return squares;
-}
-
-/// Length of the reference's vector, of a position the way from the start: what a vector's errors
-/// are relative to.
-double vector_scale(const SceneRecord& scene, const std::string& vector) {
-  Vector3 length = Vector3::Zero();
-  for (int k = 0; k < 3; ++k)
-    if (const auto found = scene.reference.observables.find(vector + "." + "xyz"[k]);
-        found != scene.reference.observables.end())
-      length[k] = found->second.value;
-  if (vector.ends_with(".final_position"))
-    for (const Body& body : scene.scenario.bodies)
-      if (vector == body.name + ".final_position") length -= body.initial.position;
-  return length.norm();
 }
 
 /// The tolerance as the runs were judged by; the same for all of them. None where none could be.
@@ -92,9 +80,11 @@ std::optional<PhaseSpread> phase_spread(const SceneRecord& scene, const std::str
   const auto reference = scene.reference.observables.find(name);
   const ObservableName* observable = observable_of(name);
   if (!deviation || reference == scene.reference.observables.end() || !observable) return {};
-  const bool is_distance = observable->is_vector && name.ends_with(observable->name);
+  const bool is_distance = observable->is_vector && observable_key(name).component == '\0';
   const double value = is_distance ? 0 : reference->second.value;
-  const double scale = is_distance ? vector_scale(scene, name) : std::abs(value);
+  const double scale = is_distance
+                           ? observable_scale(scene.scenario, scene.reference.observables, name)
+                           : std::abs(value);
   // Of a value that is zero but for rounding, what the reference knows of it.
   const double known = scene.reference.box ? 0 : 10 * reference->second.uncertainty;
   const bool is_zero = !deviation->absolute && scale <= known;

@@ -10,11 +10,15 @@
 #include "report/rows/quantity.h"
 #include "report/rows/selection.h"
 #include "report/terminal/text.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
 
-bool is_restitution(const std::string& name) { return name.ends_with(".effective_restitution"); }
+bool is_restitution(const std::string& name) {
+  const ObservableKey key = observable_key(name);
+  return key.observable == "effective_restitution" && !key.owner.empty();
+}
 
 /// Effective restitution first, the others in their order.
 std::vector<std::string> in_order(const std::set<std::string>& names) {

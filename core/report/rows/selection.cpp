@@ -4,15 +4,14 @@
 #include <set>
 
 #include "harness/compare/comparison.h"
-#include "scenario/owned_names.h"
+#include "scenario/observable_key.h"
 #include "scenario/tolerances.h"
 
 namespace slipcheck {
 namespace {
 
 bool is_component(const std::string& full_name) {
-  const ObservableName* observable = observable_of(full_name);
-  return observable && owned_name(full_name).observable != observable->name;
+  return observable_key(full_name).component != '\0';
 }
 
 /// Whose value of an observable the scene could show: of pairs, those that have met.
@@ -25,14 +24,14 @@ std::vector<std::string> owners(const SceneRecord& scene, ObservableScope scope)
     for (const auto& [name, value] : scene.reference.observables)
       if (const ObservableName* other = observable_of(name);
           other && other->scope == ObservableScope::pair)
-        result.insert(std::string(owned_name(name).owner));
+        result.insert(std::string(observable_key(name).owner));
   return {result.begin(), result.end()};
 }
 
 }  // namespace
 
 const ObservableName* observable_of(const std::string& full_name) {
-  return find_observable(owned_name(full_name).observable);
+  return observable_key(full_name).known();
 }
 
 const Dimension& dimension_of(const std::string& full_name) {
@@ -48,12 +47,13 @@ std::map<std::string, std::string> absent_observables(const SceneRecord& scene) 
   std::map<std::string, std::string> absent;
   for (const auto& [key, tolerance] : scene.scenario.compare.tolerance) {
     if (tolerance.none) continue;
-    const bool is_general = owned_name(key).owner.empty();
+    const ObservableKey parts = observable_key(key);
     const std::vector<std::string> named =
-        is_general ? owners(scene, find_observable(key)->scope) : std::vector<std::string>{};
+        parts.owner.empty() ? owners(scene, parts.known()->scope) : std::vector<std::string>{};
     for (const std::string& owner : named)
-      if (const std::string full = owner + "." + key; names_observable(scene.scenario, key, full) &&
-                                                      !scene.reference.observables.contains(full))
+      if (const std::string full = parts.of(owner).text();
+          names_observable(scene.scenario, key, full) &&
+          !scene.reference.observables.contains(full))
         absent[full] = "it does not occur in the reference";
     const auto names_it = [&](const auto& value) {
       return names_observable(scene.scenario, key, value.first);

@@ -102,8 +102,8 @@ Rule<Expectation> expectation_rule() {
       } else if (std::string rule = fault_of_owned_name(entry.key, Wildcards::no); !rule.empty()) {
         refuse(std::move(rule));
       } else {
-        const std::string_view name = owned_name(entry.key).observable;
-        const Rule<ExpectedObservable>& observable = observables.at(find_observable(name)->name);
+        const std::string_view name = observable_key(entry.key).observable;
+        const Rule<ExpectedObservable>& observable = observables.at(name);
         good = observable.read(*entry.value, reading, target.observables[entry.key]) && good;
       }
     }

@@ -85,8 +85,9 @@ bool any_pair_matches(const WrittenScene& written, const std::string& pattern) {
 /// Why nothing of this name is seen of an engine in this scene, "" if it may be. The owner may have
 /// wildcards.
 std::string fault_of_owner(const WrittenScene& written, const std::string& name) {
-  const std::string owner(owned_name(name).owner);
-  const ObservableScope scope = find_observable(owned_name(name).observable)->scope;
+  const ObservableKey key = observable_key(name);
+  const std::string owner(key.owner);
+  const ObservableScope scope = key.known()->scope;
   if (written.container.has_value() != (scope == ObservableScope::all))
     return written.container ? "must be of all, as nothing else is seen in a container"
                              : "must be of a body or a pair: all is only for a container";
@@ -116,7 +117,7 @@ void check_expectations(const WrittenScene& written, Reading& reading) {
 
 void check_tolerances(const WrittenScene& written, Reading& reading) {
   for (const auto& [name, tolerance] : written.compare.tolerance) {
-    if (owned_name(name).owner.empty()) continue;
+    if (observable_key(name).owner.empty()) continue;
     std::string rule = fault_of_owner(written, name);
     if (!rule.empty()) reading.fault_at("compare.tolerance." + name, std::move(rule));
   }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <utility>
 #include <vector>
 
 #include "scenario/owned_names.h"
@@ -48,16 +49,17 @@ std::vector<std::string> bare_names() {
   for (const ObservableName& each : observable_names()) {
     names.emplace_back(each.name);
     if (!each.is_vector) continue;
-    for (const char* component : {".x", ".y", ".z"})
-      names.push_back(names.back().substr(0, each.name.size()) + component);
+    for (std::string& component : ObservableKey{"", each.name}.components())
+      names.push_back(std::move(component));
   }
   return names;
 }
 
 std::string fault_of_key(const std::string& key, const std::vector<std::string>& bare) {
-  if (find_observable(key)) return "";
-  if (key.find('.') != std::string::npos && !find_observable(key.substr(0, key.find('.'))))
+  const ObservableKey parts = observable_key(key);
+  if (!parts.owner.empty() && !find_observable(parts.owner))
     return fault_of_owned_name(key, Wildcards::yes);
+  if (parts.owner.empty() && parts.known()) return "";
   const std::string near = nearest(key, bare);
   return near.empty() ? "must be an observable, or one of an owner as in i-j.restitution"
                       : fmt::format("is not a key here (did you mean {}?)", near);
@@ -66,7 +68,7 @@ std::string fault_of_key(const std::string& key, const std::vector<std::string>&
 json tolerances_schema() {
   json properties = json::object();
   for (const std::string& name : bare_names()) {
-    const ObservableName* observable = find_observable(name);
+    const ObservableName* observable = observable_key(name).known();
     properties[name] = tolerance_rule(*observable).schema();
     properties[name]["description"] = std::string(observable->doc);
   }
@@ -94,7 +96,7 @@ Rule<std::map<std::string, Tolerance>> tolerances_rule() {
       std::string rule =
           target.contains(entry.key) ? "must stand here once" : fault_of_key(entry.key, bare);
       if (rule.empty()) {
-        const ObservableName& observable = *find_observable(owned_name(entry.key).observable);
+        const ObservableName& observable = *observable_key(entry.key).known();
         good = tolerance_rule(observable).read(*entry.value, reading, target[entry.key]) && good;
       } else {
         reading.fault(entry.location, reading.path(), std::move(rule));

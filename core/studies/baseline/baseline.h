@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/compare/observable_scale.h"
 #include "harness/compare/record.h"
-#include "studies/baseline/measure.h"
 
 namespace slipcheck {
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "scenario/observable_key.h"
 #include "scenario/tolerances.h"
 
 namespace slipcheck {
@@ -114,7 +115,10 @@ class Checker {
 
   void check_reference_value(const std::string& name, const UncertainValue& before,
                              const UncertainValue& after) {
-    const double scale = is_pure_number(name) ? 1 : scale_of(scene_.scenario, old_.reference, name);
+    const ObservableName* observable = observable_key(name).known();
+    const bool is_pure_number = observable != nullptr && observable->dimension.si[0] == '\0';
+    const double scale =
+        is_pure_number ? 1 : observable_scale(scene_.scenario, old_.reference, name);
     const double strict = kReferenceLimit * scale;
     const double uncertainty = is_decided(before) && is_decided(after)
                                    ? before.uncertainty + after.uncertainty
@@ -229,7 +233,8 @@ class Checker {
     const double uncertainty =
         (was ? finite_or_zero(was->uncertainty) : 0) + (is ? finite_or_zero(is->uncertainty) : 0);
     if (const auto tolerance = tolerance_of_part(scene_.scenario, name)) {
-      double scale = tolerance->absolute ? 1 : scale_of(scene_.scenario, now_.reference, name);
+      double scale =
+          tolerance->absolute ? 1 : observable_scale(scene_.scenario, now_.reference, name);
       // Of a reference of zero nothing is a share; then the baseline's own value is the measure.
       if (!tolerance->absolute && scale <= uncertainty) scale = std::abs(before);
       return tolerance->value * scale + (scene_.reference.box ? uncertainty : 0);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "harness/compare/comparison.h"
-#include "scenario/observable_names.h"
+#include "scenario/observable_key.h"
 #include "studies/precision/pareto.h"
 
 namespace slipcheck {
@@ -58,7 +58,7 @@ std::map<std::string, ErrorFloor> error_floors(const Scenario& scenario,
   for (const auto& [name, deviation] : deviations(scenario, reference, ensemble_values({off}))) {
     const auto value = reference.observables.find(name);
     if (value == reference.observables.end()) continue;
-    const ObservableName* observable = find_observable(name.substr(name.find('.') + 1));
+    const ObservableName* observable = observable_key(name).known();
     const bool has_unit = deviation.absolute && !(observable && observable->is_restitution);
     const double scale = has_unit ? std::abs(value->second.value) : 1;
     ErrorFloor& floor = floors[name];

@@ -15,6 +15,7 @@
 #include "reference/steps/step_length.h"
 #include "reference/steps/step_solver.h"
 #include "reference/steps/steps_as_events.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
@@ -151,7 +152,7 @@ MethodCurve Curves::contact(std::span<const double> tolerances) const {
 double Curves::shortest_contact() const {
   double shortest = kNever;
   for (const auto& [name, value] : scene_.reference.observables)
-    if (name.ends_with(".contact_time") && value.value > 0)
+    if (observable_key(name).observable == "contact_time" && value.value > 0)
       shortest = std::min(shortest, value.value);
   // None ended in the run: those of collisions along the line of centres.
   return std::isfinite(shortest) ? shortest : shortest_collision(*scene_.contact);
@@ -220,11 +221,8 @@ MethodCurve Curves::fixed_step(std::span<const double> steps_per_contact) const 
 std::map<std::string, PhaseErrors> phase_errors(
     const std::map<std::string, Deviation>& deviations) {
   std::map<std::string, PhaseErrors> errors;
-  const auto is_component = [](const std::string& name) {
-    return name.ends_with(".x") || name.ends_with(".y") || name.ends_with(".z");
-  };
   for (const auto& [name, each] : deviations)
-    if (!is_component(name) || each.tolerance)
+    if (observable_key(name).component == '\0' || each.tolerance)
       errors[name] = {each.max, each.median, each.rms, each.absolute, each.tolerance, each.reason};
   return errors;
 }

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "harness/run/requested_runs.h"
+#include "scenario/observable_key.h"
 #include "studies/stability/limit_scenes.h"
 #include "studies/stability/stability.h"
 
@@ -86,7 +87,7 @@ void fill_in(Limit& limit, const LimitSearch& search) {
 double restitution_error(const std::map<std::string, Deviation>& errors) {
   double largest = kNotObserved;
   for (const auto& [name, deviation] : errors)
-    if (name.ends_with(".restitution") && !std::isnan(deviation.max))
+    if (observable_key(name).observable == "restitution" && !std::isnan(deviation.max))
       largest = std::fmax(largest, deviation.max);
   return largest;
 }

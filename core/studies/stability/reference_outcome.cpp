@@ -6,6 +6,7 @@
 
 #include "harness/compare/comparison.h"
 #include "reference/initial_contacts.h"
+#include "scenario/observable_key.h"
 #include "studies/stability/stability.h"
 
 namespace slipcheck {
@@ -14,8 +15,10 @@ namespace {
 /// A scalar, or a vector's length with the worst uncertainty of its components.
 UncertainValue known_value(const ReferenceResult& reference, const std::string& name) {
   UncertainValue value = reference.observables.at(name);
-  for (const char* axis : {".x", ".y", ".z"})
-    if (const auto found = reference.observables.find(name + axis);
+  const ObservableKey key = observable_key(name);
+  if (key.component != '\0') return value;
+  for (const std::string& component : key.components())
+    if (const auto found = reference.observables.find(component);
         found != reference.observables.end())
       value.uncertainty = std::max(value.uncertainty, found->second.uncertainty);
   return value;

@@ -7,6 +7,7 @@
 
 #include "physics/numbers.h"
 #include "reference/initial_contacts.h"
+#include "scenario/observable_key.h"
 #include "studies/stability/scene_energy.h"
 
 namespace slipcheck {
@@ -128,10 +129,12 @@ void ReferencePath::look_at_contacts() {
       const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
       double deepest = 0;
       // A contact may be over between two samples.
-      const std::string pair = names[a] + "-" + names[b];
-      if (const auto found = seen.find(pair + ".max_overlap"); found != seen.end())
+      const std::string pair = pair_owner(names[a], names[b]);
+      if (const auto found = seen.find(ObservableKey{pair, "max_overlap"}.text());
+          found != seen.end())
         deepest = found->second.value;
-      if (const auto found = seen.find(pair + ".contact_time"); found != seen.end())
+      if (const auto found = seen.find(ObservableKey{pair, "contact_time"}.text());
+          found != seen.end())
         longest_contact_ = std::max(longest_contact_, found->second.value);
       const double reach = bodies[a].radius + bodies[b].radius;
       for (const auto& states : states_)

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "scenario/owned_names.h"
+#include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
@@ -118,7 +118,7 @@ class Scale {
     for (EngineRequest& request : compare.engines)
       for (double& rate : request.rates) rate /= time;
     for (auto& [name, tolerance] : compare.tolerance)
-      if (const ObservableName* observable = find_observable(owned_name(name).observable);
+      if (const ObservableName* observable = observable_key(name).known();
           observable && tolerance.absolute)
         tolerance.value *= of(observable->dimension);
   }

@@ -4,16 +4,15 @@
 
 #include <algorithm>
 
+#include "scenario/observable_key.h"
 #include "scenario/tolerances.h"
 
 namespace slipcheck {
 namespace {
 
-std::string observable_of(const std::string& name) { return name.substr(name.find('.') + 1); }
-
 bool has_observable(const PreparedScene& scene, const std::string& observable) {
   return std::ranges::any_of(scene.reference.observables, [&](const auto& named) {
-    return observable_of(named.first) == observable;
+    return observable_key(named.first).bare() == observable;
   });
 }
 

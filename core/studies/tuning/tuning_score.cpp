@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenario/observable_key.h"
+
 namespace slipcheck {
 namespace {
 
@@ -30,8 +32,7 @@ double error_of(const RunScore& run, const TuningGoal& goal) {
 std::optional<double> TuningObservables::tolerance(const std::string& name,
                                                    const Deviation& deviation) const {
   if (named.empty()) return deviation.tolerance;
-  const std::string observable = name.substr(name.find('.') + 1);
-  if (std::ranges::count(named, observable) == 0) return std::nullopt;
+  if (std::ranges::count(named, observable_key(name).bare()) == 0) return std::nullopt;
   return deviation.tolerance.value_or(kDefaultTolerance);
 }
 

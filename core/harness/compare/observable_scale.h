@@ -13,10 +13,7 @@ using ReferenceValues = std::map<std::string, UncertainValue>;  ///< by full nam
 /// What a relative move of an observable is relative to [its unit], >= 0, as errors are: the
 /// reference's value, of vectors and their components the vector's length, of a position the way
 /// from the start. 0 where the reference does not show it.
-double scale_of(const Scenario& scenario, const ReferenceValues& reference,
-                const std::string& full_name);
-
-/// Whether the observable has no unit: its moves are absolute.
-bool is_pure_number(const std::string& full_name);
+double observable_scale(const Scenario& scenario, const ReferenceValues& reference,
+                        const std::string& full_name);
 
 }  // namespace slipcheck
