@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "../support/refusal.h"
 
@@ -42,6 +43,26 @@ TEST_F(Journal, ReadsBackWhatWasWritten) {
   EXPECT_EQ(again.size(), 1u);
 }
 
+TEST_F(Journal, IsOneObjectALineWithItsFieldsInOrder) {
+  const std::string text =
+      "{\"slipcheck-tuning-journal\":1}\n"
+      "{\"question\":{\"scene\":\"a\",\"rate\":240.0},\"answer\":{\"worst\":0.5,"
+      "\"observable\":\"i.sliding_time\",\"deviation\":0.125,\"failed\":0.0625,"
+      "\"cpu_seconds\":1e-300,\"simulated_seconds\":0.75,\"reason\":\"crashed: \\\"signal 9\\\"\","
+      "\"seconds\":0.25}}\n";
+  const TuningJournal::Answer answer{
+      {0.5, "i.sliding_time", 0.125, 0.0625, 1e-300, 0.75, "crashed: \"signal 9\""}, 0.25};
+  std::ofstream(file) << text;
+  ASSERT_NE(TuningJournal(file).find(kQuestion), nullptr);
+  EXPECT_EQ(*TuningJournal(file).find(kQuestion), answer);
+
+  fs::remove(file);
+  { TuningJournal(file).add({{kQuestion, answer}}); }
+  std::stringstream written;
+  written << std::ifstream(file).rdbuf();
+  EXPECT_EQ(written.str(), text);
+}
+
 TEST_F(Journal, RefusesAFileThatIsNone) {
   std::ofstream(file) << "slipcheck: 1\nname: a\n";
   EXPECT_NE(refusal().find("must be a journal of slipcheck tune"), std::string::npos);
@@ -53,6 +74,10 @@ TEST_F(Journal, TellsTheLineThatIsNoEntry) {
   { TuningJournal(file).add({{kQuestion, kAnswer}}); }
   std::ofstream(file, std::ios::app) << "{\"question\":{}}\n";
   EXPECT_NE(refusal().find("line 3 is no entry"), std::string::npos);
+  std::ofstream(file) << "{\"slipcheck-tuning-journal\":1}\n"
+                         "{\"question\":{},\"answer\":{\"worst\":\"much\"}}\n";
+  EXPECT_NE(refusal().find("line 2 is no entry of a journal: answer: worst: must be a number"),
+            std::string::npos);
 }
 
 TEST_F(Journal, IsWrittenByOneProcessAtATime) {

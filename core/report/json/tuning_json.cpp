@@ -1,6 +1,7 @@
 #include "report/json/tuning_json.h"
 
 #include "report/json/common_fields.h"
+#include "studies/tuning/tuning_fields.h"
 
 namespace slipcheck {
 namespace {
@@ -20,15 +21,8 @@ Json finalist_json(const TuningRecord& tuning, const TuningFinalist& finalist) {
   for (std::size_t k = 0; k < tuning.tasks.size(); ++k) {
     const TuningTask& task = tuning.tasks[k];
     const RunScore& run = finalist.runs[k];
-    Json one{{"scene", task.scene},
-             {"rate", task.rate},
-             {"held_out", task.held_out},
-             {"worst", run.worst},
-             {"observable", run.observable},
-             {"deviation", run.deviation},
-             {"failed", run.failed},
-             {"cpu_seconds", run.cpu_seconds},
-             {"simulated_seconds", run.simulated_seconds}};
+    Json one{{"scene", task.scene}, {"rate", task.rate}, {"held_out", task.held_out}};
+    one.update(FieldWriter<Json, NotFinite::null>::json_of_value(run));
     if (!run.reason.empty()) one["reason"] = valid_utf8(run.reason);
     json["runs"].push_back(std::move(one));
   }

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "studies/tuning/tuning_fields.h"
+
 namespace slipcheck {
 namespace {
 
@@ -20,30 +22,13 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kHead = "{\"slipcheck-tuning-journal\":1}\n";
 
 std::string line_of(const std::string& question, const TuningJournal::Answer& answer) {
-  const RunScore& score = answer.score;
-  const Json json{{"worst", score.worst},
-                  {"observable", score.observable},
-                  {"deviation", score.deviation},
-                  {"failed", score.failed},
-                  {"cpu_seconds", score.cpu_seconds},
-                  {"simulated_seconds", score.simulated_seconds},
-                  {"reason", score.reason},
-                  {"seconds", answer.seconds}};
-  return fmt::format("{{\"question\":{},\"answer\":{}}}\n", question,
-                     json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  const Json json = FieldWriter<Json, NotFinite::null>::json_of_value(answer);
+  return fmt::format("{{\"question\":{},\"answer\":{}}}\n", question, json.dump());
 }
 
-TuningJournal::Answer answer_of(const Json& json) {
+TuningJournal::Answer answer_of(const nlohmann::json& json) {
   TuningJournal::Answer answer;
-  RunScore& score = answer.score;
-  json.at("worst").get_to(score.worst);
-  json.at("observable").get_to(score.observable);
-  json.at("deviation").get_to(score.deviation);
-  json.at("failed").get_to(score.failed);
-  json.at("cpu_seconds").get_to(score.cpu_seconds);
-  json.at("simulated_seconds").get_to(score.simulated_seconds);
-  json.at("reason").get_to(score.reason);
-  json.at("seconds").get_to(answer.seconds);
+  BasicFieldReader<true>::read(JsonNode(json, "answer"), answer);
   return answer;
 }
 
@@ -94,8 +79,10 @@ void TuningJournal::read(const std::string& text) {
       const Json entry = Json::parse(text.begin() + static_cast<std::ptrdiff_t>(begin),
                                      text.begin() + static_cast<std::ptrdiff_t>(end));
       answers_[entry.at("question").dump()] = answer_of(entry.at("answer"));
-    } catch (const Json::exception& bad) {
+    } catch (const Json::exception&) {
       throw BadJournal(fmt::format("line {} is no entry of a journal", line));
+    } catch (const BadJson& bad) {
+      throw BadJournal(fmt::format("line {} is no entry of a journal: {}", line, bad.what()));
     }
   }
   // What follows the last whole line was cut off when it was written.
