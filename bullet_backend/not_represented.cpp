@@ -99,8 +99,8 @@ Needs needs_of(const Scene& scene, const BulletSettings& settings, double time_s
 
 }  // namespace
 
-std::vector<std::string> not_represented(const Scene& scene, const BulletSettings& settings,
-                                         double time_step) {
+std::vector<Lack> not_represented(const Scene& scene, const BulletSettings& settings,
+                                  double time_step) {
   const Needs needs = needs_of(scene, settings, time_step);
   const bool fields = settings.coefficients == CoefficientMap::fields;
   const bool by_slip = settings.coefficients == CoefficientMap::pair_and_slip;
@@ -114,37 +114,42 @@ std::vector<std::string> not_represented(const Scene& scene, const BulletSetting
       settings.restitution_velocity_threshold / world_units(scene, settings).speed();
   // Of all pairs; only some settings ask for it.
   const double approach = settings.reach > 0 ? approach_in_a_step(scene, time_step) : 0;
-  std::vector<std::string> missing;
-  const auto note = [&](bool condition, std::string what) {
-    if (condition) missing.push_back(std::move(what));
+  std::vector<Lack> missing;
+  const auto note = [&](bool condition, const char* kind, const char* why = nullptr) {
+    if (condition) missing.push_back({why ? fmt::format("{} ({})", kind, why) : kind, kind});
   };
-  note(needs.static_friction && !by_slip,
-       "static friction (one coefficient for sticking and sliding)");
-  note(needs.friction && settings.solver == SolverKind::lemke,
-       "the limit of friction (the Lemke solver takes the coefficient for an impulse)");
-  note(mlcp && (needs.rolling || needs.drilling),
-       "rolling and drilling friction (the solver passes over their torques)");
-  note(needs.coupled_drilling, "coupled drilling (torque and friction are full, each by itself)");
-  note(needs.rolling_only && !by_slip && !mlcp,
-       "rolling friction only while rolling (it acts while sliding too)");
-  note(needs.rolling && !cone && !mlcp,
-       "rolling friction alike in all headings (up to 1.41 times on diagonals)");
-  note(needs.bounce && threshold > 0,
-       fmt::format("restitution below {:.3g} m/s of approach", threshold));
-  note(needs.reversed_slip, "tangential restitution (friction only stops the slip)");
+  note(needs.static_friction && !by_slip, "static friction",
+       "one coefficient for sticking and sliding");
+  note(needs.friction && settings.solver == SolverKind::lemke, "the limit of friction",
+       "the Lemke solver takes the coefficient for an impulse");
+  note(mlcp && (needs.rolling || needs.drilling), "rolling and drilling friction",
+       "the solver passes over their torques");
+  note(needs.coupled_drilling, "coupled drilling", "torque and friction are full, each by itself");
+  note(needs.rolling_only && !by_slip && !mlcp, "rolling friction only while rolling",
+       "it acts while sliding too");
+  note(needs.rolling && !cone && !mlcp, "rolling friction alike in all headings",
+       "up to 1.41 times on diagonals");
+  if (needs.bounce && threshold > 0)
+    missing.push_back({fmt::format("restitution below {:.3g} m/s of approach", threshold),
+                       "restitution below … m/s of approach"});
+  note(needs.reversed_slip, "tangential restitution", "friction only stops the slip");
   note(scene.confined, "confinement to the plane");
   note(needs.moving_floor && settings.surface_velocity == SurfaceVelocity::step_before,
-       "the floor's velocity at the contact (it is the mean over the step before)");
+       "the floor's velocity at the contact", "it is the mean over the step before");
   note(!scene.motion.is_still() && settings.surface_velocity == SurfaceVelocity::step_before,
-       "the substrate's velocity at the end of a step (it is the mean over the step before)");
+       "the substrate's velocity at the end of a step", "it is the mean over the step before");
   note(needs.far_in_a_step && settings.splits_at_contacts == 0,
        "collisions of bodies that pass each other within a step");
-  note(settings.reach > 0 && approach > settings.reach,
-       fmt::format("an approach of {:.2g} radii in a step: the profile is meant for up to {:.2g}",
-                   approach, settings.reach));
+  if (settings.reach > 0 && approach > settings.reach)
+    missing.push_back(
+        {fmt::format("an approach of {:.2g} radii in a step: the profile is meant for up to {:.2g}",
+                     approach, settings.reach),
+         "an approach of … radii in a step: the profile is meant for up to …"});
   note(needs.rolling_table && fields, "rolling friction that depends on the speed");
   note(needs.bounce_law && fields, "restitution that depends on the impact speed");
-  note(needs.cut_torque && fields, "rolling and drilling torque of normal impulses above 1 N s");
+  if (needs.cut_torque && fields)
+    missing.push_back({"rolling and drilling torque of normal impulses above 1 N s",
+                       "rolling and drilling torque of normal impulses above … N s"});
   note(needs.cut_torque && !fields, "rolling and drilling torque of a load other than the weight");
   return missing;
 }

@@ -1,6 +1,7 @@
 #include "base/old_reasons.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <string_view>
 #include <vector>
@@ -60,6 +61,22 @@ std::string reason_without_nulls(const nlohmann::json& object) {
   while (!parts.empty() && tells_of_null(object, parts.back())) parts.pop_back();
   if (parts.empty()) return {};
   return {parts.front().begin(), parts.back().end()};
+}
+
+std::string kind_in_words(const std::string& text) {
+  const std::string words = text.substr(0, text.find(" ("));
+  std::string kind;
+  for (const char* at = words.c_str(); *at != '\0';) {
+    if (*at < '0' || *at > '9') {
+      kind += *at++;
+      continue;
+    }
+    kind += "…";
+    char* end = nullptr;
+    std::strtod(at, &end);
+    at = end;
+  }
+  return kind;
 }
 
 }  // namespace slipcheck

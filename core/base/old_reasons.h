@@ -15,4 +15,9 @@ std::optional<double> number_of_reason(const nlohmann::json& object, const std::
 /// "reason" without what only tells of a null.
 std::string reason_without_nulls(const nlohmann::json& object);
 
+// Files without "not_represented_kinds" say only in words what an engine cannot express.
+
+/// Texts of one kind read alike: without what stands in parentheses, and "…" for each number.
+std::string kind_in_words(const std::string& text);
+
 }  // namespace slipcheck

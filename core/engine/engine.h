@@ -42,10 +42,16 @@ struct SettingInfo {
   std::optional<Range> range;
 };
 
+/// What of a scene an engine cannot express.
+struct Lack {
+  std::string text;       ///< for people: "restitution below 0.2 m/s of approach"
+  std::string kind = {};  ///< the same for all scenes and settings; empty where the engine has none
+};
+
 /// What an engine made of a scene.
 struct Applied {
-  Settings settings;                         ///< SI
-  std::vector<std::string> not_represented;  ///< what of the scene the engine cannot express
+  Settings settings;  ///< SI
+  std::vector<Lack> not_represented;
   std::vector<std::string> left_out;  ///< work that the scene does not need, each with the reason
 };
 

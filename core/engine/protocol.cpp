@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/cbor.h"
+#include "engine/lacks.h"
 #include "engine/message_fields.h"
 #include "engine/scene_json.h"
 #include "engine/setting_json.h"
@@ -201,7 +202,7 @@ void describe(Fields& f, Welcome& reply) {
 template <class Fields>
 void describe(Fields& f, Configured& reply) {
   f("settings", reply.applied.settings);
-  f("not_represented", reply.applied.not_represented);
+  describe_lacks(f, reply.applied.not_represented);
   if constexpr (Fields::kReads)
     f.if_any("left_out", reply.applied.left_out);
   else

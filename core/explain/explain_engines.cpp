@@ -35,8 +35,7 @@ void ask(ExplainSection& section, const EngineRecord& run, const Scene& scene,
   try {
     RemoteEngine engine(executable->path, {}, stop);
     const Applied applied = engine.configure(scene, run.settings, 1 / run.rate);
-    for (const std::string& missing : applied.not_represented)
-      section.add("not represented: " + missing);
+    for (const Lack& lack : applied.not_represented) section.add("not represented: " + lack.text);
     for (const std::string& text : applied.left_out) section.add("left out: " + text);
     for (const auto& [name, setting] : applied.settings) section.add(name, text_of(setting));
   } catch (const Refused& refused) {

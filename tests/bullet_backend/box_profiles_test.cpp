@@ -73,7 +73,7 @@ TEST(BulletBoxProfiles, WhatIsNotRepresentedIsSaid) {
   Scene scene = everything();
   // From 0.1 m balls come down with 1.4 m/s, 1.4 mm in a step of 1 ms, 6 mm in one at 240 Hz.
   Applied applied = engine.configure(scene, kDefault, 1e-3);
-  EXPECT_EQ(applied.not_represented,
+  EXPECT_EQ(texts_of(applied.not_represented),
             (std::vector<std::string>{
                 "restitution below 0.2 m/s of approach",
                 "the floor's velocity at the contact (it is the mean over the step before)"}));

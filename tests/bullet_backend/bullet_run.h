@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/lacks.h"
 #include "engine/profile.h"
 #include "engine/remote_engine.h"
 #include "scene/scene.h"
@@ -117,7 +118,7 @@ inline double number(const Applied& applied, const std::string& name) {
 /// Whether what is not represented includes something that starts so.
 inline bool lists(const Applied& applied, const std::string& start) {
   return std::ranges::any_of(applied.not_represented,
-                             [&](const std::string& each) { return each.starts_with(start); });
+                             [&](const Lack& lack) { return lack.text.starts_with(start); });
 }
 
 /// By what friction a ball of 1 cm is braked that slides at 2 m/s on a plane of friction `mu`, over

@@ -130,7 +130,7 @@ TEST(BulletReach, ScenesBeyondItAreRefusedOrTold) {
   };
   const Settings limited = {{"reach", 0.5}};
   EXPECT_TRUE(engine.configure(approach(0.49), limited, 1 / rate).not_represented.empty());
-  EXPECT_EQ(engine.configure(approach(0.51), limited, 1 / rate).not_represented,
+  EXPECT_EQ(texts_of(engine.configure(approach(0.51), limited, 1 / rate).not_represented),
             std::vector<std::string>{"an approach of 0.51 radii in a step: the profile is meant "
                                      "for up to 0.5"});
   const Settings strict = with(limited, {{"beyond_reach", "refuse"}});

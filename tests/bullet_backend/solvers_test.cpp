@@ -69,7 +69,7 @@ TEST_P(BulletSolvers, RollingAndSpinningFrictionAreForIterationsOnly) {
   const double spent = iterates ? 0.01 * kGravity * t / (0.4 * kRadius) : 0;  // of ω_z
   EXPECT_NEAR(end[0].velocity.x(), 0.3 - lost, 1e-6);
   EXPECT_NEAR(end[1].angular_velocity.z(), 100 - spent, 1e-6 * 100);
-  const auto missing = engine_.configure(scene, settings(), 1 / rate).not_represented;
+  const auto missing = texts_of(engine_.configure(scene, settings(), 1 / rate).not_represented);
   EXPECT_EQ(std::ranges::count(missing,
                                "rolling and drilling friction (the solver passes over "
                                "their torques)"),
@@ -102,7 +102,7 @@ TEST_P(BulletBodies, LemkeTakesTheFrictionForAnImpulse) {
       shipped("physical"), {{"body", GetParam()}, {"solver", "lemke"}, {"scale_radius_to", 0.0}});
   const auto frames = run(engine_, scene, settings, rate, 24);
   EXPECT_NEAR((1 - frames.back().bodies[0].velocity.x()) / (24 * mu / mass), 1, 1e-6);
-  const auto missing = engine_.configure(scene, settings, 1 / rate).not_represented;
+  const auto missing = texts_of(engine_.configure(scene, settings, 1 / rate).not_represented);
   EXPECT_EQ(std::ranges::count(missing,
                                "the limit of friction (the Lemke solver takes the "
                                "coefficient for an impulse)"),

@@ -175,7 +175,7 @@ TEST(BulletSurfacesSaid, OnlyTheVelocityOfTheStepBeforeIsAmongWhatIsMissing) {
       scene_of(steel_ball(kRadius), {rolling_along_x(kRadius, 0, 0)}, ground_with_friction(0.2));
   scene.motion = SubstrateMotion::constant({0.1, 0});
   const auto missing = [&](const char* told) {
-    return engine.configure(scene, {{"surface_velocity", told}}, 1e-3).not_represented;
+    return texts_of(engine.configure(scene, {{"surface_velocity", told}}, 1e-3).not_represented);
   };
   EXPECT_EQ(missing("step_before"),
             std::vector<std::string>{"the substrate's velocity at the end of a step (it is the "

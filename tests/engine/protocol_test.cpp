@@ -121,9 +121,11 @@ TEST(Protocol, TheOtherMessagesComeThrough) {
   EXPECT_EQ(configure.settings, settings);
   EXPECT_EQ(configure.time_step, 0.01);
   const auto configured =
-      through<Configured>(Configured{{settings, {"static friction"}, {"rows"}}});
+      through<Configured>(Configured{{settings, {{"friction below 2 m/s", "friction"}}, {"rows"}}});
   EXPECT_EQ(configured.applied.settings, settings);
-  EXPECT_EQ(configured.applied.not_represented, std::vector<std::string>{"static friction"});
+  ASSERT_EQ(configured.applied.not_represented.size(), 1u);
+  EXPECT_EQ(configured.applied.not_represented[0].text, "friction below 2 m/s");
+  EXPECT_EQ(configured.applied.not_represented[0].kind, "friction");
   EXPECT_EQ(configured.applied.left_out, std::vector<std::string>{"rows"});
   EXPECT_EQ(through<Refusal>(Refusal{"why"}).reason, "why");
   EXPECT_EQ(through<Failed>(Failed{"µ"}).reason, "µ");
@@ -186,6 +188,18 @@ TEST(Protocol, ABadReplyIsNamed) {
                  "reply: cpu_seconds: must hold times >= 0");
   expect_rubbish({{"type", "refused"}, {"reason", "\xff"}},
                  "reply: reason: must be valid UTF-8, got \"\uFFFD\"");
+}
+
+TEST(Protocol, KindsOfLacksMayBeMissingButNotSome) {
+  nlohmann::json reply = {{"type", "configured"},
+                          {"settings", nlohmann::json::object()},
+                          {"not_represented", {"friction below 2 m/s", "drilling"}}};
+  const auto configured = std::get<Configured>(decode_reply(nlohmann::json::to_cbor(reply)));
+  ASSERT_EQ(configured.applied.not_represented.size(), 2u);
+  EXPECT_EQ(configured.applied.not_represented[0].text, "friction below 2 m/s");
+  EXPECT_EQ(configured.applied.not_represented[0].kind, "");
+  reply["not_represented_kinds"] = nlohmann::json::array({"friction"});
+  expect_rubbish(reply, "reply: not_represented_kinds: must be a list of 2, got a list");
 }
 
 TEST(Protocol, DeepNestingAndOddCborAreRefused) {

@@ -32,7 +32,7 @@ TEST(Html, EscapesWhatScenesAndEnginesSay) {
   scene.runs[0].profile = evil;
   scene.runs[0].warnings = {evil};
   scene.runs[0].applied.settings = {{evil, evil}};
-  scene.runs[0].applied.not_represented = {evil};
+  scene.runs[0].applied.not_represented = {{evil, evil}};
   scene.runs[1] = failed_run(EngineRecord::Status::crashed, evil);
   const std::string html = page_of({scene}, evil);
   EXPECT_FALSE(contains(html, "<script"));
@@ -169,9 +169,11 @@ TEST(Html, CellsHoldTheirNumbersInSI) {
 TEST(Html, CountsWhatEnginesCannotRepresent) {
   SceneRecord first = lottery_scene(), second = lottery_scene();
   for (EngineRecord& run : first.runs)
-    run.applied.not_represented = {"restitution below 0.3 m/s of approach", "rolling (1.41 times)"};
+    run.applied.not_represented = {{"restitution below 0.3 m/s of approach"},
+                                   {"rolling (1.41 times)"}};
   for (EngineRecord& run : second.runs)
-    run.applied.not_represented = {"restitution below 1e-05 m/s of approach"};
+    run.applied.not_represented = {
+        {"slow approaches (below 1e-05 m/s)", "restitution below … m/s of approach"}};
   second.runs[0].profile = "tuned";
   const std::string html = page_of({first, second});
   EXPECT_TRUE(contains(html, "<th>bullet default, of 2</th><th>bullet tuned, of 1</th>"));

@@ -49,6 +49,7 @@ TEST(JsonReport, HasTheKeysOfTheContract) {
   EXPECT_EQ(run["steps"], 100);
   EXPECT_EQ(run["phases"], 64);
   EXPECT_EQ(run["not_represented"], Json({"static friction", "coupled drilling"}));
+  EXPECT_EQ(run["not_represented_kinds"], Json({"friction", ""}));
   EXPECT_EQ(run["applied"]["friction"], 0.1);
   EXPECT_EQ(run["applied"]["split_impulse"], true);
   EXPECT_EQ(run["applied"]["solver"], "sequential");

@@ -79,7 +79,8 @@ TEST(ReadResult, KeepsWhatTheFileSaysOfRuns) {
   EXPECT_EQ(fast.applied.settings.at("limit"), Setting(-kInfinity));
   EXPECT_EQ(fast.applied.settings.at("split_impulse"), Setting(true));
   EXPECT_FALSE(fast.applied.settings.contains("reason"));
-  EXPECT_EQ(fast.applied.not_represented[1], "coupled drilling");
+  EXPECT_EQ(fast.applied.not_represented[1].text, "coupled drilling");
+  EXPECT_EQ(fast.applied.not_represented[0].kind, "friction");
   const EnsembleValue& time = fast.observables.at("i.sliding_time");
   EXPECT_EQ(time.missing, 1u);
   EXPECT_TRUE(std::isnan(time.values[1]));

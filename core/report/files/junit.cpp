@@ -8,6 +8,7 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "engine/lacks.h"
 #include "report/rows/expectation_rows.h"
 #include "report/rows/findings.h"
 #include "report/rows/selection.h"
@@ -85,7 +86,8 @@ std::string text_of(const SceneRecord& scene, const EngineRecord& run) {
     text += fmt::format("{}{}{}\n", outcome_text(run), run.reason.empty() ? "" : ": ", run.reason);
   }
   if (!run.applied.not_represented.empty())
-    text += fmt::format("not represented: {}\n", fmt::join(run.applied.not_represented, ", "));
+    text += fmt::format("not represented: {}\n",
+                        fmt::join(texts_of(run.applied.not_represented), ", "));
   for (const std::string& warning : run.warnings) text += fmt::format("warning: {}\n", warning);
   return text;
 }

@@ -4,12 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cstdlib>
 #include <optional>
 #include <set>
 #include <variant>
 
+#include "base/old_reasons.h"
 #include "report/html/html_text.h"
 
 namespace slipcheck {
@@ -17,23 +16,6 @@ namespace {
 
 std::string method_name(const EngineRecord& run) {
   return fmt::format("{} {} {}", run.engine, run.precision, run.profile);
-}
-
-/// Lacks of one kind read alike: without what stands in parentheses, and "…" for each number.
-std::string kind_of(const std::string& lack) {
-  const std::string text = lack.substr(0, lack.find(" ("));
-  std::string kind;
-  for (const char* at = text.c_str(); *at != '\0';) {
-    if (std::isdigit(static_cast<unsigned char>(*at)) == 0) {
-      kind += *at++;
-      continue;
-    }
-    kind += "…";
-    char* end = nullptr;
-    std::strtod(at, &end);
-    at = end;
-  }
-  return kind;
 }
 
 /// "0.1", "true", "sequential"
@@ -133,8 +115,8 @@ std::string html_lacks(const std::vector<SceneRecord>& scenes) {
     for (const EngineRecord& run : scenes[k].runs) {
       const std::string method = fmt::format("{} {}", run.engine, run.profile);
       if (run.status != RunStatus::skipped) tried[method].insert(k);
-      for (const std::string& lack : run.applied.not_represented)
-        lacks[kind_of(lack)][method].insert(k);
+      for (const Lack& lack : run.applied.not_represented)
+        lacks[lack.kind.empty() ? kind_in_words(lack.text) : lack.kind][method].insert(k);
     }
   if (lacks.empty()) return {};
   TextTable table{{{"what the scene needs"}}, {}, "What engines cannot represent"};

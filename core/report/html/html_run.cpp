@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/lacks.h"
 #include "report/html/html_text.h"
 #include "report/rows/comparison_rows.h"
 #include "report/rows/expectation_rows.h"
@@ -56,8 +57,8 @@ std::string html_run(const SceneRecord& scene, std::size_t k, const std::vector<
     html += html_paragraph("reason", status_text(run.status) + ":",
                            run.reason.empty() ? "not known why" : run.reason);
   }
-  html += html_paragraph(
-      "", "Not represented:", fmt::format("{}", fmt::join(run.applied.not_represented, ", ")));
+  html += html_paragraph("", "Not represented:",
+                         fmt::format("{}", fmt::join(texts_of(run.applied.not_represented), ", ")));
   html += html_list("warnings", "Warnings", run.warnings);
   return html + html_settings("Settings of this run [SI]:", shared.others(run, scene)) +
          "</details></section>\n";

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/lacks.h"
 #include "report/json/common_fields.h"
 #include "report/rows/selection.h"
 #include "report/rows/verdict_look.h"
@@ -245,7 +246,7 @@ void describe(Fields& f, EngineRecord& run) {
     f.derived("expected_status", [&] { return *run.expect->status; });
   else if (run.expect)
     f.derived("expected", [&] { return run.expectations(); });
-  f("not_represented", run.applied.not_represented);
+  describe_lacks(f, run.applied.not_represented);
   f("applied", run.applied.settings);
   f("warnings", run.warnings);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/lacks.h"
 #include "report/rows/comparison_rows.h"
 #include "report/rows/expectation_rows.h"
 #include "report/rows/selection.h"
@@ -78,9 +79,9 @@ std::string run_block(const SceneRecord& scene, const EngineRecord& run,
     result += noted_table(expected, style);
   }
   if (!run.applied.not_represented.empty())
-    result += paragraph(
-        "  not represented: ", fmt::format("{}", fmt::join(run.applied.not_represented, ", ")),
-        Tone::faint, style);
+    result += paragraph("  not represented: ",
+                        fmt::format("{}", fmt::join(texts_of(run.applied.not_represented), ", ")),
+                        Tone::faint, style);
   return result + warnings_text(run.warnings, style);
 }
 
