@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/safe_root.h"
+
 namespace slipcheck {
 namespace {
 
@@ -69,13 +71,8 @@ SlidingOnset sliding_onset(const LinearContact& contact, const RollingPair& pair
     onset.exact_time = kInfinity;
   } else {
     // F_N grows steadily up to its peak.
-    double low = 0, high = peak;
-    for (;;) {
-      const double mid = 0.5 * (low + high);
-      if (mid <= low || mid >= high) break;
-      (v * rolling.force(mid) < threshold ? low : high) = mid;
-    }
-    onset.exact_time = high;
+    onset.exact_time =
+        first_true(0, peak, [&](double t) { return v * rolling.force(t) >= threshold; });
   }
   return onset;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/safe_root.h"
+
 namespace slipcheck {
 namespace {
 
@@ -128,16 +130,6 @@ class Stretch {
   double impulse_ = 0, impulse_at_lift_ = 0;
   double lift_off_time_ = std::numeric_limits<double>::infinity();
 };
-
-/// Where a condition becomes true in (low, high], to rounding.
-template <class Condition>
-double first_true(double low, double high, const Condition& holds) {
-  for (;;) {
-    const double mid = 0.5 * (low + high);
-    if (mid <= low || mid >= high) return high;
-    (holds(mid) ? high : low) = mid;
-  }
-}
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "physics/fall_time.h"
 #include "physics/numbers.h"
 
 namespace slipcheck {
@@ -67,14 +68,8 @@ void DrivenPhase::start_flying(double gravity) {
   is_parabola_ = true;
   acceleration_ = in_plane(downhill_) - gravity * kUp;
   largest_acceleration_ = acceleration_.norm();
-  // Height over the plane h + v t − g t²/2 = 0; the form without cancellation.
-  const double h = std::max(0.0, start_.position.z() - radius_);
-  const double v = start_.velocity.z();
-  const double root = std::sqrt(v * v + 2 * gravity * h);
-  if (v > 0)
-    motion_duration_ = gravity > 0 ? (v + root) / gravity : kNever;
-  else
-    motion_duration_ = root - v > 0 ? 2 * h / (root - v) : kNever;
+  motion_duration_ =
+      fall_time(std::max(0.0, start_.position.z() - radius_), start_.velocity.z(), gravity);
   spin_duration_ = kNever;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/fall_time.h"
 #include "physics/numbers.h"
 
 namespace slipcheck {
@@ -30,14 +31,8 @@ SubstratePhase::SubstratePhase(const Sphere& sphere, const SubstrateContact& con
   if (!confined && (above || state.velocity.z() > 0)) {
     kind_ = Kind::flying;
     acceleration_ = -gravity * kUp;
-    // Height over the plane h + v t − g t²/2 = 0; the form without cancellation.
-    const double h = std::max(0.0, state.position.z() - sphere.radius);
-    const double v = state.velocity.z();
-    const double root = std::sqrt(v * v + 2 * gravity * h);
-    if (v > 0)
-      motion_duration_ = gravity > 0 ? (v + root) / gravity : kNever;
-    else
-      motion_duration_ = root - v > 0 ? 2 * h / (root - v) : kNever;
+    motion_duration_ =
+        fall_time(std::max(0.0, state.position.z() - sphere.radius), state.velocity.z(), gravity);
     spin_duration_ = kNever;
   } else {
     start_.position.z() = sphere.radius;

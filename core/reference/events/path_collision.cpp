@@ -5,6 +5,7 @@
 
 #include "physics/numbers.h"
 #include "physics/polynomial_roots.h"
+#include "physics/safe_root.h"
 
 namespace slipcheck {
 namespace {
@@ -23,9 +24,8 @@ double least_on(double c, double b, double horizon) {
 constexpr double kFar = 32;
 
 /// A time until which |x + v t + ½ a t²| does not fall to `near` and at which it has come so far,
-/// but for a small part; infinity where not in [0, horizon]. Since the distance never bends more
-/// than |a| towards zero, steps to the root of that bound never pass it, and near it they converge
-/// like Newton's. The distance is that of places, so that no squares of it cancel.
+/// but for a small part; infinity where not in [0, horizon]. The distance never bends more than |a|
+/// towards zero. It is that of places, so that no squares of it cancel.
 double time_to_near(const Vector3& x, const Vector3& v, const Vector3& a, double near,
                     double horizon) {
   const double bend = a.norm();
@@ -36,9 +36,8 @@ double time_to_near(const Vector3& x, const Vector3& v, const Vector3& a, double
     const double open = distance - near;
     if (open <= 1e-3 * near) return t;
     const double closing = -apart.dot(v + t * a) / distance;
-    if (bend == 0 && closing <= 0) return kNever;
-    const double root = std::sqrt(closing * closing + 2 * bend * open);
-    const double step = closing > 0 ? 2 * open / (closing + root) : (root - closing) / bend;
+    const double step = step_to_bound(open, -closing, bend);
+    if (step == kNever) return kNever;
     if (t + step == t) return t;
     t += step;
   }

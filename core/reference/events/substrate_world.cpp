@@ -6,6 +6,7 @@
 
 #include "physics/contact/collision.h"
 #include "physics/numbers.h"
+#include "physics/safe_root.h"
 #include "reference/events/cluster.h"
 #include "reference/events/path_collision.h"
 
@@ -179,9 +180,8 @@ double SubstrateWorld<Phase, Near>::collision_time(std::uint32_t i, std::uint32_
                              a.radius + b.radius, horizon);
 }
 
-/// The same where a path is not a parabola. Since gap(t + τ) >= gap − c τ − ½ B τ² with c the
-/// closing speed and B a bound of the relative acceleration, steps to the root of that bound never
-/// pass a contact. After many of them the search leaves the rest for later.
+/// The same where a path is not a parabola, by steps that never pass a contact: the gap bends by no
+/// more than the relative acceleration. After many of them the search leaves the rest for later.
 template <class Phase, class Near>
 double SubstrateWorld<Phase, Near>::least_time_to_touch(std::uint32_t i, std::uint32_t j,
                                                         double now, double horizon,
@@ -202,12 +202,10 @@ double SubstrateWorld<Phase, Near>::least_time_to_touch(std::uint32_t i, std::ui
     const double gap = distance - contact;
     const double closing = -dx.dot(at_a.velocity - at_b.velocity) / distance;
     if (gap <= touching && closing > 0) return now + t;
-    if (bound == 0 && closing <= 0) return kNever;
+    const double way = step_to_bound(std::max(gap, touching), -closing, bound);
+    if (way == kNever) return kNever;
     if (step >= kManySteps && gap > 10 * kTouching * contact) return now + t;
-    // The positive root of ½ B τ² + c τ − gap = 0.
-    const double open = std::max(gap, touching);
-    const double root = std::sqrt(closing * closing + 2 * bound * open);
-    const double next = t + (closing > 0 ? 2 * open / (closing + root) : (root - closing) / bound);
+    const double next = t + way;
     if (next == t) return closing > 0 ? now + t : kNever;
     t = next;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/stop_scope.h"
+#include "physics/fall_time.h"
 #include "physics/numbers.h"
 
 namespace slipcheck {
@@ -112,10 +113,7 @@ void ContactIntegrator::predict_landings() {
   for (std::size_t i = 0; i < landing_.size(); ++i) {
     if (state_.dynamics().modes[i].on_plane() || state_.in_contact(i)) continue;
     const double* body = state_.y.data() + i * kBody;
-    const double h = std::max(0.0, body[2]), v = body[5], g = scene.gravity;
-    const double root = std::sqrt(v * v + 2 * g * h);
-    if (v > 0 ? g > 0 : root > v)
-      landing_[i] = state_.time + (v > 0 ? (v + root) / g : 2 * h / (root - v));
+    landing_[i] = state_.time + fall_time(std::max(0.0, body[2]), body[5], scene.gravity);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/numbers.h"
+#include "physics/safe_root.h"
 
 namespace slipcheck {
 namespace {
@@ -22,9 +23,9 @@ double first_contact(double A, double omega, double start, double y, double v, d
     const double touching = 4 * kEpsilon * (std::abs(y) + std::abs(A) * (1 + std::abs(phase)));
     if (gap <= touching && closing > 0) return t;
     const double open = std::max(gap, touching);
-    const double root = std::sqrt(closing * closing + 2 * M * open);
-    if (M == 0 && closing <= 0) return kNever;
-    const double next = t + (closing > 0 ? 2 * open / (closing + root) : (root - closing) / M);
+    const double step = step_to_bound(open, -closing, M);
+    if (step == kNever) return kNever;
+    const double next = t + step;
     if (next > t) {
       t = next;
     } else if (closing > 0) {
