@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/stop_scope.h"
 #include "physics/motion/substrate_phase.h"
 #include "physics/numbers.h"
+#include "reference/events/cluster.h"
 
 namespace slipcheck {
 namespace {
@@ -270,13 +272,14 @@ void ContactState::hand_impulses_on() {
       const double gap = (body(i).position - body(j).position).norm() - contact;
       if (gap <= rest_of(i, j).gap) together.push_back({i, j});
     }
-  const auto speed = [&](const auto& pair) { return approach_speed(pair[0], pair[1]); };
-  while (!together.empty()) {
-    const auto [i, j] = *std::ranges::max_element(together, {}, speed);
-    if (!(approach_speed(i, j) > 1e-2 * rest_of(i, j).speed)) return;
-    heed_stop();
-    collide_now(i, j);
-  }
+  collide_fastest_first(
+      together, [&](const auto& pair) { return approach_speed(pair[0], pair[1]); },
+      [&](const auto& pair, std::size_t) { return 1e-2 * rest_of(pair[0], pair[1]).speed; },
+      [&](std::size_t i, std::size_t j) {
+        heed_stop();
+        collide_now(i, j);
+      },
+      std::numeric_limits<std::size_t>::max());
 }
 
 void ContactState::land_now(std::size_t i) {
