@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "physics/sphere.h"
@@ -28,12 +30,23 @@ struct Frame {
   std::optional<std::uint64_t> collisions = {};
 };
 
+/// A frame of those bodies alone that an event is about to change or has just changed. The others
+/// go on as they did.
+struct PartialFrame {
+  std::span<const std::size_t> bodies;  ///< each once
+  std::span<const BodyState> states;    ///< of these, in their order
+  std::span<const Touch> touches;       ///< of these, since the frame before
+};
+
 /// Takes the frames of a run one after the other.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
   /// `time` [s] never falls; two frames of one time are the state before and after an event.
   virtual void take(double time, const Frame& frame) = 0;
+  /// The same where a solver knows who changes: costs as much as these are, not as all bodies are.
+  /// False: all of them are wanted, and the frame comes whole.
+  virtual bool take_partial(double /*time*/, const PartialFrame& /*frame*/) { return false; }
 };
 
 }  // namespace slipcheck

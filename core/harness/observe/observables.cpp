@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "physics/frame.h"
 #include "scenario/observable_key.h"
@@ -113,13 +114,15 @@ Observables aligned(const Observables& observables, const Observables& like) {
   result.bodies.resize(like.bodies.size());
   result.pairs.reserve(like.pairs.size());
   for (const PairObservables& wanted : like.pairs) {
-    const auto found = std::find_if(
-        observables.pairs.begin(), observables.pairs.end(), [&](const PairObservables& pair) {
-          return pair.first == wanted.first && pair.second == wanted.second;
-        });
-    result.pairs.push_back(found != observables.pairs.end()
-                               ? *found
-                               : PairObservables{.first = wanted.first, .second = wanted.second});
+    const auto bodies_of = [](const PairObservables& pair) {
+      return std::pair(pair.first, pair.second);
+    };
+    const auto found =
+        std::ranges::lower_bound(observables.pairs, bodies_of(wanted), {}, bodies_of);
+    const bool is_there =
+        found != observables.pairs.end() && bodies_of(*found) == bodies_of(wanted);
+    result.pairs.push_back(
+        is_there ? *found : PairObservables{.first = wanted.first, .second = wanted.second});
   }
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reference/events/event_solver.h"
 
@@ -123,25 +124,58 @@ void Observer::take(double time, const Frame& frame) {
   const double t0 = time_, t1 = time;
   look_at_ground(t0, t1);
   for (Body& body : bodies_) body.touched = false;
-  for (const Touch& touch : frame.touches)
-    if (touch.second == kSubstrate) bodies_[static_cast<std::size_t>(touch.first)].touched = true;
+  note_substrate(frame.touches);
   note_touches(t0, t1, frame);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Body& body = bodies_[i];
-    const bool touches = touches_substrate(i, frame);
-    follow_landing(body, i, frame);
-    follow_flight(body, i, touches, t0, t1, frame);
-    follow_support(body, touches, t1, frame.bodies[i]);
-    follow_sliding(body, i, t0, t1, frame);
-    follow_stopping(body, i, t0, t1, frame);
-    body.collided_now = false;
-  }
-  settle_effective_restitution(t0, t1, frame);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) follow(i, t1, frame);
+  for (Pair& pair : pairs_) settle_effective_restitution(pair, t0, t1, frame);
   keep_frames_of_the_end();
   std::swap(before_last_, last_);
   time_before_ = t0;
   last_ = frame;
   time_ = t1;
+  now_.bodies.clear();
+}
+
+bool Observer::take_partial(double time, const PartialFrame& frame) {
+  if (!started_ || step_ > 0 || resolved_ || !scene_->motion.is_still()) return false;
+  if (now_.bodies.empty()) now_.bodies = last_.bodies;
+  for (std::size_t k = 0; k < frame.bodies.size(); ++k) {
+    now_.bodies[frame.bodies[k]] = frame.states[k];
+    bodies_[frame.bodies[k]].touched = false;
+  }
+  now_.touches.assign(frame.touches.begin(), frame.touches.end());
+  note_substrate(now_.touches);
+  note_touches(time_, time, now_);
+  for (const std::size_t i : frame.bodies) {
+    follow(i, time, now_);
+    if (const std::size_t pair = bodies_[i].last_pair; pair != kNone) settling_.push_back(pair);
+  }
+  for (const std::size_t pair : settling_)
+    settle_effective_restitution(pairs_[pair], time_, time, now_);
+  for (const std::size_t i : frame.bodies) {
+    before_last_.bodies[i] = last_.bodies[i];
+    last_.bodies[i] = now_.bodies[i];
+  }
+  time_before_ = time_;
+  time_ = time;
+  return true;
+}
+
+void Observer::note_substrate(std::span<const Touch> touches) {
+  for (const Touch& touch : touches)
+    if (touch.second == kSubstrate) bodies_[static_cast<std::size_t>(touch.first)].touched = true;
+}
+
+void Observer::follow(std::size_t i, double t1, const Frame& frame) {
+  Body& body = bodies_[i];
+  const double t0 = std::exchange(body.seen, t1);
+  const bool touches = touches_substrate(i, frame);
+  follow_landing(body, i, frame);
+  follow_flight(body, i, touches, t0, t1, frame);
+  follow_support(body, touches, t1, frame.bodies[i]);
+  follow_sliding(body, i, t0, t1, frame);
+  follow_stopping(body, i, t0, t1, frame);
+  body.collided_now = false;
 }
 
 void Observer::begin(double time, const Frame& frame) {
@@ -152,7 +186,7 @@ void Observer::begin(double time, const Frame& frame) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
     const BodyState& state = frame.bodies[i];
-    body.origin_time = time;
+    body.seen = body.origin_time = time;
     body.origin = position_over(state, ground1_);
     body.after = state;
     body.slide_end = time;

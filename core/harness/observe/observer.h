@@ -1,7 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "harness/observe/observables.h"
@@ -66,6 +70,8 @@ class Observer final : public FrameSink {
   Observer(const Scene& scene, double step, double speed_scale, bool resolved = false);
 
   void take(double time, const Frame& frame) override;
+  /// Of hard contacts on a still substrate: what happens to a body then shows in its own events.
+  bool take_partial(double time, const PartialFrame& frame) override;
 
   /// What closes slower than this is no collision [m/s].
   double weakest_collision() const { return kOfSceneSpeed * closing_scale_; }
@@ -95,12 +101,15 @@ class Observer final : public FrameSink {
   /// scene's speed it has ended.
   static constexpr double kCoupledSlip = 1e-6;
 
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
   /// The substrate at one instant.
   struct Ground {
     Vector3 position = Vector3::Zero(), velocity = Vector3::Zero();
   };
   struct Body {
     Resolution zero;
+    double seen = 0;  ///< the time of its last frame [s]
     double origin_time = 0;
     Vector3 origin = Vector3::Zero();  ///< over the substrate, as are all ways below
     bool supported = true, sliding = false, resting = false, spinning = false;
@@ -126,6 +135,7 @@ class Observer final : public FrameSink {
     double peak = 0, flight_time = kNotObserved;
     // The last collision.
     bool collided = false;
+    std::size_t last_pair = kNone;  ///< an index of pairs_
     BodyState after;
     Vector3 slip_after = Vector3::Zero();
     double collision_begin = 0, collision_height = 0;
@@ -151,6 +161,9 @@ class Observer final : public FrameSink {
   };
 
   void begin(double time, const Frame& frame);
+  void note_substrate(std::span<const Touch> touches);
+  /// What body i has done since it was last seen.
+  void follow(std::size_t i, double t1, const Frame& frame);
   void look_at_ground(double t0, double t1);
   void keep_frames_of_the_end();
   bool touches_substrate(std::size_t i, const Frame& frame) const;
@@ -168,7 +181,7 @@ class Observer final : public FrameSink {
   void follow_flight(Body& body, std::size_t i, bool touches, double t0, double t1,
                      const Frame& frame);
   void follow_landing(Body& body, std::size_t i, const Frame& frame);
-  void settle_effective_restitution(double t0, double t1, const Frame& frame);
+  void settle_effective_restitution(Pair& pair, double t0, double t1, const Frame& frame);
   /// Over the substrate: the slip of the lowest point, the centre's velocity and position.
   Vector3 slip_of(std::size_t i, const BodyState& state, const Ground& ground) const;
   double slip_speed(std::size_t i, const BodyState& state, const Ground& ground) const {
@@ -184,7 +197,7 @@ class Observer final : public FrameSink {
   /// Whether rolling friction could hold the body at rest.
   bool can_rest(std::size_t i, double time) const;
   double vertical_noise() const;
-  Pair& pair_of(int first, int second);
+  std::size_t pair_of(int first, int second);  ///< an index of pairs_
 
   const Scene* scene_;
   double step_;
@@ -201,6 +214,12 @@ class Observer final : public FrameSink {
   Ground ground0_, ground1_;  ///< at the start and at the end of the interval
   std::vector<Body> bodies_;
   std::vector<Pair> pairs_;
+  std::unordered_map<std::uint64_t, std::size_t> pair_numbers_;
+  std::vector<std::size_t> touching_;  ///< pairs that touched in the last frame
+  /// Pairs that a partial frame may settle: of its bodies, or that have just parted.
+  std::vector<std::size_t> settling_;
+  /// All bodies as of the present partial frame; none where the last frame was whole.
+  Frame now_;
 };
 
 }  // namespace slipcheck

@@ -22,20 +22,23 @@ double overlap(const Sphere& a, const BodyState& sa, const Sphere& b, const Body
 
 }  // namespace
 
-Observer::Pair& Observer::pair_of(int first, int second) {
-  for (Pair& pair : pairs_)
-    if (pair.first == first && pair.second == second) return pair;
-  Pair& pair = pairs_.emplace_back();
-  pair.first = first;
-  pair.second = second;
-  return pair;
+std::size_t Observer::pair_of(int first, int second) {
+  const std::uint64_t key = (std::uint64_t{index(first)} << 32) | index(second);
+  const auto [known, is_new] = pair_numbers_.try_emplace(key, pairs_.size());
+  if (is_new) {
+    Pair& pair = pairs_.emplace_back();
+    pair.first = first;
+    pair.second = second;
+  }
+  return known->second;
 }
 
 /// Bodies that overlap in the first frame, which have no approach.
 void Observer::begin_overlaps(double time, const Frame& frame) {
   for (const auto& [i, j, overlap] : overlapping_pairs(*scene_, frame.bodies)) {
     const BodyState &si = frame.bodies[i], &sj = frame.bodies[j];
-    Pair& pair = pair_of(static_cast<int>(i), static_cast<int>(j));
+    touching_.push_back(pair_of(static_cast<int>(i), static_cast<int>(j)));
+    Pair& pair = pairs_[touching_.back()];
     pair.touched_now = pair.colliding = pair.from_start = true;
     pair.n = (si.position - sj.position).normalized();
     pair.approach = kNotObserved;
@@ -52,21 +55,30 @@ void Observer::begin_overlaps(double time, const Frame& frame) {
 }
 
 void Observer::note_touches(double t0, double t1, const Frame& frame) {
-  for (Pair& pair : pairs_) {
-    pair.touched_before = pair.touched_now;
-    pair.touched_now = false;
+  settling_.clear();
+  for (const std::size_t k : touching_) {
+    pairs_[k].touched_before = true;
+    pairs_[k].touched_now = false;
   }
   for (const Touch& touch : frame.touches) {
     if (touch.second == kSubstrate) continue;
-    Pair& pair = pair_of(touch.first, touch.second);
+    const std::size_t number = pair_of(touch.first, touch.second);
+    Pair& pair = pairs_[number];
+    if (!pair.touched_before && !pair.touched_now) touching_.push_back(number);
     // Where its law does not act the contact has not begun anew when it acts again.
     if (touch.normal_impulse == 0)
       pair.touched_now = true;
     else
       note_collision(pair, touch, t0, t1, frame);
   }
-  for (Pair& pair : pairs_)
-    if (!pair.touched_now) pair.colliding = pair.from_start = false;
+  std::erase_if(touching_, [&](std::size_t k) {
+    Pair& pair = pairs_[k];
+    pair.touched_before = false;
+    if (pair.touched_now) return false;
+    pair.colliding = pair.from_start = false;
+    settling_.push_back(k);
+    return true;
+  });
 }
 
 bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
@@ -153,10 +165,10 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
           : kNotObserved;
   pair.effective = kNotObserved;
   // A body that collides again never shows what its earlier collision would have come to.
-  for (Pair& other : pairs_)
-    if (other.first == pair.first || other.first == pair.second || other.second == pair.first ||
-        other.second == pair.second)
-      other.awaits_rolling = false;
+  for (const std::size_t k : {i, j}) {
+    if (bodies_[k].last_pair != kNone) pairs_[bodies_[k].last_pair].awaits_rolling = false;
+    bodies_[k].last_pair = static_cast<std::size_t>(&pair - pairs_.data());
+  }
   pair.awaits_rolling = true;
   for (const auto& [k, away] :
        {std::pair{i, pair.n}, std::pair<std::size_t, Vector3>{j, -pair.n}}) {
@@ -180,28 +192,26 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
   }
 }
 
-void Observer::settle_effective_restitution(double t0, double t1, const Frame& frame) {
-  for (Pair& pair : pairs_) {
-    if (!pair.awaits_rolling || pair.colliding) continue;
-    const Body &a = bodies_[index(pair.first)], &b = bodies_[index(pair.second)];
-    if (!rolls(a) || !rolls(b)) continue;
-    const double both = std::max(a.slide_end, b.slide_end);
-    const auto velocity_then = [&](int k) -> Vector3 {
-      const std::size_t i = index(k);
-      const Body& body = bodies_[i];
-      const Vector3& now = frame.bodies[i].velocity;
-      // A slide's end is a kink; after it the body goes on as it rolls.
-      const bool kink = body.slide_end > t0;
-      if (body.slide_end == both || (kink && both >= t1)) return body.rolling_velocity;
-      if (t1 <= t0 || both <= time_before_ || both >= t1) return now;
-      const double begin = kink ? body.slide_end : t0;
-      const Vector3& before = kink ? body.rolling_velocity : last_.bodies[i].velocity;
-      return before + (both - begin) / (t1 - begin) * (now - before);
-    };
-    const Vector3 dv = velocity_then(pair.first) - velocity_then(pair.second);
-    pair.effective = pair.n.dot(dv) / pair.approach;
-    pair.awaits_rolling = false;
-  }
+void Observer::settle_effective_restitution(Pair& pair, double t0, double t1, const Frame& frame) {
+  if (!pair.awaits_rolling || pair.colliding) return;
+  const Body &a = bodies_[index(pair.first)], &b = bodies_[index(pair.second)];
+  if (!rolls(a) || !rolls(b)) return;
+  const double both = std::max(a.slide_end, b.slide_end);
+  const auto velocity_then = [&](int k) -> Vector3 {
+    const std::size_t i = index(k);
+    const Body& body = bodies_[i];
+    const Vector3& now = frame.bodies[i].velocity;
+    // A slide's end is a kink; after it the body goes on as it rolls.
+    const bool kink = body.slide_end > t0;
+    if (body.slide_end == both || (kink && both >= t1)) return body.rolling_velocity;
+    if (t1 <= t0 || both <= time_before_ || both >= t1) return now;
+    const double begin = kink ? body.slide_end : t0;
+    const Vector3& before = kink ? body.rolling_velocity : last_.bodies[i].velocity;
+    return before + (both - begin) / (t1 - begin) * (now - before);
+  };
+  const Vector3 dv = velocity_then(pair.first) - velocity_then(pair.second);
+  pair.effective = pair.n.dot(dv) / pair.approach;
+  pair.awaits_rolling = false;
 }
 
 }  // namespace slipcheck
