@@ -14,7 +14,7 @@ namespace {
 template <class Queue, PlanarFeatures kHas = PlanarFeatures{}>
 void run_events(benchmark::State& state, const Scene& scene) {
   constexpr std::size_t kWarmUp = 3;
-  PlanarWorld world(scene, scene.initial, 0, 0);
+  PlanarWorld world(scene, scene.initial, {});
   PlanarLoop<kHas> loop(world);
   EventScheduler<PlanarLoop<kHas>, Queue> scheduler(loop, 0);
   while (world.collisions() < kWarmUp * scene.bodies.size()) scheduler.step();

@@ -46,11 +46,27 @@ EventSettings event_settings(const ReferenceSettings& asked, double cut_offs = 1
   return settings;
 }
 
-PlanarSettings planar_settings(const ReferenceSettings& asked) {
+PlanarSettings planar_settings(const ReferenceSettings& asked, double cut_offs) {
   PlanarSettings settings;
   settings.most_events = asked.most_events;
   settings.general = asked.general;
+  settings.collapse_fraction *= cut_offs;
+  settings.landing_fraction *= cut_offs;
   return settings;
+}
+
+/// EventSolver would look for neighbours in cells.
+bool needs_cells(const Scene& scene) {
+  return scene.bodies.size() > EventSettings{}.most_without_cells ||
+         scene.periodic != Vector2::Zero();
+}
+
+/// Bodies go straight on from collision to collision, and the rule for collapse is the one that
+/// PlanarSolver and EventSolver share.
+bool goes_straight(const Scene& scene) {
+  return needs_cells(scene) && EventSolver::is_exact(scene) &&
+         PlanarWorld::is_planar(scene, scene.initial) &&
+         scene.collapse.model == CollapseRule::Model::slowest_rebound;
 }
 
 }  // namespace
@@ -60,9 +76,7 @@ bool has_exact_phases(const Scene& scene) {
 }
 
 bool runs_in_phases(const Scene& scene) {
-  const bool is_large =
-      scene.bodies.size() > EventSettings{}.most_without_cells || scene.periodic != Vector2::Zero();
-  return EventSolver::can_solve(scene) && (EventSolver::is_exact(scene) || is_large);
+  return EventSolver::can_solve(scene) && (EventSolver::is_exact(scene) || needs_cells(scene));
 }
 
 // --- the choice ----------------------------------------------------------------------------------
@@ -112,6 +126,7 @@ void ReferenceSolver::choose_on_plane() {
     resolved_ = made_.has_value();
   }
   phases_ = !resolved_ && runs_in_phases(scene.hard);
+  straight_ = phases_ && goes_straight(scene.hard);
   if (!stepped && !phases_ && periodic)
     throw Unsupported(
         "the integrator knows no images across a periodic plane's edges; compare.reference may be "
@@ -148,10 +163,10 @@ std::unique_ptr<Solver> ReferenceSolver::at_start(const ContactScene& scene,
     return std::make_unique<StepSolver>(
         scene, initial,
         StepSettings{.step = step_to(end, accuracy.step), .general = settings_.general});
-  if (scene.hard.box) {
-    if (resolved_) return std::make_unique<SoftBoxSolver>(scene, initial);
-    return std::make_unique<PlanarSolver>(scene.hard, initial, planar_settings(settings_));
-  }
+  if (scene.hard.box && resolved_) return std::make_unique<SoftBoxSolver>(scene, initial);
+  if (scene.hard.box || straight_)
+    return std::make_unique<PlanarSolver>(scene.hard, initial,
+                                          planar_settings(settings_, accuracy.cut_offs));
   if (phases_)
     return std::make_unique<EventSolver>(scene.hard, initial,
                                          event_settings(settings_, accuracy.cut_offs));

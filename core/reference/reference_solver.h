@@ -28,7 +28,7 @@ struct SolverAccuracy {
 /// event: hard contacts, phases from event to event (EventSolver): exact on a level, still
 /// substrate, to DrivenPhase's bound for many bodies on others. Few bodies on a tilted or moving
 /// substrate have their phases integrated (ContactSolver), as do laws without phases; collisions
-/// are instants. In a box: PlanarSolver.
+/// are instants. In a box, and for many bodies that do nothing but collide: PlanarSolver.
 /// contact: soft contacts resolved in time, to a tolerance (ContactSolver, in a box SoftBoxSolver);
 /// `automatic` takes it also for hard ones where bodies stay in contact (has_lasting_contacts()).
 /// steps: the same in steps of fixed length (StepSolver); for scenes of so many bodies that
@@ -87,6 +87,7 @@ class ReferenceSolver {
   std::optional<ContactScene> made_;
   ReferenceSettings settings_;
   bool resolved_ = false, phases_ = false;
+  bool straight_ = false;      ///< so are the phases, of many bodies
   double step_ = 0;            ///< [s]
   double collision_time_ = 0;  ///< of made_, where its contacts last [s]
 };

@@ -11,17 +11,29 @@ void reverse_bodies(Scene& scene) {
   std::ranges::reverse(scene.material);
 }
 
-void ReverseSink::take(double time, const Frame& frame) {
-  const auto last = static_cast<int>(frame.bodies.size()) - 1;
-  frame_.bodies.assign(frame.bodies.rbegin(), frame.bodies.rend());
-  frame_.touches = frame.touches;
+void ReverseSink::reverse_touches(std::span<const Touch> touches) {
+  const auto last = static_cast<int>(count_) - 1;
+  frame_.touches.assign(touches.begin(), touches.end());
   for (Touch& touch : frame_.touches) {
     touch.first = last - touch.first;
     if (touch.second == kSubstrate) continue;
     touch.second = last - touch.second;
     std::swap(touch.first, touch.second);
   }
+}
+
+void ReverseSink::take(double time, const Frame& frame) {
+  count_ = frame.bodies.size();
+  frame_.bodies.assign(frame.bodies.rbegin(), frame.bodies.rend());
+  reverse_touches(frame.touches);
   sink_.take(time, frame_);
+}
+
+bool ReverseSink::take_partial(double time, const PartialFrame& frame) {
+  bodies_.clear();
+  for (const std::size_t i : frame.bodies) bodies_.push_back(count_ - 1 - i);
+  reverse_touches(frame.touches);
+  return sink_.take_partial(time, {bodies_, frame.states, frame_.touches});
 }
 
 CollapseRule other_rule(CollapseRule rule) {

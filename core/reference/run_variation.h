@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
+#include <vector>
+
 #include "physics/frame.h"
 #include "scene/scene.h"
 
@@ -16,10 +20,15 @@ class ReverseSink final : public FrameSink {
  public:
   explicit ReverseSink(FrameSink& sink) : sink_(sink) {}
   void take(double time, const Frame& frame) override;
+  bool take_partial(double time, const PartialFrame& frame) override;
 
  private:
+  void reverse_touches(std::span<const Touch> touches);
+
   FrameSink& sink_;
   Frame frame_;
+  std::vector<std::size_t> bodies_;  ///< of a partial frame
+  std::size_t count_ = 0;            ///< of all bodies, as of the last whole frame
 };
 
 /// What a rule for collapse with a contact time is held against: the other one of the two, with the

@@ -17,8 +17,8 @@ struct RunEnd {
   Run::Until until = Run::Until::rolling;
   double time = 0;   ///< [s], for Until::time
   double limit = 0;  ///< [s]: the run has failed if it comes to this first
-  /// Of a solver in a plane: between the states that it shows [s], > 0; 0: the first and the last
-  /// alone. Others show what their events need.
+  /// Of a solver in a box or a plane: between the states that it shows [s], > 0, and nothing else;
+  /// 0: in a box the first and the last alone. Others show what their events need.
   double sample_interval = 0;
 
   /// No run goes on beyond this [s]: nothing later needs to be looked for.

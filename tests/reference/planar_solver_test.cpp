@@ -18,6 +18,7 @@ namespace slipcheck {
 namespace {
 
 constexpr double kGravity = 9.81;
+constexpr LeastSpeeds kLeast{.rebound = 1e-6, .landing = 1e-4};
 
 PairContact contact(double e, double friction = 0, double beta0 = -1) {
   return {.restitution = e, .friction = friction, .tangential_restitution = beta0};
@@ -47,7 +48,7 @@ TEST(PlanarCollision, IsTheSpatialOneInThePlane) {
     states[0].angular_velocity = {0, symmetric(), 0};
     states[1].angular_velocity = {0, symmetric(), 0};
     scene.initial = {states[0], states[1]};
-    PlanarWorld world(scene, scene.initial, 0, 0);
+    PlanarWorld world(scene, scene.initial, {});
     world.collide(0, 1, 0);
     collide(scene.pairs[0], {}, {scene.bodies[0], scene.substrate[0], states[0], false},
             {scene.bodies[1], scene.substrate[0], states[1], false});
@@ -193,7 +194,7 @@ TEST(PlanarSolver, NothingOverlapsInManyEvents) {
   const Scene gas = test::smooth_gas(300, 0.4, contact(1));
   const Scene box = test::shaken_box(50, 1, contact(0.9, 0.2, 0.3));
   for (const Scene& scene : {gas, box}) {
-    PlanarWorld world(scene, scene.initial, 1e-6, 1e-4);
+    PlanarWorld world(scene, scene.initial, kLeast);
     EventScheduler<PlanarWorld> scheduler(world, 0);
     const double first = world.energy_at(0);
     double deepest = -1;
@@ -266,7 +267,7 @@ TEST(PlanarSolver, TheSameSceneGivesTheSameBits) {
 
 TEST(PlanarSolver, BothQueuesServeTheSameEvents) {
   const Scene scene = test::shaken_box(50, 1, contact(0.9, 0.2, 0.3));
-  PlanarWorld one(scene, scene.initial, 1e-6, 1e-4), other(scene, scene.initial, 1e-6, 1e-4);
+  PlanarWorld one(scene, scene.initial, kLeast), other(scene, scene.initial, kLeast);
   EventScheduler<PlanarWorld, CalendarQueue> calendar(one, 0);
   EventScheduler<PlanarWorld, HeapQueue> heap(other, 0);
   for (int k = 0; k < 50'000; ++k) {

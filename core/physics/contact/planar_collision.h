@@ -24,12 +24,10 @@ struct PlanarImpulse {
 /// u_n < 0 [m/s] (approach) and the tangential one u_t [m/s];
 ///   P_n = −m_eff (1+e) u_n,  P_t = −κ m_eff (1+β0) u_t, capped at μ P_n.
 /// m_eff [kg] and κ (tangential_mass_ratio()) as of elastic_pair.h; a wall is infinitely heavy, so
-/// that m_eff = m and 1/κ = 1 + 1/q. The cap is L's β = min[β0, β1]. A pair that would part slower
-/// than slowest_rebound [m/s], and met slower than it, parts that fast.
-inline PlanarImpulse planar_impulse(const PairContact& contact, double mass, double kappa,
-                                    double u_n, double u_t, double slowest_rebound = 0) {
-  double e = restitution_at(contact.restitution, -u_n);
-  if (-u_n < slowest_rebound) e = slowest_rebound / -u_n;
+/// that m_eff = m and 1/κ = 1 + 1/q. The cap is L's β = min[β0, β1]. The restitution e is the
+/// contact's at this speed, or what a rule for collapse makes of it.
+inline PlanarImpulse planar_impulse(const PairContact& contact, double e, double mass, double kappa,
+                                    double u_n, double u_t) {
   PlanarImpulse impulse;
   impulse.normal = -mass * (1 + e) * u_n;
   impulse.dissipated = 0.5 * mass * (1 - e) * (1 + e) * u_n * u_n;

@@ -183,22 +183,28 @@ double PlanarWorld::exchange_impulse(std::uint32_t i, std::uint32_t j, const Pai
   const double dvx = a.vx - b.vx, dvy = a.vy - b.vy;
   const double u_n = dvx * n_x + dvy * n_y;
   if (u_n >= 0) return 0;  // rounding
-  const Sphere first{of_a.radius, of_a.mass, of_a.shape_factor};
-  const Sphere second{of_b.radius, of_b.mass, of_b.shape_factor};
+  const Sphere first{radius_of<kHas>(i), of_a.mass, of_a.shape_factor};
+  const Sphere second{radius_of<kHas>(j), of_b.mass, of_b.shape_factor};
   double u_t = 0, kappa = 0;
   if constexpr (kHas.spin) {
-    u_t = dvy * n_x - dvx * n_y - of_a.radius * of_a.spin - of_b.radius * of_b.spin;
+    u_t = dvy * n_x - dvx * n_y - first.radius * of_a.spin - second.radius * of_b.spin;
     kappa = tangential_mass_ratio(first, second);
   }
-  const bool is_slow = !has_elastic_rule() && -u_n < slowest_rebound_;
-  PlanarImpulse impulse = planar_impulse(contact, effective_mass(first, second), kappa, u_n, u_t,
-                                         is_slow ? slowest_rebound_ : 0);
+  const double slowest = least_.rebound_of(of_a.hardest_impact, of_b.hardest_impact);
+  of_a.hardest_impact = std::max(of_a.hardest_impact, -u_n);
+  of_b.hardest_impact = std::max(of_b.hardest_impact, -u_n);
+  double e = restitution_at(contact.restitution, -u_n);
+  const double judged = kHas.box && upright_ ? -u_n : e * -u_n;
+  const bool is_slow = !has_elastic_rule() && judged < slowest;
+  if (is_slow) e = slowest / -u_n;
+  PlanarImpulse impulse =
+      planar_impulse(contact, e, effective_mass(first, second), kappa, u_n, u_t);
   // That n is a unit vector but for rounding must not add up over many collisions.
   impulse.normal *= 2 - (n_x * n_x + n_y * n_y);
   if (is_slow) ++collapses_;
   PlanarVelocity v{a.vx, a.vy, of_a.spin}, w{b.vx, b.vy, of_b.spin};
-  apply(impulse, n_x, n_y, of_a.radius, of_a.mass, of_a.shape_factor, v);
-  apply(impulse, -n_x, -n_y, of_b.radius, of_b.mass, of_b.shape_factor, w);
+  apply(impulse, n_x, n_y, first.radius, of_a.mass, of_a.shape_factor, v);
+  apply(impulse, -n_x, -n_y, second.radius, of_b.mass, of_b.shape_factor, w);
   const double change_x = of_a.mass * (v.x - a.vx) + of_b.mass * (w.x - b.vx);
   const double change_y = of_a.mass * (v.y - a.vy) + of_b.mass * (w.y - b.vy);
   const double size = std::max({of_a.mass * std::sqrt(a.vx * a.vx + a.vy * a.vy),
@@ -210,6 +216,7 @@ double PlanarWorld::exchange_impulse(std::uint32_t i, std::uint32_t j, const Pai
   if constexpr (kHas.spin) of_a.spin = v.spin, of_b.spin = w.spin;
   dissipated_ += impulse.dissipated;
   ++collisions_;
+  if (sink_) note_touch(i, j, impulse);
   return -u_n;
 }
 
@@ -219,10 +226,13 @@ std::span<const std::uint32_t> PlanarWorld::collide(std::uint32_t i, std::uint32
   moved_to<kHas>(j, now);
   changed_.assign({i, j});
   const bool is_quick = is_in_quick_succession(i, now) || is_in_quick_succession(j, now);
+  const bool is_cluster = is_quick && !has_elastic_rule();
   if (is_quick) ++collapses_;
+  if (sink_) show_changed(now, !is_cluster);
   exchange_impulse<kHas>(i, j, is_quick && has_elastic_rule() ? kElastic : between(i, j));
-  if (is_quick && !has_elastic_rule()) resolve_cluster(now);
+  if (is_cluster) resolve_cluster(now);
   for (std::uint32_t k : changed_) matter_[k].last_collision = now;
+  if (sink_) show_changed(now, true);
   return changed_;
 }
 

@@ -21,12 +21,23 @@ double planar_speed_scale(const Scene& scene, std::span<const BodyState> states)
   return scale;
 }
 
+namespace {
+
+LeastSpeeds least_speeds_in_plane(const Scene& scene, std::span<const BodyState> initial,
+                                  const PlanarSettings& settings) {
+  if (!scene.box) return {.rebound_fraction = settings.collapse_fraction};
+  const double scale = planar_speed_scale(scene, initial);
+  return {.rebound = settings.collapse_fraction * scale,
+          .landing = settings.landing_fraction * scale};
+}
+
+}  // namespace
+
 PlanarSolver::PlanarSolver(const Scene& scene, std::span<const BodyState> initial,
                            const PlanarSettings& settings)
     : scene_(&scene),
       settings_(settings),
-      world_(scene, initial, settings.collapse_fraction * planar_speed_scale(scene, initial),
-             settings.landing_fraction * planar_speed_scale(scene, initial)),
+      world_(scene, initial, least_speeds_in_plane(scene, initial, settings)),
       first_energy_(world_.energy_at(0)),
       first_momentum_(world_.momentum_at(0)) {
   assert(PlanarWorld::is_planar(scene, initial));
@@ -67,12 +78,13 @@ std::vector<std::string> PlanarSolver::features() const {
   return features;
 }
 
-void PlanarSolver::show(double time, FrameSink* sink) {
-  if (!sink) return;
-  frame_.bodies.resize(world_.size());
-  for (std::size_t i = 0; i < world_.size(); ++i) frame_.bodies[i] = world_.state_at(i, time);
-  frame_.collisions = world_.collisions();
-  sink->take(time, frame_);
+/// On a plane: nothing slides, or nothing moves, as nothing else will then either.
+bool PlanarSolver::has_ended(Run::Until until) const {
+  if (until == Run::Until::time || scene_->box) return false;
+  return std::ranges::all_of(states(), [&](const BodyState& state) {
+    return state.velocity.isZero(0) &&
+           (until == Run::Until::rolling || state.angular_velocity.isZero(0));
+  });
 }
 
 SolvedRun PlanarSolver::run(const RunEnd& end, FrameSink* sink) {
@@ -95,14 +107,21 @@ SolvedRun PlanarSolver::run(Scheduler& scheduler, const RunEnd& end, FrameSink* 
   const double interval = end.sample_interval;
   double samples = interval > 0 ? std::floor(now_ / interval) : 0;
   double next_sample = now_, shown = now_;
+  world_.set_sink(scene_->box || interval > 0 ? nullptr : sink);
   run.reached = true;
-  while (true) {
+  bool goes_on = !has_ended(end.until);
+  if (!goes_on && sink) world_.show(now_, *sink);
+  while (goes_on) {
     const double next = scheduler.next_time();
     while (sink && next_sample <= std::min(next, last)) {
-      show(shown = next_sample, sink);
+      world_.show(shown = next_sample, *sink);
       next_sample = interval > 0 ? ++samples * interval : kNever;
     }
-    if (!(next <= last)) break;
+    if (!(next <= last)) {
+      if (std::isfinite(last)) now_ = last;
+      run.stop_at_limit(end.until);
+      break;
+    }
     scheduler.step();
     now_ = scheduler.now();
     ++run.events;
@@ -112,11 +131,12 @@ SolvedRun PlanarSolver::run(Scheduler& scheduler, const RunEnd& end, FrameSink* 
       break;
     }
   }
-  if (run.reached && std::isfinite(last)) now_ = last;
+  world_.set_sink(nullptr);
   run.end_time = now_;
-  if (sink && shown < now_) show(now_, sink);
+  if (sink && shown < now_) world_.show(now_, *sink);
 
   run.collisions = world_.collisions();
+  if (!scene_->box) run.events = run.collisions;  // to cross from cell to cell is none
   run.collapses = world_.collapses();
   run.contacts = world_.contacts();
   run.balance = {world_.energy_at(now_), first_energy_, world_.dissipated(), world_.work()};

@@ -15,8 +15,9 @@
 namespace slipcheck {
 
 struct PlanarSettings {
-  /// Fractions of the scene's speed: CollapseRule::Model::slowest_rebound for pairs, and for walls,
-  /// floor and lid, where a resting body would else bounce without end.
+  /// CollapseRule::Model::slowest_rebound: for pairs, of their bodies' hardest impact so far, and
+  /// in a box, as for its walls, floor and lid, where a resting body would else bounce without end,
+  /// of the scene's speed.
   double collapse_fraction = 1e-6;
   double landing_fraction = 1e-4;
   /// More events for each body and simulated second [1/s], > 0, than any rule for collapse can
@@ -34,8 +35,10 @@ class PlanarSolver final : public Solver {
   PlanarSolver(const Scene& scene, std::span<const BodyState> initial,
                const PlanarSettings& settings = {});
 
-  /// Runs from time 0 to end.time [s], or end.limit where `until` is no time, and shows `sink`,
-  /// where given, the states at 0, at every multiple of end.sample_interval, and at the end.
+  /// Runs on from now and shows `sink`, where given, the states now, at every multiple of
+  /// end.sample_interval, and at the end. On a plane, where no interval is given, also the frames
+  /// before and after each collision, partial ones if it takes them. What moves there never ceases
+  /// to: Until::rolling and Until::rest are reached at once or not at all.
   SolvedRun run(const RunEnd& end, FrameSink* sink) override;
 
   std::vector<BodyState> states() const override;
@@ -65,7 +68,7 @@ class PlanarSolver final : public Solver {
   template <class Scheduler>
   SolvedRun run(Scheduler& scheduler, const RunEnd& end, FrameSink* sink);
   void choose_loop();
-  void show(double time, FrameSink* sink);
+  bool has_ended(Run::Until until) const;
 
   const Scene* scene_;
   PlanarSettings settings_;
@@ -74,7 +77,6 @@ class PlanarSolver final : public Solver {
   double now_ = 0;
   double first_energy_;
   Vector2 first_momentum_;
-  Frame frame_;
 };
 
 /// The largest speed that bodies bring with them into a planar scene, or that its floor gives

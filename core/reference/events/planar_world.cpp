@@ -42,18 +42,19 @@ PlanarFeatures PlanarWorld::features(const Scene& scene) {
 }
 
 PlanarWorld::PlanarWorld(const Scene& scene, std::span<const BodyState> initial,
-                         double slowest_rebound, double slowest_landing)
+                         const LeastSpeeds& least)
     : scene_(&scene),
       gravity_(scene.box ? scene.gravity : 0),
       upright_(scene.box.has_value()),
-      slowest_rebound_(slowest_rebound),
-      slowest_landing_(slowest_landing),
+      least_(least),
       grid_(planar_cells(scene, initial)),
       place_(initial.size()),
+      body_at_(initial.size()),
       bodies_(initial.size()),
       matter_(initial.size()),
       radii_(initial.size()),
-      contact_square_(4 * scene.bodies.front().radius * scene.bodies.front().radius),
+      radius_(scene.bodies.front().radius),
+      contact_square_(4 * radius_ * radius_),
       around_(initial.size()) {
   if (scene.box)
     last_column_ = static_cast<std::int32_t>(std::lround(scene.box->width / grid_.width_x())) - 1;
@@ -68,7 +69,6 @@ PlanarWorld::PlanarWorld(const Scene& scene, std::span<const BodyState> initial,
     const int up = upright_ ? 2 : 1;
     body = {state.position.x(), state.position[up], state.velocity.x(), state.velocity[up], 0, {}};
     of.spin = upright_ ? -state.angular_velocity.y() : state.angular_velocity.z();
-    of.radius = scene.bodies[i].radius;
     const auto fold = [](double& coordinate, double length) {
       if (length == 0) return 0;
       const double image = std::floor(coordinate / length);
@@ -84,17 +84,18 @@ PlanarWorld::PlanarWorld(const Scene& scene, std::span<const BodyState> initial,
     of.shape_factor = scene.bodies[i].shape_factor;
     of.material = static_cast<std::uint32_t>(scene.material[i]);
     of.last_collision = -kNever;
+    of.hardest_impact = 0;
     key[i] = morton_number(static_cast<std::uint32_t>(of.ix) & 0xFFFF,
                            static_cast<std::uint32_t>(of.iy) & 0xFFFF);
   }
-  std::vector<std::uint32_t> order(initial.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return key[i]; });
-  for (std::uint32_t at = 0; at < order.size(); ++at) {
-    place_[order[at]] = at;
-    bodies_[at] = bodies[order[at]];
-    matter_[at] = matter[order[at]];
-    radii_[at] = matter_[at].radius;
+  std::iota(body_at_.begin(), body_at_.end(), 0u);
+  std::ranges::stable_sort(body_at_, {}, [&](std::uint32_t i) { return key[i]; });
+  for (std::uint32_t at = 0; at < body_at_.size(); ++at) {
+    const std::uint32_t i = body_at_[at];
+    place_[i] = at;
+    bodies_[at] = bodies[i];
+    matter_[at] = matter[i];
+    radii_[at] = scene.bodies[i].radius;
     grid_.insert(at, matter_[at].ix, matter_[at].iy);
   }
 }
@@ -103,22 +104,22 @@ void PlanarWorld::find_wall_event(std::uint32_t i, double now, double& earliest,
   const Box& box = *scene_->box;
   const Body& body = bodies_[i];
   const Matter& matter = matter_[i];
+  const double radius = radii_[i];
   const auto consider = [&](double after, Own what) {
     const double t = now + std::max(after, 0.0);
     if (t < earliest) earliest = t, own = what;
   };
-  if (matter.ix == 0 && body.vx < 0) consider((matter.radius - body.x) / body.vx, Own::left_wall);
+  if (matter.ix == 0 && body.vx < 0) consider((radius - body.x) / body.vx, Own::left_wall);
   if (matter.ix == last_column_ && body.vx > 0)
-    consider((box.width - matter.radius - body.x) / body.vx, Own::right_wall);
+    consider((box.width - radius - body.x) / body.vx, Own::right_wall);
   // In a cell that starts above its reach the floor cannot be met.
   const double A = box.floor.is_still() ? 0 : box.floor.amplitude;
-  if (matter.iy * grid_.width_y() <= A + matter.radius)
-    consider(
-        floor_contact(box.floor, now, body.y - matter.radius, body.vy, gravity_, earliest - now),
-        Own::floor);
-  if (box.lid && (matter.iy + 1) * grid_.width_y() >= *box.lid - A - matter.radius) {
+  if (matter.iy * grid_.width_y() <= A + radius)
+    consider(floor_contact(box.floor, now, body.y - radius, body.vy, gravity_, earliest - now),
+             Own::floor);
+  if (box.lid && (matter.iy + 1) * grid_.width_y() >= *box.lid - A - radius) {
     // Seen upside down the lid is a floor that things fall up to.
-    const double gap = *box.lid - matter.radius - body.y;
+    const double gap = *box.lid - radius - body.y;
     const ShakenFloor lid = box.moving_walls ? box.floor : ShakenFloor{};
     consider(lid_contact(lid, now, gap, body.vy, gravity_, earliest - now), Own::lid);
   }
@@ -148,18 +149,19 @@ BodyChange PlanarWorld::meet_wall(std::uint32_t i, double now) {
 void PlanarWorld::meet(std::uint32_t i, const Surface& surface, double now) {
   Body& body = bodies_[i];
   Matter& matter = matter_[i];
+  const double radius = radii_[i];
   const double vy = body.vy - surface.velocity;
   const double u_n = body.vx * surface.n_x + vy * surface.n_y;
   if (u_n >= 0) return;  // rounding
-  const double u_t = -body.vx * surface.n_y + vy * surface.n_x - matter.radius * matter.spin;
+  const double u_t = -body.vx * surface.n_y + vy * surface.n_x - radius * matter.spin;
   const bool collapses = has_elastic_rule() && is_in_quick_succession(i, now);
   const PairContact& contact = collapses ? kElastic : (*surface.contacts)[matter.material];
-  const bool is_slow = !has_elastic_rule() && -u_n < slowest_landing_;
+  const bool is_slow = !has_elastic_rule() && -u_n < least_.landing;
+  const double e = is_slow ? least_.landing / -u_n : restitution_at(contact.restitution, -u_n);
   const double kappa = matter.shape_factor / (1 + matter.shape_factor);
-  const PlanarImpulse impulse =
-      planar_impulse(contact, matter.mass, kappa, u_n, u_t, is_slow ? slowest_landing_ : 0);
+  const PlanarImpulse impulse = planar_impulse(contact, e, matter.mass, kappa, u_n, u_t);
   PlanarVelocity v{body.vx, body.vy, matter.spin};
-  apply(impulse, surface.n_x, surface.n_y, matter.radius, matter.mass, matter.shape_factor, v);
+  apply(impulse, surface.n_x, surface.n_y, radius, matter.mass, matter.shape_factor, v);
   body.vx = v.x, body.vy = v.y, matter.spin = v.spin;
   matter.last_collision = now;
   ++contacts_;
@@ -192,19 +194,11 @@ void PlanarWorld::resolve_cluster(double now) {
     return -(dx * (a.vx - b.vx) + dy * (a.vy - b.vy)) / std::hypot(dx, dy);
   };
   collide_cluster(
-      pairs, approach, [&](const auto&) { return slowest_rebound_; },
+      pairs, approach,
+      [&](const auto& pair) {
+        return least_.rebound_of(matter_[pair[0]].hardest_impact, matter_[pair[1]].hardest_impact);
+      },
       [&](std::uint32_t a, std::uint32_t b) { exchange_impulse<kAll>(a, b, between(a, b)); });
-}
-
-BodyState PlanarWorld::state_at(std::size_t body, double now) const {
-  const std::uint32_t i = place_[body];
-  const Body& b = bodies_[i];
-  const double dt = now - b.time;
-  const double x = b.x + b.vx * dt + matter_[i].image_x * grid_.period().x;
-  const double y = b.y + (b.vy - 0.5 * gravity_ * dt) * dt + matter_[i].image_y * grid_.period().y;
-  const double vy = b.vy - gravity_ * dt;
-  if (upright_) return {{x, 0, y}, {b.vx, 0, vy}, {0, -matter_[i].spin, 0}};
-  return {{x, y, matter_[i].radius}, {b.vx, vy, 0}, {0, 0, matter_[i].spin}};
 }
 
 double PlanarWorld::energy_at(double now) const {
@@ -213,7 +207,7 @@ double PlanarWorld::energy_at(double now) const {
     const Body& b = bodies_[i];
     const double dt = now - b.time, vy = b.vy - gravity_ * dt;
     const double y = b.y + (b.vy - 0.5 * gravity_ * dt) * dt;
-    const double rim = matter_[i].radius * matter_[i].spin;
+    const double rim = radii_[i] * matter_[i].spin;
     energy += matter_[i].mass *
               (0.5 * (b.vx * b.vx + vy * vy + matter_[i].shape_factor * rim * rim) + gravity_ * y);
   }

@@ -7,11 +7,14 @@
 #include <span>
 #include <vector>
 
+#include "physics/contact/planar_collision.h"
+#include "physics/frame.h"
 #include "physics/numbers.h"
 #include "physics/sphere.h"
 #include "reference/events/cell_grid.h"
 #include "reference/events/event_scheduler.h"
 #include "reference/events/huge_pages.h"
+#include "reference/events/least_speeds.h"
 #include "reference/events/prefetch.h"
 #include "scene/scene.h"
 
@@ -36,10 +39,10 @@ struct PlanarFeatures {
 /// spins about −y, or the substrate's own plane with spins about z.
 class PlanarWorld {
  public:
-  /// Bodies in the states `initial` at time 0. slowest_rebound and slowest_landing [m/s] are those
-  /// of CollapseRule::Model::slowest_rebound, for pairs and for walls. The scene must outlive this.
-  PlanarWorld(const Scene& scene, std::span<const BodyState> initial, double slowest_rebound,
-              double slowest_landing);
+  /// Bodies in the states `initial` at time 0. `least` is for CollapseRule::Model::slowest_rebound:
+  /// the landing is one on a wall, and in a box only a pair that also meets slower than the rebound
+  /// parts that fast. The scene must outlive this.
+  PlanarWorld(const Scene& scene, std::span<const BodyState> initial, const LeastSpeeds& least);
 
   /// Whether bodies of this scene stay in one plane in which only their collisions act on them.
   static bool is_planar(const Scene& scene, std::span<const BodyState> initial);
@@ -74,6 +77,11 @@ class PlanarWorld {
   EventPlan first_collision(std::uint32_t i, double now, double before, Neighbourhood neighbours);
 
   // --- for whoever looks on ---
+  /// Shown the frames before and after each collision of two bodies from now on, partial ones if it
+  /// takes them; maybe nobody. For a plane: in a box walls change paths too.
+  void set_sink(FrameSink* sink) { sink_ = sink; }
+  /// A frame of all bodies. On a plane they touch the substrate.
+  void show(double now, FrameSink& sink);
   /// The state of the scene's i-th body; the world has an order of its own.
   BodyState state_at(std::size_t i, double now) const;
   std::size_t collisions() const { return collisions_; }  ///< of two bodies
@@ -101,8 +109,9 @@ class PlanarWorld {
   /// What only events of the body itself ask for.
   struct alignas(64) Matter {
     double spin;
-    double radius, mass, shape_factor;
+    double mass, shape_factor;
     double last_collision;                  ///< [s]
+    double hardest_impact;                  ///< with another body so far, its normal speed [m/s]
     std::int32_t ix, iy;                    ///< cell; folded where the plane repeats itself
     std::int32_t image_x = 0, image_y = 0;  ///< periods that were folded away
     std::uint32_t material;
@@ -145,6 +154,10 @@ class PlanarWorld {
   template <PlanarFeatures kHas>
   double collision_time(std::uint32_t i, std::uint32_t j, double now,
                         const CellGrid::Shift& shift) const;
+  template <PlanarFeatures kHas>
+  double radius_of(std::uint32_t i) const {
+    return kHas.radii ? radii_[i] : radius_;
+  }
   const PairContact& between(std::uint32_t i, std::uint32_t j) const {
     const std::size_t kinds = scene_->substrate.size();
     return scene_->pairs[matter_[i].material * kinds + matter_[j].material];
@@ -170,25 +183,38 @@ class PlanarWorld {
   BodyChange meet_wall(std::uint32_t i, double now);
   void meet(std::uint32_t i, const Surface& surface, double now);
   void resolve_cluster(double now);
+  void show_changed(double now, bool is_all_known);
+  /// That the body touches the substrate; frames of the reference do not say how hard.
+  Touch substrate_touch(std::size_t i) const {
+    return {static_cast<int>(i), kSubstrate, scene_->bodies[i].mass};
+  }
+  void note_touch(std::uint32_t i, std::uint32_t j, const PlanarImpulse& impulse);
   void find_wall_event(std::uint32_t i, double now, double& earliest, Own& own) const;
 
   const Scene* scene_;
   double gravity_;
   bool upright_;  ///< the plane is (x, z)
-  double slowest_rebound_, slowest_landing_;
+  LeastSpeeds least_;
   std::int32_t last_column_ = 0;  ///< in a box
   CellGrid grid_;
-  std::vector<std::uint32_t> place_;  ///< of the scene's bodies; neighbours lie close in memory
+  std::vector<std::uint32_t> place_;    ///< of the scene's bodies; neighbours lie close in memory
+  std::vector<std::uint32_t> body_at_;  ///< the other way round
   std::vector<Body, HugePages<Body>> bodies_;
   std::vector<Matter, HugePages<Matter>> matter_;
   std::vector<double, HugePages<double>> radii_;
-  double contact_square_;  ///< of the distance at contact, where all radii are the same [m²]
+  double radius_;          ///< of all, where they are the same [m]
+  double contact_square_;  ///< of the distance at contact then [m²]
   CellGrid::Around around_;
   int moved_x_ = 0, moved_y_ = 0;  ///< of the body whose cell changed last
   std::vector<std::uint32_t> changed_;
   std::size_t collisions_ = 0, collapses_ = 0, contacts_ = 0;
   double dissipated_ = 0, work_ = 0, momentum_error_ = 0;
   Vector2 wall_impulse_ = Vector2::Zero();
+  FrameSink* sink_ = nullptr;
+  Frame frame_;
+  std::vector<std::size_t> shown_;  ///< in the last partial frame
+  std::vector<BodyState> states_;   ///< of these
+  std::vector<Touch> touches_;      ///< of two bodies in this collision
 };
 
 }  // namespace slipcheck

@@ -253,12 +253,6 @@ std::span<const std::uint32_t> SubstrateWorld<Phase, Near>::collide(std::uint32_
 }
 
 template <class Phase, class Near>
-double SubstrateWorld<Phase, Near>::slowest_rebound(std::uint32_t i, std::uint32_t j) const {
-  const double hardest = std::max(bodies_[i].hardest_impact, bodies_[j].hardest_impact);
-  return std::max(least_.rebound, least_.rebound_fraction * hardest);
-}
-
-template <class Phase, class Near>
 void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_t second,
                                                    bool elastic, double now) {
   const std::uint32_t i = changed_[first], j = changed_[second];

@@ -11,20 +11,11 @@
 #include "physics/motion/substrate_phase.h"
 #include "physics/numbers.h"
 #include "reference/events/event_scheduler.h"
+#include "reference/events/least_speeds.h"
 #include "reference/events/neighbours.h"
 #include "scene/scene.h"
 
 namespace slipcheck {
-
-/// Below which things count as over.
-struct LeastSpeeds {
-  /// A pair parts at least with this part of the largest speed at which one of the two has met
-  /// another body so far, whatever the rule for collapse: friction with the substrate can press two
-  /// bodies together for long.
-  double rebound_fraction = 0;
-  double rebound = 0;  ///< nor slower than this [m/s]
-  double landing = 0;  ///< a landing that would rebound slower does not [m/s]
-};
 
 /// Hard spheres on a substrate for EventScheduler, each in a phase with a solution of its own:
 /// SubstratePhase on a still, level plane, DrivenPhase on a tilted or moving one. Own events are
@@ -111,7 +102,9 @@ class SubstrateWorld {
     return phases_[i].at(now - bodies_[i].start);
   }
   /// At which these two part at least [m/s].
-  double slowest_rebound(std::uint32_t i, std::uint32_t j) const;
+  double slowest_rebound(std::uint32_t i, std::uint32_t j) const {
+    return least_.rebound_of(bodies_[i].hardest_impact, bodies_[j].hardest_impact);
+  }
   /// Of the bodies at two places of `changed_`, which touch, or nearly; by their law or elastic.
   void exchange_impulse(std::size_t first, std::size_t second, bool elastic, double now);
   void resolve_cluster(double now);
