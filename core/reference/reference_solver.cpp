@@ -126,7 +126,7 @@ void ReferenceSolver::choose_on_plane() {
     resolved_ = made_.has_value();
   }
   phases_ = !resolved_ && runs_in_phases(scene.hard);
-  straight_ = phases_ && goes_straight(scene.hard);
+  straight_ = phases_ && !hardens() && goes_straight(scene.hard);
   if (!stepped && !phases_ && periodic)
     throw Unsupported(
         "the integrator knows no images across a periodic plane's edges; compare.reference may be "

@@ -6,8 +6,8 @@
 
 #include "physics/contact/elastic_pair.h"
 #include "reference/forces/contact_solver.h"
+#include "scene/impact.h"
 #include "scene/ode.h"
-#include "scene/scaled_impact.h"
 
 namespace slipcheck {
 namespace {
@@ -59,6 +59,13 @@ CollisionResult InstantCollision::collide(const CollisionRule& rule, CollidingBo
   if (!(speed > rule.slowest_rebound)) return as_hard();
 
   const double mass = effective_mass(first.sphere, second.sphere);
+  if (std::holds_alternative<NoTangentialForce>(soft_.tangential) && n.z() == 0) {
+    // Nothing but the impulse along the plane, which the normal law has by itself.
+    PairContact alone{hard_.restitution};
+    if (!std::holds_alternative<double>(alone.restitution))
+      alone.restitution = impact(soft_.normal, mass, speed, soft_.end).restitution;
+    return slipcheck::collide(alone, rule, first, second);
+  }
   const ImpactScales scales = impact_scales(soft_.normal, mass, speed);
   const double fastest = std::max(surface_speed(first), surface_speed(second));
   const double time =
