@@ -9,10 +9,10 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/output.h"
 #include "app/progress_bar.h"
 #include "base/stop_scope.h"
 #include "figures/paper_figures.h"
-#include "report/charts/figure.h"
 #include "report/files/csv.h"
 #include "report/files/files.h"
 #include "report/html/figure_page.h"
@@ -56,7 +56,7 @@ int draw(const FiguresArguments& arguments) {
   fs::create_directories(directory);
 
   watch_for_interrupts();
-  std::vector<FigureOnPage> page;
+  std::vector<Chart> page;
   {
     ProgressBar bar("drawing", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
     for (const PaperFigureMaker& maker : makers) {
@@ -68,12 +68,11 @@ int draw(const FiguresArguments& arguments) {
       } catch (const Interrupted&) {
         break;
       }
-      std::string svg = figure_svg(figure.drawing, figure.name, figure.title, figure.caption);
-      write_file_atomically(directory / (figure.name + ".svg"), svg);
       write_file_atomically(directory / (figure.name + ".csv"), csv_text(figure.table));
-      page.push_back({figure.name, figure.title, figure.caption, std::move(svg)});
+      page.push_back(std::move(figure));
     }
   }
+  const ChartDrawings drawn = write_charts_if_drawn(directory, page);
   if (interrupted()) {
     if (!arguments.quiet) fmt::print(stderr, "interrupted: what had finished is kept\n");
     return kInterrupted;
@@ -81,7 +80,7 @@ int draw(const FiguresArguments& arguments) {
   // The page shows all figures; a few of them do not replace it.
   if (!arguments.only.empty()) return kWithinTolerance;
   const fs::path index = directory / "index.html";
-  write_file_atomically(index, figure_page(page, kPaperFiguresIntroduction,
+  write_file_atomically(index, figure_page(page, drawn, kPaperFiguresIntroduction,
                                            "slipcheck figures " + arguments.directory));
   if (!arguments.quiet) fmt::print("{}\n", index.string());
   return kWithinTolerance;

@@ -39,6 +39,14 @@ void write_json(const std::string& path, const std::function<std::string()>& tex
     write_file_atomically(path, text());
 }
 
+ChartDrawings write_charts_if_drawn(const fs::path& folder, const std::vector<Chart>& charts) {
+  ChartDrawings drawings = draw_charts(charts);
+  write_charts(folder, charts, drawings, false);
+  if (!drawings.trouble.empty())
+    fmt::print(stderr, "slipcheck: without some charts: {}\n", drawings.trouble);
+  return drawings;
+}
+
 TableStyle table_style(bool all) {
   TableStyle style;
   style.colour = is_plain_terminal(STDOUT_FILENO);

@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
+#include "report/charts/gnuplot.h"
 #include "report/terminal/table_style.h"
 
 namespace slipcheck {
@@ -14,6 +16,11 @@ void check_output(const std::string& option, const std::filesystem::path& path, 
 
 /// Writes what --json asks for: nothing without a path, - to stdout.
 void write_json(const std::string& path, const std::function<std::string()>& text);
+
+/// Draws charts into a folder beside other results: why some are missing is told on stderr, and is
+/// no failure. Throws WriteFailure.
+ChartDrawings write_charts_if_drawn(const std::filesystem::path& folder,
+                                    const std::vector<Chart>& charts);
 
 /// How tables look on stdout, 100 columns wide where it is no terminal. `all`: with what is else
 /// left out.

@@ -13,7 +13,7 @@
 #include "app/load_files.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
-#include "report/charts/precision_charts.h"
+#include "report/charts/report_charts.h"
 #include "report/files/files.h"
 #include "report/files/precision_csv.h"
 #include "report/html/report_page.h"
@@ -49,13 +49,12 @@ void write_folder(const fs::path& directory, const std::vector<PrecisionScene>& 
   write_file_atomically(directory / "precision.json", json_of(scenes, grid).dump() + "\n");
   write_file_atomically(directory / "precision.csv", precision_csv(scenes));
   write_file_atomically(directory / "convergence.csv", convergence_csv(scenes));
-  for (const FigureOnPage& figure : precision_charts(scenes))
-    write_file_atomically(directory / (figure.name + ".svg"), figure.svg);
   ReportContent content;
   content.context = context();
   content.commands = {command};
   content.precision = scenes;
   write_file_atomically(directory / "precision.html", report_page(content));
+  write_charts_if_drawn(directory, report_charts(content, ChartExtent::all).all());
 }
 
 int measure(PrecisionArguments& arguments) {

@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "app/output.h"
-#include "report/charts/gnuplot_charts.h"
+#include "report/charts/gnuplot.h"
+#include "report/charts/report_charts.h"
 #include "report/files/extended_xyz.h"
 #include "report/files/file_stem.h"
 #include "report/files/files.h"
@@ -89,7 +91,13 @@ constexpr Writer kWriters[] = {
        write_motions(folder, content.scenes, vtk_files_of);
      }},
     {"--svg", "Write a folder of charts for papers, by gnuplot, with data and scripts",
-     &ResultOutputs::svg, nullptr, write_gnuplot_charts},
+     &ResultOutputs::svg, nullptr,
+     [](const auto& folder, const auto& content) {
+       const std::vector<Chart> charts = report_charts(content, ChartExtent::all).all();
+       const ChartDrawings drawings = draw_charts(charts);
+       if (!drawings.trouble.empty()) throw std::runtime_error(drawings.trouble);
+       write_charts(folder, charts, drawings, true);
+     }},
 };
 
 }  // namespace
@@ -103,7 +111,7 @@ void add_result_outputs(CLI::App& command, ResultOutputs& outputs, const std::st
     command.add_option(writer.path == &ResultOutputs::html ? page_option : writer.option,
                        outputs.*writer.path, writer.about);
   command.add_flag("--without-script", outputs.without_script,
-                   "The page has its tables and drawings, but no charts and no replay");
+                   "The page has its tables and drawings, charts that stand still, and no replay");
   command.add_flag("--allow-undecided", outputs.allow_undecided,
                    "A tolerance by which nothing can be judged is no failure");
 }

@@ -15,7 +15,7 @@
 #include "app/load_files.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
-#include "report/charts/stability_charts.h"
+#include "report/charts/report_charts.h"
 #include "report/files/files.h"
 #include "report/files/stability_csv.h"
 #include "report/html/report_page.h"
@@ -64,8 +64,6 @@ void write_folder(const fs::path& directory, const StabilityArguments& arguments
   if (!limits.limits.empty())
     write_file_atomically(directory / "limits.csv", limits_csv(limits.limits));
   if (!limits.maps.empty()) write_file_atomically(directory / "maps.csv", maps_csv(limits.maps));
-  for (const FigureOnPage& figure : stability_charts(cases, limits))
-    write_file_atomically(directory / (figure.name + ".svg"), figure.svg);
   ReportContent content;
   content.context = context();
   content.commands = {command};
@@ -73,6 +71,7 @@ void write_folder(const fs::path& directory, const StabilityArguments& arguments
   content.limits = limits;
   content.criteria = arguments.grid.criteria;
   write_file_atomically(directory / "stability.html", report_page(content));
+  write_charts_if_drawn(directory, report_charts(content, ChartExtent::all).all());
 }
 
 StabilityResults run_all(StabilityArguments& arguments, std::vector<Scenario> cases) {

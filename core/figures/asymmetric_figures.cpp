@@ -29,10 +29,10 @@ struct SphereQuantity {
 };
 
 /// One sphere's quantity over v_j/v_i by all ways to reckon it; `table` gets what is drawn.
-LineChart chart_of(const SphereQuantity& quantity, std::size_t k, char letter, Table& table) {
+Panel chart_of(const SphereQuantity& quantity, std::size_t k, char letter, Table& table) {
   const AsymmetricCollisions& all = asymmetric_collisions();
   const std::string unit = quantity.unit.empty() ? "" : " [" + quantity.unit + "]";
-  LineChart chart;
+  Panel chart;
   chart.title = fmt::format("({}) {} of sphere {}", letter, quantity.name, kBodies[k]);
   chart.x = {"v_j/v_i", false, -1.05, 1};
   chart.y = {fmt::format("{}_{}{}", quantity.name, kBodies[k], unit)};
@@ -132,12 +132,12 @@ PaperFigure figure_k8() {
     const double sum = before[0] + before[1];
     return sum > 0 ? (before[k] - surface) / sum : kNotObserved;
   };
-  LineChart c_i = chart_of(share, 0, 'c', figure.table);
-  LineChart c_j = chart_of(share, 1, 'd', figure.table);
+  Panel c_i = chart_of(share, 0, 'c', figure.table);
+  Panel c_j = chart_of(share, 1, 'd', figure.table);
   c_i.y.low = c_j.y.low = -0.005;
   c_i.y.high = c_j.y.high = 0.15;
-  figure.drawing.panels = {chart_of(slip, 0, 'a', figure.table),
-                           chart_of(slip, 1, 'b', figure.table), c_i, c_j};
+  figure.panels = {chart_of(slip, 0, 'a', figure.table), chart_of(slip, 1, 'b', figure.table), c_i,
+                   c_j};
   return figure;
 }
 
@@ -156,11 +156,10 @@ PaperFigure figure_k9() {
                             [](const AfterCollision& a) { return a.sliding_time; }};
   const SphereQuantity way{"s", "mm", 1e-3, "sliding_distance",
                            [](const AfterCollision& a) { return std::abs(a.sliding_distance); }};
-  LineChart s_i = chart_of(way, 0, 'c', figure.table);
+  Panel s_i = chart_of(way, 0, 'c', figure.table);
   s_i.marks.push_back({returning, "(61)"});
-  figure.drawing.panels = {chart_of(time, 0, 'a', figure.table),
-                           chart_of(time, 1, 'b', figure.table), s_i,
-                           chart_of(way, 1, 'd', figure.table)};
+  figure.panels = {chart_of(time, 0, 'a', figure.table), chart_of(time, 1, 'b', figure.table), s_i,
+                   chart_of(way, 1, 'd', figure.table)};
   return figure;
 }
 
@@ -173,8 +172,8 @@ PaperFigure figure_k10() {
       "of the collision itself.");
   const SphereQuantity rolling{"v^s", "cm/s", kCentimetre, "rolling_velocity.x",
                                [](const AfterCollision& a) { return a.rolling_velocity; }};
-  figure.drawing.panels = {chart_of(rolling, 0, 'a', figure.table),
-                           chart_of(rolling, 1, 'b', figure.table)};
+  figure.panels = {chart_of(rolling, 0, 'a', figure.table),
+                   chart_of(rolling, 1, 'b', figure.table)};
 
   const AsymmetricCollisions& all = asymmetric_collisions();
   const HeadOnCollision rule{steel_sphere().inverse_shape_factor(), SteelPair{}.restitution, 0};
@@ -199,7 +198,7 @@ PaperFigure figure_k10() {
     figure.table.add(symbol + " reference free [-]", free);
     figure.table.add(symbol + " residual held [-]", difference(held, expected));
     figure.table.add(symbol + " residual free [-]", difference(free, expected));
-    LineChart chart;
+    Panel chart;
     chart.title = fmt::format("({}) {}", letter, name);
     chart.x = {"v_j/v_i", false, -1.05, 1};
     chart.y = std::move(axis);
@@ -208,15 +207,15 @@ PaperFigure figure_k10() {
                     {"", kFreeReference, all.ratio, free, 2, 1}};
     return chart;
   };
-  LineChart effective =
+  Panel effective =
       add('c', "effective restitution", "e_eff", "i-j.effective_restitution", closed, {"e_{eff}"});
   figure.table.add("e_eff with friction on the pressed sphere [-]", pressed);
   effective.curves.push_back(
       {"(c): with friction on the pressed sphere", {Ink::black, Line::dashed}, all.ratio, pressed});
-  figure.drawing.panels.push_back(effective);
-  figure.drawing.panels.push_back(add('d', "restitution of the collision", "e_n", "i-j.restitution",
-                                      std::vector<double>(all.ratio.size(), rule.restitution),
-                                      {"e_n", false, 0.895, 0.905}));
+  figure.panels.push_back(effective);
+  figure.panels.push_back(add('d', "restitution of the collision", "e_n", "i-j.restitution",
+                              std::vector<double>(all.ratio.size(), rule.restitution),
+                              {"e_n", false, 0.895, 0.905}));
   return figure;
 }
 
@@ -229,9 +228,9 @@ PaperFigure figure_k11() {
   SphereQuantity momentum{"Δp", "cm/s", kCentimetre, "momentum_change_sliding",
                           [](const AfterCollision& a) { return a.momentum_change; }};
   momentum.factor = {-1, 1};  // observed along the line away from the other sphere
-  figure.drawing.panels = {
-      chart_of(energy, 0, 'a', figure.table), chart_of(energy, 1, 'b', figure.table),
-      chart_of(momentum, 0, 'c', figure.table), chart_of(momentum, 1, 'd', figure.table)};
+  figure.panels = {chart_of(energy, 0, 'a', figure.table), chart_of(energy, 1, 'b', figure.table),
+                   chart_of(momentum, 0, 'c', figure.table),
+                   chart_of(momentum, 1, 'd', figure.table)};
   return figure;
 }
 

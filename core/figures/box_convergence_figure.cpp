@@ -19,7 +19,7 @@ double order(const std::vector<double>& x, const std::vector<double>& y) {
   return std::log(y[3] / y[0]) / std::log(x[3] / x[0]);
 }
 
-LineChart trajectory_chart(Table& table, std::string& orders) {
+Panel trajectory_chart(Table& table, std::string& orders) {
   const std::vector<double> times = logarithmically_spaced(1e-7, 1e-4, 10);
   const TrajectoriesApart smooth = trajectories_apart(0, times);
   const TrajectoriesApart rough = trajectories_apart(kConvergenceFriction, times);
@@ -37,11 +37,9 @@ LineChart trajectory_chart(Table& table, std::string& orders) {
     return Curve{
         "", {Ink::grey, Line::dashed}, ends, {seen[0], seen[0] * times.back() / times.front()}};
   };
-  LineChart chart{"(a) trajectories after 16 ms",
-                  {"t_{col} [s]", true, 0.7e-7, 1.4e-4},
-                  {"Δr [m], Δv [m/s]", true},
-                  {},
-                  {}};
+  Panel chart{"(a) trajectories after 16 ms",
+              {"t_{col} [s]", true, 0.7e-7, 1.4e-4},
+              {"Δr [m], Δv [m/s]", true}};
   chart.curves = {
       {"slope 1", {Ink::grey, Line::dashed}, {}, {}},
       first_order(smooth.position),
@@ -63,10 +61,9 @@ struct Averages {
 
 /// One of H, K, R over t_col; `worst`: how many standard errors of both together a point with
 /// t_col <= `few` [s] is off at most.
-LineChart average_chart(const Averages& all, BlockedMean BoxObservables::*what, double unit,
-                        const std::string& title, const std::string& name,
-                        const std::string& unit_name, bool in_legend, double few, double& worst,
-                        Table& table) {
+Panel average_chart(const Averages& all, BlockedMean BoxObservables::*what, double unit,
+                    const std::string& title, const std::string& name, const std::string& unit_name,
+                    bool in_legend, double few, double& worst, Table& table) {
   const BlockedMean& exact = all.event.*what;
   std::vector<double> mean, error;
   for (std::size_t k = 0; k < all.times.size(); ++k) {
@@ -86,11 +83,9 @@ LineChart average_chart(const Averages& all, BlockedMean BoxObservables::*what, 
             std::vector<double>(mean.size(), band));
 
   const std::vector<double> ends = {0.7 * all.ratios.front(), 1.4 * all.ratios.back()};
-  LineChart chart{title,
-                  {"t_{col}/t_E [-]", true, ends[0], ends[1]},
-                  {fmt::format("{} [{}]", name, unit_name)},
-                  {},
-                  {}};
+  Panel chart{title,
+              {"t_{col}/t_E [-]", true, ends[0], ends[1]},
+              {fmt::format("{} [{}]", name, unit_name)}};
   chart.curves = {{in_legend ? "event driven" : "", {Ink::black, Line::solid}, ends, {line, line}},
                   {in_legend ? "± standard error" : "",
                    {Ink::black, Line::dotted},
@@ -121,7 +116,7 @@ PaperFigure figure_lb() {
   figure.title = "Event driven against contacts that last";
   std::string orders;
   Table shorter;  // of the averages, with fewer rows
-  const LineChart trajectories = trajectory_chart(figure.table, orders);
+  const Panel trajectories = trajectory_chart(figure.table, orders);
   const EventMeans exact = event.get();
   all.event = exact.seen;
   for (std::future<BoxObservables>& run : runs) all.contact.push_back(run.get());
@@ -129,7 +124,7 @@ PaperFigure figure_lb() {
   shorter.add("t_col of averages [s]", all.times);
   shorter.add("t_col/t_E [-]", all.ratios);
   double worst = 0;
-  figure.drawing.panels = {
+  figure.panels = {
       trajectories,
       average_chart(all, &BoxObservables::height, 1e-3, "(b) height", "H", "mm", true, kFew, worst,
                     shorter),

@@ -48,10 +48,10 @@ struct Exponents {
   }
 };
 
-LineChart exponent_chart(const std::string& title, const AxisSpec& x, const AxisSpec& y,
-                         const std::vector<double>& at, const Exponents& seen,
-                         const double (&papers)[kSize], bool in_legend) {
-  LineChart chart{title, x, y, {}, {}};
+Panel exponent_chart(const std::string& title, const AxisSpec& x, const AxisSpec& y,
+                     const std::vector<double>& at, const Exponents& seen,
+                     const double (&papers)[kSize], bool in_legend) {
+  Panel chart{title, x, y};
   const std::vector<double> paper(papers, papers + kSize);
   chart.curves = {
       {in_legend ? "paper" : "", {Ink::black, Line::dashed, Marker::square}, at, paper},
@@ -74,8 +74,8 @@ PaperFigure figure_l13() {
   const std::vector<double> count(kCounts, kCounts + kSize);
   std::vector<double> speed;
   for (double amplitude : kAmplitudes) speed.push_back(warrs_box(1, amplitude).speed);
-  LineChart a{"(a) H over V", {"V [m/s]", true, 0.13, 0.8}, {"H [mm]", true}, {}, {}};
-  LineChart b{"(b) H over N", {"N [-]", true, 22, 110}, {"H [mm]", true}, {}, {}};
+  Panel a{"(a) H over V", {"V [m/s]", true, 0.13, 0.8}, {"H [mm]", true}};
+  Panel b{"(b) H over N", {"N [-]", true, 22, 110}, {"H [mm]", true}};
   Exponents delta, nu;
   std::vector<std::vector<double>> height(kSize), error(kSize);  // by speed
   for (std::size_t n = 0; n < kSize; ++n) {
@@ -116,12 +116,11 @@ PaperFigure figure_l13() {
   figure.table.add("standard error of nu [-]", nu.error);
   figure.table.add("nu of the paper [-]", {kPapersNu, kPapersNu + kSize});
 
-  figure.drawing.panels = {
-      a, b,
-      exponent_chart("(c) exponents of V", {"N [-]", true, 22, 110}, {"δ [-]", false, 1.3, 1.8},
-                     count, delta, kPapersDelta, true),
-      exponent_chart("(d) exponents of 1/N", {"V [m/s]", true, 0.13, 0.8}, {"ν [-]", false, 0.4, 1},
-                     speed, nu, kPapersNu, false)};
+  figure.panels = {a, b,
+                   exponent_chart("(c) exponents of V", {"N [-]", true, 22, 110},
+                                  {"δ [-]", false, 1.3, 1.8}, count, delta, kPapersDelta, true),
+                   exponent_chart("(d) exponents of 1/N", {"V [m/s]", true, 0.13, 0.8},
+                                  {"ν [-]", false, 0.4, 1}, speed, nu, kPapersNu, false)};
   figure.caption = fmt::format(
       "Steel spheres (d_0 = 5 mm) in a box of 165 mm at f = 50 Hz, as Warr et al., Phys. Rev. E "
       "52, 5583 (1995), have them; chosen here: all contacts with e = 0.92, μ = 0.1, β_0 = 0, and "

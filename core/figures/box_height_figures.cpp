@@ -61,8 +61,8 @@ PaperFigure height_figure(const std::string& name, const std::string& title,
   figure.title = title;
   figure.table.add("V [m/s]", speed);
   const AxisSpec axis{"V [m/s]", true, 0.25, 6};
-  LineChart a{"(a) height of the centre of mass", axis, {"H [mm]", true}, {}, {}};
-  LineChart b{"(b) over the fit for V ≥ 1 m/s", axis, {"H/(c V^δ) [-]"}, {}, {}};
+  Panel a{"(a) height of the centre of mass", axis, {"H [mm]", true}};
+  Panel b{"(b) over the fit for V ≥ 1 m/s", axis, {"H/(c V^δ) [-]"}};
   std::string exponents;
   for (std::size_t n = 0; n < kinds.size(); ++n) {
     const Kind& kind = kinds[n];
@@ -102,7 +102,7 @@ PaperFigure height_figure(const std::string& name, const std::string& title,
                     whole.text(), kinds.size() > 1 ? " (" + kind.label + ")" : "");
   }
   figure.table.add("delta of the paper [-]", std::vector<double>(speed.size(), papers));
-  figure.drawing.panels = {a, b};
+  figure.panels = {a, b};
   figure.caption = fmt::format(
       "50 spheres in a box 10 d_0 wide (d_0 = 1 mm, f = 100 Hz), {}. H is the height of the centre "
       "of mass over that at rest, at phase zero; bars are standard errors. (a) Dashed: H = c V^δ "

@@ -76,9 +76,8 @@ PaperFigure figure_l2() {
   };
   const std::vector<double> psi_1 = equally_spaced(0, 4, 81);
   figure.table.add("Psi_1 [-]", psi_1);
-  LineChart a{
-      "(a) one collision", {"Ψ_1 = −u_t/u_n [-]", false, 0, 4}, {"Ψ_2 = −u_t'/u_n [-]"}, {}, {}};
-  LineChart b{"(b) performed less derived", {"Ψ_1 [-]", false, 0, 4}, {"10^{12} ΔΨ_2 [-]"}, {}, {}};
+  Panel a{"(a) one collision", {"Ψ_1 = −u_t/u_n [-]", false, 0, 4}, {"Ψ_2 = −u_t'/u_n [-]"}};
+  Panel b{"(b) performed less derived", {"Ψ_1 [-]", false, 0, 4}, {"10^{12} ΔΨ_2 [-]"}};
   b.curves.push_back({"", {Ink::grey, Line::dotted}, {0, 4}, {0, 0}});
   std::mt19937_64 random(1995);
   for (const Shown& shown : all) {
@@ -103,7 +102,7 @@ PaperFigure figure_l2() {
         {shown.label, {shown.ink, Line::none, shown.marker}, psi_1, performed, 2, 0});
     b.curves.push_back({"", {shown.ink, Line::none, shown.marker}, psi_1, scaled(residual, 1e12)});
   }
-  figure.drawing.panels = {a, b};
+  figure.panels = {a, b};
   figure.caption =
       "Two equal solid spheres (q = 2/5, e = 0.9) that meet with the relative velocity u_n < 0 "
       "along the line of their centres and u_t across it at the contact point, in a direction and "

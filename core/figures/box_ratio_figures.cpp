@@ -75,8 +75,8 @@ PaperFigure ratio_figure(const Sweep& sweep) {
   figure.name = fmt::format("L{}", sweep.number);
   figure.title = sweep.title;
   figure.table.add(fmt::format("{} [-]", sweep.symbol), sweep.values);
-  LineChart a{"(a) energies of translation and rotation", sweep.axis, {"K/R [-]", true}, {}, {}};
-  LineChart b{"(b) over (15)", sweep.axis, {"(K/R)/(15) [-]", false, 0.5, 2.1}, {}, {}};
+  Panel a{"(a) energies of translation and rotation", sweep.axis, {"K/R [-]", true}};
+  Panel b{"(b) over (15)", sweep.axis, {"(K/R)/(15) [-]", false, 0.5, 2.1}};
   a.curves = {{"(15)", kFormula15, fine, fine_15}, {"molecular chaos", kChaos, fine, fine_chaos}};
   b.curves = {{"", kChaos, fine, fine_quotient},
               {"the paper's 1.3 ± 0.2",
@@ -109,7 +109,7 @@ PaperFigure ratio_figure(const Sweep& sweep) {
   figure.table.add("K/R (15) [-]", by_15);
   figure.table.add("K/R molecular chaos [-]", by_chaos);
   figure.table.add("K/R molecular chaos, all stick [-]", by_sticking);
-  figure.drawing.panels = {a, b};
+  figure.panels = {a, b};
   std::vector<double> over_chaos;
   for (std::size_t k = 0; k < by_chaos.size(); ++k)
     over_chaos.push_back(smooth[k].ratio / by_chaos[k]);

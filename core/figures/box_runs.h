@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/observe/blocking.h"
-#include "report/charts/line_chart.h"
+#include "report/charts/chart.h"
 #include "scene/scene.h"
 
 namespace slipcheck {

@@ -135,10 +135,10 @@ PaperFigure figure_k5() {
     return Curve{"", {ink, Line::none, marker}, in_t_col, y, skip, first};
   };
   const AxisSpec time{"t/t_{col}", false, 0, 1.1};
-  LineChart overlap_chart{"(a) overlap", time, {"ξ [µm]", false, 0}, {}, {}};
+  Panel overlap_chart{"(a) overlap", time, {"ξ [µm]", false, 0}};
   overlap_chart.curves = {{kClosedFormLabel, kClosedForm, in_t_col, overlap},
                           {kReferenceLabel, kReference, in_t_col, seen.overlap, skip, first}};
-  LineChart velocities{"(b) velocities of sphere i", time, {"velocity [cm/s]"}, {}, {}};
+  Panel velocities{"(b) velocities of sphere i", time, {"velocity [cm/s]"}};
   velocities.curves = {{"", {Ink::blue, Line::solid}, in_t_col, v},
                        {"", {Ink::green, Line::dashed}, in_t_col, rolling},
                        {"", {Ink::vermilion, Line::dash_dot}, in_t_col, slip},
@@ -146,8 +146,7 @@ PaperFigure figure_k5() {
                        points(Ink::green, Marker::square, seen.surface),
                        points(Ink::vermilion, Marker::triangle, seen.slip)};
   for (const Curve& entry : velocity_legend()) velocities.curves.push_back(entry);
-  LineChart onset_chart{
-      "(c) onset of sliding, e_n = 1", {"t [ns]", false, 0, 60}, {"u_i [µm/s]"}, {}, {}};
+  Panel onset_chart{"(c) onset of sliding, e_n = 1", {"t [ns]", false, 0, 60}, {"u_i [µm/s]"}};
   onset_chart.curves = {{"", {Ink::blue, Line::solid}, in_ns, scaled(slip_onset, 1e4)},
                         {"(c): spheres without substrate",
                          {Ink::grey, Line::dotted},
@@ -156,12 +155,12 @@ PaperFigure figure_k5() {
                         {"", kReference, in_ns, scaled(seen_elastic.slip, 1e4)}};
   onset_chart.marks = {{without_damping.onset.time / 1e-9, "t_{min}", true},
                        {0.5 * without_damping.onset.time / 1e-9, "printed", true}};
-  LineChart added{"(d) added by the substrate's friction", time, {"residual [µm/s]"}, {}, {}};
+  Panel added{"(d) added by the substrate's friction", time, {"residual [µm/s]"}};
   added.curves = {{"", {Ink::blue, Line::solid}, in_t_col, braking},
                   {"", {Ink::green, Line::dashed}, in_t_col, turning},
                   points(Ink::blue, Marker::circle, added_v),
                   points(Ink::green, Marker::square, added_surface)};
-  figure.drawing.panels = {overlap_chart, velocities, onset_chart, added};
+  figure.panels = {overlap_chart, velocities, onset_chart, added};
   return figure;
 }
 

@@ -70,22 +70,18 @@ PaperFigure figure_k12() {
   PaperFigure figure;
   figure.name = "K12";
   figure.title = "Effective restitution in a gas that rolls and slides";
-  LineChart a{"(a) effective restitution",
-              {"l/s [-], mean free path over sliding distance", true},
-              {"e_{eff}", false, 0.3, 1.0},
-              {},
-              {}};
-  LineChart b{"(b) slides that nothing interrupted",
-              {"l/s [-], mean free path over sliding distance", true},
-              {"share", false, 0, 1.05},
-              {},
-              {}};
+  Panel a{"(a) effective restitution",
+          {"l/s [-], mean free path over sliding distance", true},
+          {"e_{eff}", false, 0.3, 1.0}};
+  Panel b{"(b) slides that nothing interrupted",
+          {"l/s [-], mean free path over sliding distance", true},
+          {"share", false, 0, 1.05}};
   std::vector<double> fraction, ratio, effective, error, isolated, after, path, way, share;
   for (const Density& density : kDensities) {
     const Scene scene = rolling_gas(density.area_fraction);
     GasRestitution seen(scene, kCollisions, 1e-9 * kSpeed);
     EventSolver(scene, scene.initial).run(until_time(density.time), &seen);
-    Curve gas{fmt::format("area fraction {:g}", density.area_fraction), density.look, {}, {}};
+    Curve gas{fmt::format("area fraction {:g}", density.area_fraction), density.look};
     Curve alone = gas;
     alone.label.clear();
     Curve finished = alone;
@@ -115,13 +111,13 @@ PaperFigure figure_k12() {
                       ends,
                       {head_on.effective_restitution(), head_on.effective_restitution()}});
   // Each of the two travels s, and meets the next body after l in the mean.
-  Curve poisson{"e^{−2s/l}", {Ink::black, Line::solid}, {}, {}};
+  Curve poisson{"e^{−2s/l}", {Ink::black, Line::solid}};
   for (double x = ends[0]; x <= ends[1]; x *= 1.1) {
     poisson.x.push_back(x);
     poisson.y.push_back(std::exp(-2 / x));
   }
   b.curves.push_back(poisson);
-  figure.drawing.panels = {a, b};
+  figure.panels = {a, b};
   Table& table = figure.table;
   table.add("area fraction [-]", fraction);
   table.add("l/s [-]", ratio);

@@ -138,18 +138,17 @@ PaperFigure figure_b1() {
   table.add("residual even in v - series second order [-]", series_residual);
 
   const Look integrated{Ink::blue, Line::solid};
-  LineChart a{"(a) ε^N of ice", {"v [cm/s]", true, 0.01, 10}, {"ε^N", false, 0, 1}, {}, {}};
+  Panel a{"(a) ε^N of ice", {"v [cm/s]", true, 0.01, 10}, {"ε^N", false, 0, 1}};
   a.curves = {{"Bridges, Hatzes and Lin, 0.32 v^{−0.234}", {Ink::black, Line::dashed}, cm_s, data},
               {"integrated, A fitted evenly in v", integrated, cm_s, curve},
               {"integrated, A fitted evenly in ln v", {Ink::green, Line::dashed}, cm_s, other},
               {"series, first order", {Ink::grey, Line::dotted}, cm_s, first},
               {"series, second order", {Ink::vermilion, Line::dash_dot}, cm_s, second}};
-  LineChart b{
-      "(b) small dissipation", {"v [cm/s]", true, 1e-10, 10}, {"1 − ε^N", true, 5e-3, 2}, {}, {}};
+  Panel b{"(b) small dissipation", {"v [cm/s]", true, 1e-10, 10}, {"1 − ε^N", true, 5e-3, 2}};
   b.curves = {{"", integrated, cm_s, lost},
               {"", {Ink::grey, Line::dotted}, cm_s, lost_first},
               {"", {Ink::vermilion, Line::dash_dot}, cm_s, lost_second}};
-  figure.drawing.panels = {a, b};
+  figure.panels = {a, b};
   return figure;
 }
 

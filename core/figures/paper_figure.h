@@ -1,19 +1,14 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "report/charts/figure.h"
+#include "report/charts/chart.h"
 #include "report/files/csv.h"
 
 namespace slipcheck {
 
-/// A figure of one of the papers, computed.
-struct PaperFigure {
-  std::string name;     ///< "K5"
-  std::string title;    ///< as plot_text.h
-  std::string caption;  ///< what is shown, with which parameters
-  FigureDrawing drawing;
+/// A figure of one of the papers, computed; its name is "K5".
+struct PaperFigure : Chart {
   Table table;  ///< every number that is drawn, and the residuals
 };
 

@@ -90,7 +90,7 @@ PaperFigure figure_k6() {
 
   const AxisSpec time{"t [ms]", false, -4, 36};
   const ChartMark end{after.sliding_time / 1e-3, "t^s"};
-  LineChart a{"(a) velocities of sphere i", time, {"velocity [cm/s]"}, {}, {}};
+  Panel a{"(a) velocities of sphere i", time, {"velocity [cm/s]"}};
   const std::size_t skip = 3;
   a.curves = {{"", {Ink::blue, Line::solid}, in_ms, v},
               {"", {Ink::green, Line::dashed}, in_ms, surface},
@@ -99,12 +99,12 @@ PaperFigure figure_k6() {
               {"", {Ink::green, Line::none, Marker::square}, in_ms, surface_seen, skip},
               {"", {Ink::vermilion, Line::none, Marker::triangle}, in_ms, slip_seen, skip}};
   for (const Curve& entry : velocity_legend()) a.curves.push_back(entry);
-  LineChart b{"(b) displacement of sphere i", time, {"x − x(0) [mm]"}, {}, {}};
+  Panel b{"(b) displacement of sphere i", time, {"x − x(0) [mm]"}};
   b.curves = {{kClosedFormLabel, kClosedForm, in_ms, x},
               {kReferenceLabel, kReference, in_ms, x_seen, skip}};
   a.marks.push_back(end);
   b.marks.push_back(end);
-  figure.drawing.panels = {a, b};
+  figure.panels = {a, b};
   return figure;
 }
 

@@ -80,12 +80,10 @@ PaperFigure figure_b2() {
     cases += fmt::format("{}ζ_0 = {:g} R_{{eff}} = {:g} µm with μ = {:.4f}", c == 0 ? "" : ", ",
                          kSizes[c], printed.size / 1e-6, printed.friction);
     const double kappa = tangential_mass_ratio(printed.sphere, printed.sphere);
-    LineChart chart{fmt::format("({}) g^N = {:g} cm/s, {}", static_cast<char>('e' + c),
-                                in_cm_s[cut], size_text(printed)),
-                    {"g^T [cm/s]", true, 0.1, 100},
-                    {"ε^T", false, -1.05, 1.05},
-                    {},
-                    {}};
+    Panel chart{fmt::format("({}) g^N = {:g} cm/s, {}", static_cast<char>('e' + c), in_cm_s[cut],
+                            size_text(printed)),
+                {"g^T [cm/s]", true, 0.1, 100},
+                {"ε^T", false, -1.05, 1.05}};
     const auto row = [&](const std::vector<double>& values) {
       const auto begin = values.begin() + static_cast<std::ptrdiff_t>(cut * kGrid);
       return std::vector<double>(begin, begin + kGrid);
@@ -107,15 +105,12 @@ PaperFigure figure_b2() {
       }
       const std::string form = is_printed ? "printed" : "passive";
       table.add(fmt::format("eps^T {} {:g} R_eff [-]", form, kSizes[c]), map);
-      figure.drawing.panels.push_back(
-          HeatMap{fmt::format("({}) {}, {}", static_cast<char>(letter + (is_printed ? 0 : 2)), form,
-                              size_text(printed)),
-                  {"g^T [cm/s]", true},
-                  {"g^N [cm/s]", true},
-                  in_cm_s,
-                  in_cm_s,
-                  map,
-                  "ε^T"});
+      Panel all{fmt::format("({}) {}, {}", static_cast<char>(letter + (is_printed ? 0 : 2)), form,
+                            size_text(printed)),
+                {"g^T [cm/s]", true},
+                {"g^N [cm/s]", true}};
+      all.colours = ColourMap{in_cm_s, in_cm_s, map, "ε^T"};
+      figure.panels.push_back(std::move(all));
       chart.curves.push_back(
           {form + " form",
            is_printed ? Look{Ink::blue, Line::solid} : Look{Ink::vermilion, Line::dashed}, in_cm_s,
@@ -133,8 +128,8 @@ PaperFigure figure_b2() {
     cuts.push_back(chart);
   }
   // Rows: both sizes printed, both passive, both cuts.
-  std::swap(figure.drawing.panels[1], figure.drawing.panels[2]);
-  for (Panel& panel : cuts) figure.drawing.panels.push_back(std::move(panel));
+  std::swap(figure.panels[1], figure.panels[2]);
+  for (Panel& panel : cuts) figure.panels.push_back(std::move(panel));
 
   figure.caption = fmt::format(
       "ε^T = g_T'/g_T of two free spheres of ice (R = {:g} cm, Y = {:g} Pa, ν = {:g}, ρ = {:g} "

@@ -53,14 +53,14 @@ PaperFigure figure_k7() {
     return values;
   };
   const AxisSpec speed{"v_{rel} [cm/s]", true, 0.25, 120};
-  LineChart a{"(a) sliding time", speed, {"t^s [ms]", true}, {}, {}};
+  Panel a{"(a) sliding time", speed, {"t^s [ms]", true}};
   a.curves = {{kClosedFormLabel, kClosedForm, v_rel, time_closed},
               {kReferenceLabel, kReference, v_rel, time}};
-  LineChart b{"(b) sliding distance", speed, {"s [cm]", true}, {}, {}};
+  Panel b{"(b) sliding distance", speed, {"s [cm]", true}};
   b.curves = {{"", kClosedForm, v_rel, way_closed}, {"", kReference, v_rel, way}};
-  LineChart c{"(c) effective restitution", speed, {"e_{eff}", false, 0.33, 0.38}, {}, {}};
+  Panel c{"(c) effective restitution", speed, {"e_{eff}", false, 0.33, 0.38}};
   c.curves = {{"", kClosedForm, v_rel, effective_closed}, {"", kReference, v_rel, effective}};
-  LineChart d{"(d) reference against closed form", speed, {"|residual|", true}, {}, {}};
+  Panel d{"(d) reference against closed form", speed, {"|residual|", true}};
   d.curves = {
       {"t_{col}/t^s", {Ink::grey, Line::dotted}, v_rel, bound},
       {"residual of t^s", {Ink::blue, Line::none, Marker::circle}, v_rel, size(time_error)},
@@ -69,7 +69,7 @@ PaperFigure figure_k7() {
        {Ink::green, Line::none, Marker::square},
        v_rel,
        size(effective_error)}};
-  figure.drawing.panels = {a, b, c, d};
+  figure.panels = {a, b, c, d};
   figure.caption = fmt::format(
       "Each of two spheres that meet at v_{{rel}}/2. (a) t^s = (1+e_n) v_{{rel}}/(2(1+A) μ_k g). "
       "(b) s, (44) corrected: {:.4f} cm at 10 cm/s. (c) e_{{eff}} = (A e_n − 1)/(1+A). (d) The "

@@ -15,9 +15,9 @@ import zlib
 from html.parser import HTMLParser
 
 VOID = {"meta", "input", "br", "hr", "img", "link"}
-SVG = {"use", "circle", "path", "line", "rect"}  # may close themselves
-ALLOWED_TAGS = """html head meta title style body svg defs circle path use line rect text header h1 h2
-h3 h4 p span strong ol ul li a dl div dt dd main fieldset legend input label nav section figure
+SVG = {"use", "circle", "path", "line", "rect", "polygon"}  # may close themselves
+ALLOWED_TAGS = """html head meta title style body svg g defs circle path use line rect text header h1 h2
+tspan polygon desc h3 h4 p span strong ol ul li a dl div dt dd main fieldset legend input label nav section figure
 figcaption table thead tbody tr th td details summary noscript footer pre""".split()
 
 

@@ -1,3 +1,5 @@
+#include "report/charts/gnuplot.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,10 +13,11 @@
 #include <string>
 
 #include "../support/in_folder.h"
-#include "../support/refusal.h"
 #include "records.h"
-#include "report/charts/gnuplot_charts.h"
+#include "report/charts/gnuplot_script.h"
+#include "report/charts/report_charts.h"
 #include "report/files/files.h"
+#include "report/html/report_page.h"
 #include "scene/scene_outline.h"
 #include "study_records.h"
 #include "text_search.h"
@@ -30,29 +33,34 @@ class Gnuplot : public test::InFolder {
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
 
   fs::path charts() const { return folder_ / "charts"; }
+  static std::vector<Chart> all_of(const ReportContent& content) {
+    return report_charts(content, ChartExtent::all).all();
+  }
+  /// Draws all; gives what went wrong.
+  std::string write(const ReportContent& content) const {
+    const ChartDrawings drawings = draw_charts(all_of(content));
+    write_charts(charts(), all_of(content), drawings, true);
+    return drawings.trouble;
+  }
   /// Draws and gives a chart back.
   pugi::xml_document drawn(const ReportContent& content, const std::string& name) const {
-    write_gnuplot_charts(charts(), content);
+    EXPECT_EQ(write(content), "");
     pugi::xml_document document;
     const fs::path svg = charts() / (name + ".svg");
     EXPECT_TRUE(document.load_file(svg.c_str())) << svg;
     return document;
   }
-  std::string failure(const ReportContent& content) const {
-    return test::refusal_of<std::runtime_error>([&] { write_gnuplot_charts(charts(), content); });
-  }
-
   std::string path_;
 };
 
 /// Points that are drawn, those of the key among them.
 std::size_t points(const pugi::xml_document& svg) {
-  return svg.select_nodes("//use[@transform and not(@id)]").size();
+  return svg.select_nodes("//use[@color and not(@id)]").size();
 }
 
 bool shows(const pugi::xml_document& svg, const std::string& text) {
   for (const pugi::xpath_node& node : svg.select_nodes("//text"))
-    if (contains(node.node().text().get(), text)) return true;
+    if (contains(pugi::xpath_query("string(.)").evaluate_string(node), text)) return true;
   return false;
 }
 
@@ -62,24 +70,17 @@ ReportContent content_of(const SceneRecord& scene) {
   return content;
 }
 
-TEST(GnuplotText, QuotesAndKeepsNoControls) {
-  EXPECT_EQ(gnuplot_text("it's `date` \"x\"\n\x01"), "'it''s `date` \"x\" \uFFFD'");
-  EXPECT_EQ(gnuplot_number(1.0 / 3), "0.3333333333333333");
-  EXPECT_EQ(gnuplot_number(kNaN), "NaN");
-  EXPECT_EQ(gnuplot_number(kInfinity), "NaN");
-}
-
 TEST_F(Gnuplot, APointForEachPhaseWithinOutsideAndBeyond) {
   SceneRecord scene = lottery_scene(16);
   // Far beyond all others, which lie from 0.358 to 0.498.
   scene.runs[0].observables["i-j.effective_restitution"].values[3] = 1e6;
   const pugi::xml_document svg =
       drawn(content_of(scene), "phases-symmetric-steel-i-j.effective_restitution");
-  EXPECT_EQ(points(svg), 2u * 16 + 3);  // and three in the key
+  EXPECT_EQ(points(svg), 2u * 16 + 3);  // and three in the legend
   EXPECT_TRUE(shows(svg, "bullet double default 240 Hz"));
   EXPECT_TRUE(shows(svg, "tolerance 0.005"));
   EXPECT_TRUE(shows(svg, "i-j.effective_restitution"));
-  for (const char* end : {".gp", ".csv", ".svg"})
+  for (const char* end : {".gp", ".dat", ".svg"})
     EXPECT_TRUE(
         fs::exists(charts() / (std::string("phases-symmetric-steel-i.sliding_time") + end)));
 }
@@ -88,7 +89,8 @@ TEST_F(Gnuplot, APhaseWithoutAValueHasNoPoint) {
   SceneRecord scene = lottery_scene(16);
   scene.runs.resize(1);
   scene.runs[0].observables["i.sliding_time"].values[5] = kNaN;
-  EXPECT_EQ(points(drawn(content_of(scene), "phases-symmetric-steel-i.sliding_time")), 15u + 3);
+  // All are of one kind, which the legend names.
+  EXPECT_EQ(points(drawn(content_of(scene), "phases-symmetric-steel-i.sliding_time")), 15u + 1);
 }
 
 TEST_F(Gnuplot, NamesAreShownAndNothingOfThemIsRun) {
@@ -97,7 +99,7 @@ TEST_F(Gnuplot, NamesAreShownAndNothingOfThemIsRun) {
   scene.runs.resize(1);
   scene.runs[0].profile = "a_b^c{d}' @unit <&>";
   scene.scenario.name = "x'\n`touch " + trap + "`";
-  std::vector<GnuplotChart> made = gnuplot_charts(content_of(scene));
+  std::vector<Chart> made = all_of(content_of(scene));
   ASSERT_FALSE(made.empty());
   pugi::xml_document svg = drawn(content_of(scene), made[0].name);
   EXPECT_TRUE(shows(svg, "bullet double a_b^c{d}' @unit <&> 240 Hz"));
@@ -105,7 +107,7 @@ TEST_F(Gnuplot, NamesAreShownAndNothingOfThemIsRun) {
 
   // Too long a name is cut, or there would be no room for the plot.
   scene.runs[0].profile = "'; system('touch " + trap + "'); `touch " + trap + "` 0123456789";
-  made = gnuplot_charts(content_of(scene));
+  made = all_of(content_of(scene));
   svg = drawn(content_of(scene), made[0].name);
   EXPECT_TRUE(shows(svg, "bullet double '; system('touch "));
   EXPECT_FALSE(shows(svg, "0123456789"));
@@ -113,13 +115,37 @@ TEST_F(Gnuplot, NamesAreShownAndNothingOfThemIsRun) {
 }
 
 TEST_F(Gnuplot, AScriptDrawsAgainInItsFolder) {
-  SceneRecord scene = lottery_scene(4);
-  write_gnuplot_charts(charts(), content_of(scene));
-  for (const GnuplotChart& chart : gnuplot_charts(content_of(scene))) {
-    EXPECT_FALSE(contains(chart.script, folder_.string()));
-    EXPECT_TRUE(contains(chart.script, "set output '" + chart.name + ".svg'"));
-    for (const auto& [name, text] : chart.data) EXPECT_TRUE(contains(chart.script, name));
+  for (const Chart& chart : all_of(content_of(lottery_scene(4)))) {
+    const std::string script = gnuplot_script(chart).script;
+    EXPECT_TRUE(contains(script, "set output '" + chart.name + ".svg'"));
+    EXPECT_TRUE(contains(script, "data = '" + chart.name + ".dat'"));
+    EXPECT_FALSE(contains(script, "/"));
   }
+}
+
+TEST_F(Gnuplot, AnImageHasItsTextsAndItsOwnIds) {
+  Chart chart = all_of(content_of(lottery_scene(4)))[0];
+  chart.name = "K5";
+  chart.title = "t^s & s";
+  chart.caption = "what it shows";
+  const ChartDrawings drawings = draw_charts({chart});
+  pugi::xml_document svg;
+  ASSERT_TRUE(svg.load_string(drawings.svgs[0].c_str()));
+  EXPECT_STREQ(svg.child("svg").child_value("title"), "t^s & s");
+  EXPECT_STREQ(svg.child("svg").child_value("desc"), "what it shows");
+  std::set<std::string> ids;
+  for (const pugi::xpath_node& node : svg.select_nodes("//@id")) {
+    EXPECT_TRUE(contains(node.attribute().value(), "K5-"));
+    EXPECT_TRUE(ids.insert(node.attribute().value()).second) << node.attribute().value();
+  }
+  for (const pugi::xpath_node& node : svg.select_nodes("//use"))
+    EXPECT_TRUE(ids.contains(node.node().attribute("xlink:href").value() + 1));
+  // In a page, which declares no name spaces.
+  const std::string inside = inline_svg(drawings.svgs[0]);
+  EXPECT_TRUE(inside.starts_with("<svg width=")) << inside.substr(0, 80);
+  EXPECT_FALSE(contains(inside, "xlink"));
+  EXPECT_FALSE(contains(inside, "http:"));
+  EXPECT_TRUE(contains(inside, "href=\"#K5-"));
 }
 
 /// A ball that slides at 1 m/s and slows down evenly to 0.5 m/s within 10 frames.
@@ -157,11 +183,6 @@ TEST_F(Gnuplot, MotionHasAPanelEachForSlipSpeedAndEnergy) {
                            "reference", "bullet double default 240 Hz", "i", "j"})
     EXPECT_TRUE(shows(svg, text)) << text;
   EXPECT_FALSE(shows(svg, "bullet double default 4000 Hz"));  // nothing is recorded of it
-  std::ifstream data(charts() / "motion-symmetric-steel.csv");
-  std::string line;
-  std::size_t lines = 0;
-  while (std::getline(data, line)) ++lines;
-  EXPECT_EQ(lines, 1u + 2 * 2 * 10);
 }
 
 TEST_F(Gnuplot, ABoxHasItsSeries) {
@@ -175,7 +196,7 @@ TEST_F(Gnuplot, StudiesHaveTheirCharts) {
   ReportContent content;
   content.precision = {precision_scene()};
   content.limits = limit_results();
-  write_gnuplot_charts(charts(), content);
+  EXPECT_EQ(write(content), "");
   std::set<std::string> svgs;
   for (const auto& entry : fs::directory_iterator(charts()))
     if (entry.path().extension() == ".svg") {
@@ -187,9 +208,7 @@ TEST_F(Gnuplot, StudiesHaveTheirCharts) {
                                           "limit-stable_step-steel-pair",
                                           "map-speed-restitution-bullet-double-default",
                                           "precision-symmetric-steel-i-j.effective_restitution",
-                                          "precision-symmetric-steel-trajectory",
-                                          "step-symmetric-steel-i-j.effective_restitution",
-                                          "step-symmetric-steel-trajectory"};
+                                          "precision-symmetric-steel-trajectory"};
   EXPECT_EQ(svgs, expected);
 
   pugi::xml_document map;
@@ -233,44 +252,68 @@ TEST_F(Gnuplot, PoorDataAreDrawnToo) {
   map.y.values = {0.5};
   map.outcome = {Outcome::crashed};
   map.worst_error.clear();
-  write_gnuplot_charts(charts(), content);
-  for (const GnuplotChart& chart : gnuplot_charts(content)) {
+  EXPECT_EQ(write(content), "");
+  for (const Chart& chart : all_of(content)) {
     pugi::xml_document svg;
     EXPECT_TRUE(svg.load_file((charts() / (chart.name + ".svg")).c_str())) << chart.name;
     EXPECT_FALSE(svg.select_nodes("//text").empty()) << chart.name;
+    for (const pugi::xpath_node& node : svg.select_nodes("//@*"))
+      for (const char* bad : {"nan", "NaN", "inf"})
+        EXPECT_FALSE(contains(node.attribute().value(), bad)) << node.attribute().value();
   }
 }
 
 TEST_F(Gnuplot, NothingToDrawMakesAnEmptyFolder) {
-  write_gnuplot_charts(charts(), {});
+  EXPECT_EQ(write({}), "");
   EXPECT_TRUE(fs::is_empty(charts()));
 }
 
 TEST_F(Gnuplot, WithoutGnuplotItSaysWhatToInstall) {
   ::setenv("PATH", folder_.c_str(), 1);
-  EXPECT_EQ(failure(content_of(lottery_scene(4))),
-            "charts as SVG are drawn by gnuplot, which is not there: install gnuplot-nox (Debian) "
-            "or gnuplot");
-  EXPECT_FALSE(fs::exists(charts()));
+  const std::string missing =
+      "charts as SVG are drawn by gnuplot, which is not there: install gnuplot-nox (Debian) or "
+      "gnuplot";
+  EXPECT_EQ(write(content_of(lottery_scene(4))), missing);
+  EXPECT_TRUE(fs::is_empty(charts()));
+  // A page says so at the place of each chart, and all else is there.
+  const std::string page = report_page(content_of(lottery_scene(4)), PageScript::left_out);
+  EXPECT_EQ(count(page, "<strong>Not drawn:</strong> " + missing), 2u);
+  EXPECT_TRUE(contains(page, "A smaller step does not help"));
 }
 
-TEST_F(Gnuplot, WhenGnuplotFailsItsMessageIsTold) {
-  const fs::path fake = folder_ / "gnuplot";
-  std::ofstream(fake) << "#!/bin/sh\necho 'out of ink' >&2\nexit 3\n";
-  fs::permissions(fake, fs::perms::owner_all);
-  ::setenv("PATH", (folder_.string() + ":" + path_).c_str(), 1);
-  EXPECT_EQ(failure(content_of(lottery_scene(4))), "gnuplot failed: out of ink");
-  EXPECT_FALSE(fs::exists(charts()));
+TEST_F(Gnuplot, APageWithoutScriptHasTheImages) {
+  const std::string page = report_page(content_of(lottery_scene(4)), PageScript::left_out);
+  EXPECT_EQ(count(page, "<figure class=\"plot\">\n<svg"), 2u);
+  EXPECT_FALSE(contains(page, "Not drawn"));
+}
 
-  std::ofstream(fake) << "#!/bin/sh\n";
-  EXPECT_TRUE(failure(content_of(lottery_scene(4))).starts_with("gnuplot has not drawn phases-"));
-  EXPECT_FALSE(fs::exists(charts()));
+TEST_F(Gnuplot, WhenGnuplotFailsItsMessageIsToldAndWhatIsDrawnStays) {
+  const fs::path fake = folder_ / "gnuplot";
+  const auto make = [&](const std::string& script) {
+    std::ofstream(fake) << "#!/bin/sh\n" << script;
+    fs::permissions(fake, fs::perms::owner_all);
+  };
+  make("echo 'out of ink' >&2\nexit 3\n");
+  ::setenv("PATH", (folder_.string() + ":" + path_).c_str(), 1);
+  EXPECT_EQ(write(content_of(lottery_scene(4))), "gnuplot failed: out of ink");
+  EXPECT_TRUE(fs::is_empty(charts()));
+
+  make("");
+  EXPECT_TRUE(write(content_of(lottery_scene(4))).starts_with("gnuplot has not drawn phases-"));
+
+  make(
+      "name=${2%.gp}\necho '<svg><title>x</title><desc>y</desc></svg>' > $name.svg\n"
+      "echo '<svg><g>' > ${3%.gp}.svg\nkill -9 $$\n");
+  EXPECT_EQ(write(content_of(lottery_scene(4))), "gnuplot failed: no reason given");
+  std::size_t drawn = 0;
+  for (const auto& entry : fs::directory_iterator(charts()))
+    drawn += entry.path().extension() == ".svg";
+  EXPECT_EQ(drawn, 1u);
 }
 
 TEST_F(Gnuplot, AFolderThatCannotBeMadeIsAWriteFailure) {
   std::ofstream(folder_ / "charts") << "a file\n";
-  EXPECT_THROW(write_gnuplot_charts(charts() / "inside", content_of(lottery_scene(4))),
-               WriteFailure);
+  EXPECT_THROW(write_charts(charts() / "inside", {}, {}, true), WriteFailure);
 }
 
 }  // namespace

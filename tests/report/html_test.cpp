@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "records.h"
-#include "report/charts/phase_charts.h"
+#include "report/charts/scene_charts.h"
 #include "report/html/html_text.h"
 #include "report/html/report_page.h"
 #include "report/rows/phase_spread.h"
@@ -121,11 +121,12 @@ TEST(Html, ChartsTwinsOnce) {
     run.observables["j.sliding_time"] = run.observables["i.sliding_time"];
     run.errors["j.sliding_time"] = run.errors["i.sliding_time"];
   }
-  const std::vector<PhaseChart> charts = phase_charts(scene);
+  std::set<std::string> taken;
+  const std::vector<Chart> charts = phase_charts(scene, ChartExtent::page, taken);
   ASSERT_EQ(charts.size(), 2u);
-  EXPECT_EQ(charts[0].spread.name, "i-j.effective_restitution");
-  EXPECT_EQ(charts[1].spread.name, "i.sliding_time");
-  EXPECT_TRUE(contains(charts[1].caption, "It looks the same for j.sliding_time."));
+  EXPECT_EQ(charts[0].title, "i-j.effective\\_restitution");
+  EXPECT_EQ(charts[1].title, "i.sliding\\_time [ms]");
+  EXPECT_TRUE(contains(charts[1].caption, "It looks the same for j.sliding\\_time."));
   EXPECT_TRUE(contains(charts[0].caption, "A smaller step does not help"));
 }
 
@@ -140,7 +141,8 @@ TEST(Html, ChartsTheWorstSixObservables) {
     scene.runs[0].errors[name] = {1. * body, 1. * body, 0.01, false, Verdict::deviates, ""};
   }
   std::vector<std::string> names;
-  for (const PhaseChart& chart : phase_charts(scene)) names.push_back(chart.spread.name);
+  for (const ChartedPhases& charted : charted_phases(scene, ChartExtent::page))
+    names.push_back(charted.spread.name);
   EXPECT_EQ(names, (std::vector<std::string>{"i-j.effective_restitution", "g9.sliding_time",
                                              "g8.sliding_time", "g7.sliding_time",
                                              "g6.sliding_time", "g5.sliding_time"}));

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "report/charts/precision_charts.h"
+#include "report/charts/report_charts.h"
 #include "report/files/precision_csv.h"
 #include "report/html/html_precision.h"
 #include "report/json/precision_json.h"
@@ -192,13 +195,19 @@ TEST(PrecisionCharts, TellProfileAndPrecisionApart) {
   EXPECT_NE(full.marker, other.marker);
 }
 
+std::vector<Chart> charts_of(const PrecisionScene& scene) {
+  std::set<std::string> taken;
+  return precision_charts(scene, method_looks({scene}), taken);
+}
+
 TEST(PrecisionCharts, NoErrorAtAllIsOnTheFloor) {
   const PrecisionScene scene = precision_scene();
-  const auto panels = precision_panels(scene, kRestitution, method_looks({scene}));
-  ASSERT_EQ(panels.size(), 2u);
-  const auto& work = std::get<LineChart>(panels[0]);
-  const auto curve = [](const LineChart& chart, const std::string& label) -> const Curve* {
-    for (const Curve& one : chart.curves)
+  const std::vector<Chart> charts = charts_of(scene);
+  ASSERT_EQ(charts.size(), 2u);  // effective restitution and the trajectory
+  ASSERT_EQ(charts[0].panels.size(), 2u);
+  const auto& [work, step] = std::tie(charts[0].panels[0], charts[0].panels[1]);
+  const auto curve = [](const Panel& panel, const std::string& label) -> const Curve* {
+    for (const Curve& one : panel.curves)
       if (one.label == label) return &one;
     return nullptr;
   };
@@ -206,35 +215,38 @@ TEST(PrecisionCharts, NoErrorAtAllIsOnTheFloor) {
   ASSERT_TRUE(event);
   EXPECT_EQ(event->y, std::vector<double>{kErrorFloor});
   EXPECT_EQ(event->x, std::vector<double>{1e-5});
+  EXPECT_TRUE(contains(event->notes[0], "worst error of i-j.effective_restitution: exact"));
   const Curve* front = curve(work, "nothing is cheaper and no worse");
   ASSERT_TRUE(front);
   EXPECT_EQ(front->x.size(), 2u);
   // What has no step is not drawn over it; 240 Hz is a step of 1/240 s.
-  const auto& step = std::get<LineChart>(panels[1]);
   EXPECT_FALSE(curve(step, label_of(scene.curves[6])));
-  ASSERT_TRUE(curve(step, "bullet double tuned"));
-  EXPECT_DOUBLE_EQ(curve(step, "bullet double tuned")->x[0], 1 / 240.0);
+  const Curve* tuned = curve(step, "bullet double tuned");
+  ASSERT_TRUE(tuned);
+  EXPECT_DOUBLE_EQ(tuned->x[0], 1 / 240.0);
+  EXPECT_TRUE(tuned->notes[0].starts_with("240 Hz\nCPU 0.00048 s per simulated s"))
+      << tuned->notes[0];
   // Nor are iterations that are best at nothing.
   EXPECT_FALSE(curve(work, label_of(scene.curves[4])));
 }
 
 TEST(PrecisionCharts, NamesAreFitForFilesAndDistinct) {
-  const auto figures = precision_charts({precision_scene("../a b"), precision_scene("../a b")});
-  ASSERT_EQ(figures.size(), 2u);
-  EXPECT_EQ(figures[0].name, "precision-..-a-b");
-  EXPECT_EQ(figures[1].name, "precision-..-a-b-2");
-  for (const FigureOnPage& figure : figures) {
-    EXPECT_TRUE(contains(figure.svg, ">i-j.effective_restitution</text>")) << figure.svg;
-    EXPECT_FALSE(contains(figure.svg, "nan"));
-    EXPECT_FALSE(contains(figure.svg, "inf"));
-  }
+  ReportContent content;
+  content.precision = {precision_scene("../a b"), precision_scene("../a b")};
+  const std::vector<Chart> charts = report_charts(content, ChartExtent::all).all();
+  ASSERT_EQ(charts.size(), 4u);
+  EXPECT_EQ(charts[1].name, "precision-..-a-b-trajectory");
+  EXPECT_EQ(charts[3].name, "precision-..-a-b-trajectory-2");
 }
 
 TEST(PrecisionPage, EscapesAndHoldsTheMainMethods) {
   PrecisionScene scene = precision_scene("<b>&");
   scene.curves[0].points[0].status = RunStatus::crashed;
   scene.curves[0].points[0].reason = "signal 11";
-  const std::string html = html_precision({scene});
+  ReportContent content;
+  content.precision = {scene};
+  const std::string html =
+      html_precision({scene}, report_charts(content, ChartExtent::page), StandingCharts());
   EXPECT_FALSE(contains(html, "<b>"));
   EXPECT_TRUE(contains(html, "&lt;b&gt;&amp;"));
   EXPECT_TRUE(contains(html, "does not converge"));
@@ -244,7 +256,7 @@ TEST(PrecisionPage, EscapesAndHoldsTheMainMethods) {
       contains(html, "<tr><th>bullet double default</th><td class=\"bad\" data-value=\"0.14\">"));
   // In the table over all scenes alone.
   EXPECT_EQ(count(html, "<tr><th>bullet double default, 50 iterations</th>"), 1u);
-  EXPECT_EQ(html_precision({}), "");
+  EXPECT_EQ(html_precision({}, {}, {}), "");
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "report/charts/stability_charts.h"
+#include "report/charts/report_charts.h"
 #include "report/files/stability_csv.h"
 #include "report/html/html_stability.h"
 #include "report/json/stability_json.h"
@@ -162,27 +163,57 @@ TEST(StabilityCsv, LimitsAndMaps) {
   EXPECT_TRUE(contains(maps, "speed [m/s],0.01,restitution [-],1,NaN,|e − e_ref|,\n"));
 }
 
+ReportContent stability_content() {
+  ReportContent content;
+  content.cases = stability_cases();
+  content.limits = limit_results();
+  return content;
+}
+
 TEST(StabilityCharts, ACellForTheReferenceAndEachRunWithItsReason) {
-  const auto figures = stability_charts(stability_cases(), limit_results());
-  ASSERT_EQ(figures.size(), 4u);  // the catalogue, limits on two scenes, a map
-  EXPECT_EQ(figures[0].name, "stability-catalogue");
-  EXPECT_EQ(figures[1].name, "limit-stable_step-steel-pair");
-  EXPECT_EQ(figures[3].name, "map-speed-restitution-bullet-double-default");
-  EXPECT_EQ(count(figures[0].svg, "<g><title>"), 3u + 7u);
-  EXPECT_TRUE(contains(figures[0].svg, "signal 11</title>"));
-  EXPECT_EQ(count(figures[3].svg, "<g><title>"), 6u);
-  EXPECT_TRUE(contains(figures[3].svg, ">where h v = R</text>"));
-  for (const FigureOnPage& figure : figures) {
-    EXPECT_FALSE(contains(figure.svg, "\"nan")) << figure.name;
-    EXPECT_FALSE(contains(figure.svg, "inf")) << figure.name;
-  }
+  const std::vector<Chart> charts = report_charts(stability_content(), ChartExtent::all).all();
+  ASSERT_EQ(charts.size(), 4u);  // the catalogue, limits on two scenes, a map
+  EXPECT_EQ(charts[0].name, "stability-catalogue");
+  EXPECT_EQ(charts[1].name, "limit-stable_step-steel-pair");
+  EXPECT_EQ(charts[3].name, "map-speed-restitution-bullet-double-default");
+  const auto& cells = charts[0].panels[0].cells;
+  EXPECT_EQ(cells.size(), 3u + 7u);
+  EXPECT_TRUE(std::ranges::any_of(
+      cells, [](const MapCell& cell) { return cell.note.ends_with("signal 11"); }));
+  const Panel& map = charts[3].panels[0];
+  EXPECT_EQ(map.cells.size(), 6u);
+  // The first column is x = 0.01 of 0.01, 0.1, 1; the lower row 0 of 0 and 1.
+  EXPECT_NEAR(map.cells[0].x_high, std::sqrt(0.01 * 0.1), 1e-15);
+  EXPECT_DOUBLE_EQ(map.cells[0].y_low, -0.5);
+  EXPECT_EQ(map.curves[0].label, "where h v = R");
+}
+
+TEST(StabilityCharts, BarsChangeAtTheLimit) {
+  const std::vector<Chart> charts = report_charts(stability_content(), ChartExtent::page).limits;
+  const Panel& limits = charts[0].panels[0];
+  // The first works up to √(10 · 12.1) = 11 ms of 10 µs to 1 s and gains energy beyond.
+  ASSERT_GE(limits.cells.size(), 2u);
+  EXPECT_EQ(limits.looks[limits.cells[0].look].label, "works");
+  EXPECT_DOUBLE_EQ(limits.cells[0].x_low, 1e-5);
+  EXPECT_NEAR(limits.cells[0].x_high, 0.011, 1e-15);
+  EXPECT_EQ(limits.looks[limits.cells[1].look].label, "energy growing");
+  EXPECT_DOUBLE_EQ(limits.cells[1].x_high, 1);
+  // All of the range is good for the second: one bar.
+  EXPECT_EQ(
+      std::ranges::count_if(
+          limits.cells, [](const MapCell& cell) { return cell.y_low > 0.5 && cell.y_high < 1.5; }),
+      1);
+  // 2/ω0 where theory puts it.
+  EXPECT_EQ(charts[1].panels[0].curves[0].label, "theory");
+  EXPECT_DOUBLE_EQ(charts[1].panels[0].curves[0].x[0], 1.01e-5);
 }
 
 TEST(StabilityCharts, WhatWasInterruptedIsNotDrawn) {
-  LimitResults results = limit_results();
-  results.limits.clear();
-  results.maps[0].outcome.pop_back();
-  EXPECT_TRUE(stability_charts({}, results).empty());
+  ReportContent content;
+  content.limits = limit_results();
+  content.limits.limits.clear();
+  content.limits.maps[0].outcome.pop_back();
+  EXPECT_TRUE(report_charts(content, ChartExtent::all).all().empty());
 }
 
 TEST(StabilityPage, SaysEverything) {
@@ -191,7 +222,8 @@ TEST(StabilityPage, SaysEverything) {
   ReportContent content;
   content.cases = cases;
   content.limits = limit_results();
-  const std::string html = html_stability(content);
+  const std::string html =
+      html_stability(content, report_charts(content, ChartExtent::page), StandingCharts());
   EXPECT_FALSE(contains(html, "<b>"));
   EXPECT_TRUE(contains(html, "&lt;b&gt;&amp;"));
   for (const std::string part : {"signal 11", "the radius must be", "bad all the same at 2.000 ms",
@@ -206,7 +238,7 @@ TEST(StabilityPage, SaysEverything) {
   EXPECT_TRUE(contains(html,
                        "<tr><th>1</th><td class=\"o6\">N</td><td class=\"o0\">A</td><td "
                        "class=\"o3\">E</td></tr>"));
-  EXPECT_EQ(html_stability({}), "");
+  EXPECT_EQ(html_stability({}, {}, {}), "");
 }
 
 }  // namespace

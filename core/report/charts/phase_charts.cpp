@@ -1,19 +1,24 @@
-#include "report/charts/phase_charts.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "report/charts/plot_text.h"
+#include "report/charts/scene_charts.h"
+#include "report/files/file_stem.h"
 #include "report/rows/comparison_rows.h"
+#include "report/rows/findings.h"
+#include "report/rows/phase_spread.h"
+#include "report/rows/quantity.h"
 #include "report/rows/selection.h"
 #include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
 
-constexpr std::size_t kMostCharts = 6;
+constexpr std::size_t kMostCharts = 6;  // of a page
+constexpr double kSpread = 0.7;         // of a row's height, taken by its points
 
 /// What is charted first: effective restitution, then what is worst by its tolerance.
 std::vector<std::string> charted(const SceneRecord& scene) {
@@ -50,31 +55,115 @@ std::string caption_of(const PhaseSpread& spread, const std::string& twins) {
   return text;
 }
 
+/// Covers the tolerance, nine tenths of the values, and what is not far beyond these: a run that
+/// left the scene does not squeeze the others.
+AxisRange axis_of(const PhaseSpread& spread) {
+  std::vector<double> values;
+  for (const RunSpread& run : spread.runs)
+    for (const double value : run.values)
+      if (std::isfinite(value)) values.push_back(value);
+  AxisRange range{spread.low, spread.high};
+  const auto take = [&](double value) {
+    range = {std::fmin(range.low, value), std::fmax(range.high, value)};
+  };
+  std::sort(values.begin(), values.end());
+  const std::size_t tenth = values.size() / 10;
+  if (!values.empty()) {
+    take(values[tenth]);
+    take(values[values.size() - 1 - tenth]);
+  }
+  const double reach = 2 * (range.high - range.low);
+  const double lowest = range.low - reach, highest = range.high + reach;
+  for (const double value : values)
+    if (value >= lowest && value <= highest) take(value);
+  const double room = std::max(0.04 * (range.high - range.low), 1e-12 * std::abs(range.high));
+  return {range.low - (room > 0 ? room : 1), range.high + (room > 0 ? room : 1)};
+}
+
+Chart phase_chart(const SceneRecord& scene, const PhaseSpread& spread, const std::string& caption,
+                  std::set<std::string>& taken) {
+  const AxisRange axis = axis_of(spread);
+  const QuantityFormat format(std::max(std::abs(axis.low), std::abs(axis.high)), spread.dimension);
+  const double unit = format.factor();
+  const std::string what = (spread.is_distance ? "distance from the reference's " : "") +
+                           spread.name +
+                           (format.unit().empty() ? "" : fmt::format(" [{}]", format.unit()));
+  Chart chart{file_stem("phases-" + scene.scenario.name + "-" + spread.name, taken),
+              plot_literal(what),
+              plot_literal(caption),
+              {},
+              1};
+  Panel panel{plot_literal(scene.scenario.name),
+              {plot_literal(what), false, axis.low / unit, axis.high / unit},
+              {}};
+  panel.truth = Truth{spread.reference / unit, (spread.high - spread.reference) / unit};
+  panel.bands.push_back({plot_literal("tolerance " + spread.tolerance), spread.low / unit,
+                         spread.high / unit, -INFINITY, INFINITY});
+  const double rows = static_cast<double>(spread.runs.size());
+  const Curve reference{
+      "reference", {}, {spread.reference / unit, spread.reference / unit}, {-0.5, rows - 0.5}};
+  Curve within{"within the tolerance", {Ink::blue, Line::none, Marker::circle}, {}, {}};
+  Curve outside{"outside", {Ink::vermilion, Line::none, Marker::diamond}, {}, {}};
+  Curve beyond{"beyond the axis", {Ink::vermilion, Line::none, Marker::triangle}, {}, {}};
+  beyond.at_edge = true;
+  for (std::size_t k = 0; k < spread.runs.size(); ++k) {
+    const RunSpread& run = spread.runs[k];
+    panel.y.names.push_back(plot_literal(run_label(*run.run)));
+    panel.y.runs.push_back(static_cast<std::size_t>(run.run - scene.runs.data()));
+    const auto phases = static_cast<double>(run.values.size());
+    for (std::size_t phase = 0; phase < run.values.size(); ++phase) {
+      const double value = run.values[phase];
+      if (!std::isfinite(value)) continue;
+      Curve& curve = value < axis.low || value > axis.high       ? beyond
+                     : value < spread.low || value > spread.high ? outside
+                                                                 : within;
+      const double depth = (static_cast<double>(phase) + 0.5) / phases - 0.5;
+      curve.x.push_back(value / unit);
+      curve.y.push_back(static_cast<double>(k) + kSpread * depth);
+      curve.notes.push_back(fmt::format("phase {} of {}", phase + 1, run.values.size()));
+    }
+  }
+  panel.curves = {reference};
+  for (Curve* curve : {&within, &outside, &beyond})
+    if (!curve->x.empty()) panel.curves.push_back(std::move(*curve));
+  chart.plot_height = 8 + 44 * rows;
+  chart.panels.push_back(std::move(panel));
+  return chart;
+}
+
 }  // namespace
 
-std::vector<PhaseChart> phase_charts(const SceneRecord& scene) {
-  struct Chart {
+std::vector<ChartedPhases> charted_phases(const SceneRecord& scene, ChartExtent extent) {
+  struct Charted {
     PhaseSpread spread;
     std::string twins;
   };
-  std::vector<Chart> charts;
+  std::vector<Charted> all;
   for (const std::string& name : charted(scene)) {
     auto spread = phase_spread(scene, name);
     if (!spread) continue;
-    const auto twin = std::find_if(charts.begin(), charts.end(), [&](const Chart& other) {
-      return look_alike(other.spread, *spread);
+    const auto twin = std::ranges::find_if(all, [&](const Charted& other) {
+      return extent == ChartExtent::page && look_alike(other.spread, *spread);
     });
-    if (twin != charts.end())
+    if (twin != all.end())
       twin->twins += (twin->twins.empty() ? "" : ", ") + name;
-    else if (charts.size() < kMostCharts)
-      charts.push_back({std::move(*spread), ""});
+    else if (extent == ChartExtent::all || all.size() < kMostCharts)
+      all.push_back({std::move(*spread), ""});
   }
-  std::vector<PhaseChart> result;
-  for (Chart& chart : charts) {
-    std::string caption = caption_of(chart.spread, chart.twins);
-    result.push_back({std::move(chart.spread), std::move(caption)});
+  std::vector<ChartedPhases> result;
+  for (Charted& one : all) {
+    std::string caption = caption_of(one.spread, one.twins);
+    result.push_back({std::move(one.spread), std::move(caption)});
   }
   return result;
+}
+
+std::vector<Chart> phase_charts(const SceneRecord& scene, ChartExtent extent,
+                                std::set<std::string>& taken) {
+  std::vector<Chart> charts;
+  for (const auto& [spread, caption] : charted_phases(scene, extent))
+    charts.push_back(phase_chart(scene, spread, caption, taken));
+  return charts;
 }
 
 }  // namespace slipcheck

@@ -57,23 +57,17 @@ std::vector<Piece> pieces_of(std::string_view text) {
 
 }  // namespace
 
-std::string plot_text(std::string_view text) {
-  std::string svg;
-  int level = 0;
+std::string gnuplot_text(std::string_view text) {
+  std::string quoted = "'";
   for (const Piece& piece : pieces_of(text)) {
-    // Shifts are relative to the piece before: down 0.25, up 0.38 of the font's size.
-    const auto height = [](int at) { return at > 0 ? -0.38 : at < 0 ? 0.25 : 0; };
-    const double shift = height(piece.level) - height(level);
-    if (piece.level == 0 && shift == 0)
-      svg += escaped(piece.text);
-    else if (piece.level == 0)
-      svg += fmt::format("<tspan dy=\"{:.3g}em\">{}</tspan>", shift, escaped(piece.text));
-    else
-      svg += fmt::format("<tspan dy=\"{:.3g}em\" font-size=\"{:.0f}%\">{}</tspan>", shift / kSmall,
-                         100 * kSmall, escaped(piece.text));
-    level = piece.level;
+    if (piece.level != 0) quoted += piece.level > 0 ? "^{" : "_{";
+    for (const char c : printable(piece.text)) {
+      if (std::string_view("\\^_{}@&~").find(c) != std::string_view::npos) quoted += '\\';
+      quoted += c == '\'' ? "''" : std::string(1, c);
+    }
+    if (piece.level != 0) quoted += '}';
   }
-  return svg;
+  return quoted + "'";
 }
 
 double plot_text_width(std::string_view text) {

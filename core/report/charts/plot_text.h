@@ -5,10 +5,11 @@
 
 namespace slipcheck {
 
-/// What stands in an SVG text element for a formula's text: `_` and `^` lower and raise the next
-/// character or group in braces, as in "t^s", "v_{rel}", "u_i^f"; after a backslash they are
-/// themselves. Everything else is escaped.
-std::string plot_text(std::string_view text);
+// Texts of charts are formulas: `_` and `^` lower and raise the next character or group in braces,
+// as in "t^s", "v_{rel}", "u_i^f"; after a backslash they are themselves.
+
+/// A formula in gnuplot's single quotes, enhanced: nothing else of it is markup or is run.
+std::string gnuplot_text(std::string_view text);
 
 /// About how wide that is, in units of the font's size.
 double plot_text_width(std::string_view text);

@@ -1,6 +1,7 @@
 #include "report/charts/precision_charts.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -19,10 +20,6 @@ namespace {
 
 constexpr std::size_t kMostQuantities = 2;  // beside the trajectory
 constexpr double kErrorCeiling = 1e4;       // what is worse has left the scene
-
-constexpr std::array kInks = {Ink::vermilion, Ink::blue,   Ink::green,
-                              Ink::purple,    Ink::orange, Ink::sky};
-constexpr std::array kMarkers = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
 
 /// What of a curve goes along an axis; NaN where it has none.
 using Abscissa = double (*)(const MethodCurve&, const WorkPrecision&);
@@ -44,12 +41,6 @@ double step_of(const MethodCurve& curve, const WorkPrecision& point) {
   return kNotObserved;
 }
 
-bool has_point(const Curve& curve) {
-  for (std::size_t k = 0; k < curve.x.size(); ++k)
-    if (std::isfinite(curve.x[k]) && std::isfinite(curve.y[k])) return true;
-  return false;
-}
-
 /// The worst error of all phases, on the floor where it is less.
 double drawn_error(const WorkPrecision& point, const std::string& quantity) {
   const PhaseErrors* errors = errors_of(point, quantity);
@@ -57,12 +48,41 @@ double drawn_error(const WorkPrecision& point, const std::string& quantity) {
   return std::max(errors->worst, kErrorFloor);
 }
 
-Curve curve_of(const MethodCurve& method, const std::string& quantity, const Look& look,
-               Abscissa abscissa) {
+/// What a point is, and its errors in all quantities that are drawn, this one first.
+std::string note_of(const PrecisionScene& scene, const MethodCurve& method,
+                    const WorkPrecision& point, const std::string& quantity) {
+  std::vector<std::string> lines;
+  std::string setting = knob_text(method.kind, point.knob);
+  if (method.iterations) setting += fmt::format(", {:g} iterations", *method.iterations);
+  if (!setting.empty()) lines.push_back(setting);
+  if (point.cost) {
+    lines.push_back(fmt::format("CPU {:.3g} s per simulated s", point.cost->per_simulated_second));
+    if (std::isfinite(point.cost->spread))
+      lines.back() += fmt::format(" ± {:.2g} %", 100 * point.cost->spread);
+  }
+  const auto tell = [&](const std::string& name) {
+    const PhaseErrors* errors = errors_of(point, name);
+    const std::string unit = error_dimension(scene, name).si;
+    const std::string value = !errors || !std::isfinite(errors->worst) ? "–"
+                              : errors->worst == 0                     ? "exact"
+                                                   : fmt::format("{:.3g} {}", errors->worst, unit);
+    lines.push_back(fmt::format("worst error of {}: {}", name, value));
+  };
+  tell(quantity);
+  for (const std::string& other : drawn_quantities(scene))
+    if (other != quantity) tell(other);
+  if (point.pareto.contains(quantity)) lines.emplace_back("nothing is cheaper and no worse");
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+Curve curve_of(const PrecisionScene& scene, const MethodCurve& method, const std::string& quantity,
+               const Look& look, Abscissa abscissa) {
   Curve curve{plot_literal(label_of(method)), look, {}, {}};
+  curve.at_edge = true;
   for (const WorkPrecision& point : method.points) {
     curve.x.push_back(abscissa(method, point));
     curve.y.push_back(drawn_error(point, quantity));
+    curve.notes.push_back(note_of(scene, method, point, quantity));
   }
   return curve;
 }
@@ -79,7 +99,7 @@ Curve front_of(const PrecisionScene& scene, const std::string& quantity) {
 }
 
 /// A level line at the tolerance, from the first to the last point of the chart.
-void add_tolerance(LineChart& chart, const PrecisionScene& scene, const std::string& quantity) {
+void add_tolerance(Panel& chart, const PrecisionScene& scene, const std::string& quantity) {
   std::optional<double> tolerance;
   for (const MethodCurve& curve : scene.curves)
     for (const WorkPrecision& point : curve.points)
@@ -112,13 +132,12 @@ AxisSpec error_axis(const PrecisionScene& scene, const std::string& quantity,
   return axis;
 }
 
-LineChart chart_of(const PrecisionScene& scene, const std::string& quantity,
-                   const std::map<std::string, Look>& looks, Abscissa abscissa) {
-  LineChart chart;
+Panel panel_of(const PrecisionScene& scene, const std::string& quantity,
+               const std::map<std::string, Look>& looks, Abscissa abscissa) {
+  Panel chart;
   for (const MethodCurve& method : scene.curves) {
     if (!is_main_curve(method, quantity)) continue;
-    Look look = looks.at(label_of(method));
-    Curve curve = curve_of(method, quantity, look, abscissa);
+    Curve curve = curve_of(scene, method, quantity, looks.at(label_of(method)), abscissa);
     if (has_point(curve)) chart.curves.push_back(std::move(curve));
   }
   chart.y = error_axis(scene, quantity, chart.curves);
@@ -126,7 +145,7 @@ LineChart chart_of(const PrecisionScene& scene, const std::string& quantity,
   return chart;
 }
 
-std::string caption_of(const PrecisionScene& scene) {
+std::string caption_of(const PrecisionScene& scene, const std::string& quantity) {
   std::string caption =
       "Left: the worst error of all phases against CPU time for a second of simulated time; down "
       "and left is better. Right: against the step; a level line does not converge. Full lines: "
@@ -134,7 +153,8 @@ std::string caption_of(const PrecisionScene& scene) {
   bool has_floor = false;
   for (const MethodCurve& curve : scene.curves)
     for (const WorkPrecision& point : curve.points)
-      for (const auto& [name, errors] : point.errors) has_floor |= errors.worst <= kErrorFloor;
+      if (const PhaseErrors* errors = errors_of(point, quantity))
+        has_floor |= errors->worst <= kErrorFloor;
   if (has_floor)
     caption += fmt::format(" No error at all is drawn at {}.", short_number(kErrorFloor));
   return caption;
@@ -165,11 +185,10 @@ std::map<std::string, Look> method_looks(const std::vector<PrecisionScene>& scen
       const auto found = std::find(profiles.begin(), profiles.end(), profile);
       const auto k = static_cast<std::size_t>(found - profiles.begin());
       if (found == profiles.end()) profiles.push_back(profile);
-      look = {kInks[k % kInks.size()],
-              curve.iterations              ? Line::dotted
-              : curve.precision == "single" ? Line::dashed
-                                            : Line::solid,
-              kMarkers[k % kMarkers.size()]};
+      look = look_of_run(k);
+      look.line = curve.iterations              ? Line::dotted
+                  : curve.precision == "single" ? Line::dashed
+                                                : Line::solid;
     }
   return looks;
 }
@@ -186,37 +205,27 @@ std::vector<std::string> drawn_quantities(const PrecisionScene& scene) {
   return result;
 }
 
-std::vector<Panel> precision_panels(const PrecisionScene& scene, const std::string& quantity,
-                                    const std::map<std::string, Look>& looks) {
-  LineChart work = chart_of(scene, quantity, looks, cpu_time);
-  work.title = plot_literal(quantity);
-  work.x = {"CPU time for a simulated second [s]", true};
-  if (Curve front = front_of(scene, quantity); has_point(front))
-    work.curves.push_back(std::move(front));
-  LineChart step = chart_of(scene, quantity, looks, step_of);
-  step.title = plot_literal(quantity);
-  step.x = {"step [s]", true};
-  return {std::move(work), std::move(step)};
-}
-
-std::vector<FigureOnPage> precision_charts(const std::vector<PrecisionScene>& scenes) {
-  const std::map<std::string, Look> looks = method_looks(scenes);
-  std::set<std::string> taken;
-  std::vector<FigureOnPage> figures;
-  for (const PrecisionScene& scene : scenes) {
-    FigureDrawing drawing;
-    for (const std::string& quantity : drawn_quantities(scene))
-      for (Panel& panel : precision_panels(scene, quantity, looks))
-        drawing.panels.push_back(std::move(panel));
-    FigureOnPage figure;
-    figure.name = file_stem("precision-" + scene.scenario.name, taken);
-    figure.title = plot_literal(scene.scenario.name);
-    figure.caption = caption_of(scene);
-    figure.svg =
-        figure_svg(drawing, figure.name, "Error against run time: " + figure.title, figure.caption);
-    figures.push_back(std::move(figure));
+std::vector<Chart> precision_charts(const PrecisionScene& scene,
+                                    const std::map<std::string, Look>& looks,
+                                    std::set<std::string>& taken) {
+  std::vector<Chart> charts;
+  for (const std::string& quantity : drawn_quantities(scene)) {
+    Panel work = panel_of(scene, quantity, looks, cpu_time);
+    work.title = plot_literal(quantity);
+    work.x = {"CPU time for a simulated second [s]", true};
+    if (Curve front = front_of(scene, quantity); has_point(front))
+      work.curves.push_back(std::move(front));
+    Panel step = panel_of(scene, quantity, looks, step_of);
+    step.title = work.title;
+    step.x = {"step [s]", true};
+    if (work.curves.empty() && step.curves.empty()) continue;
+    charts.push_back(
+        {file_stem(fmt::format("precision-{}-{}", scene.scenario.name, quantity), taken),
+         plot_literal(fmt::format("{}, {}", scene.scenario.name, quantity)),
+         plot_literal(caption_of(scene, quantity)),
+         {std::move(work), std::move(step)}});
   }
-  return figures;
+  return charts;
 }
 
 }  // namespace slipcheck

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "report/charts/figure.h"
-#include "report/html/figure_page.h"
+#include "report/charts/chart.h"
 #include "studies/precision/precision.h"
 
 namespace slipcheck {
@@ -21,13 +21,12 @@ std::map<std::string, Look> method_looks(const std::vector<PrecisionScene>& scen
 /// the trajectory.
 std::vector<std::string> drawn_quantities(const PrecisionScene& scene);
 
-/// Of one quantity the work-precision diagram (worst error against CPU time, both logarithmic, with
-/// rings around what no other method beats) and beside it the worst error against the step, where
-/// it shows what converges. Of methods without a step, those over a tolerance, only the former.
-std::vector<Panel> precision_panels(const PrecisionScene& scene, const std::string& quantity,
-                                    const std::map<std::string, Look>& looks);
-
-/// A figure for each scene, "precision-<scene>"; names fit for files.
-std::vector<FigureOnPage> precision_charts(const std::vector<PrecisionScene>& scenes);
+/// "precision-<scene>-<quantity>" for each quantity that is drawn: the work-precision diagram
+/// (worst error against CPU time, both logarithmic, with rings around what no other method beats)
+/// and beside it the worst error against the step, where it shows what converges. Of methods
+/// without a step, those over a tolerance, only the former. `taken` as in file_stem.h.
+std::vector<Chart> precision_charts(const PrecisionScene& scene,
+                                    const std::map<std::string, Look>& looks,
+                                    std::set<std::string>& taken);
 
 }  // namespace slipcheck

@@ -1,67 +1,32 @@
 #include "report/charts/stability_charts.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <set>
 
-#include "report/charts/category_map.h"
-#include "report/charts/figure.h"
-#include "report/charts/limits_chart.h"
 #include "report/charts/plot_text.h"
-#include "report/charts/svg_image.h"
 #include "report/files/file_stem.h"
 #include "report/rows/outcome_look.h"
-#include "report/rows/stability_rows.h"
+#include "report/rows/quantity.h"
 
 namespace slipcheck {
 namespace {
 
-// All in px at an image width of 760.
-constexpr double kWidth = 760, kEdge = 10, kFont = 11, kRow = 15, kTopGap = 8;
-constexpr double kWidestCell = 56, kSlant = 0.87;  // sine of the heads' angle, 60°
-constexpr double kLegendLine = 20;
+constexpr double kRow = 17;            // [px]
 constexpr double kLeastError = 1e-17;  // smaller ones, and zero, have its colour
 
-double widest_text(const std::vector<std::string>& texts) {
-  double widest = 0;
-  for (const std::string& text : texts)
-    widest = std::max(widest, kFont * plot_text_width(plot_literal(text)));
-  return widest;
-}
-
-/// The letters of those outcomes that occur, with their names; `y` moves on.
-std::string legend_svg(const std::set<Outcome>& outcomes, double& y) {
-  std::string svg;
-  double x = kEdge;
-  for (const Outcome outcome : outcomes) {
-    const std::string name = name_of(outcome);
-    const double width = 46 + 12 * plot_text_width(name);
-    if (x + width > kWidth) {
-      x = kEdge;
-      y += kLegendLine;
-    }
-    svg += outcome_cell_svg(outcome, {x, y, 18, 16}, "");
-    svg +=
-        fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", x + 24, y + 12, plot_text(name));
-    x += width;
+/// How cells of each outcome look, in the order of Outcome.
+std::vector<CellLook> outcome_looks() {
+  std::vector<CellLook> looks;
+  for (std::size_t k = 0; k < kOutcomes; ++k) {
+    const auto outcome = static_cast<Outcome>(k);
+    const OutcomeLook& look = look_of(outcome);
+    looks.push_back({name_of(outcome), look.letter, look.fill, look.ink});
   }
-  y += kLegendLine;
-  return svg;
-}
-
-std::string heads_svg(const std::vector<std::string>& heads, double left, double width,
-                      double bottom) {
-  std::string svg;
-  for (std::size_t k = 0; k < heads.size(); ++k) {
-    const double x = left + width * (static_cast<double>(k) + 0.6);
-    svg += fmt::format(
-        "<text x=\"{0:.2f}\" y=\"{1:.2f}\" font-size=\"{2:g}\" transform=\"rotate(-60 {0:.2f} "
-        "{1:.2f})\">{3}</text>\n",
-        x, bottom, kFont, plot_text(plot_literal(heads[k])));
-  }
-  return svg;
+  return looks;
 }
 
 /// Notes of a case's cells: of the reference, then of each method.
@@ -80,107 +45,178 @@ std::string reference_note(const StabilityCase& scene) {
                      scene.reference.why.empty() ? "" : ": ", scene.reference.why);
 }
 
+std::string axis_label(Limit::Kind kind) {
+  switch (kind) {
+    case Limit::Kind::stable_step:
+    case Limit::Kind::accurate_step:
+      return "step [s]";
+    case Limit::Kind::length_scale:
+      return "factor on all lengths [-]";
+    case Limit::Kind::mass_ratio:
+      return "ratio of masses [-]";
+  }
+  return "";
+}
+
+/// Where the limit's bar changes its colour; at the bad end of the range where all is good.
+double border_of(const Limit& limit, bool works_above) {
+  if (limit.good && limit.bad) return std::sqrt(*limit.good * *limit.bad);
+  return works_above == limit.good.has_value() ? limit.low : limit.high;
+}
+
+std::string short_text(const Limit& limit) {
+  return limit.good && limit.bad ? value_text(limit.kind, limit.value())
+         : limit.good            ? "all"
+         : limit.bad             ? "none"
+                                 : "no answer";
+}
+
+std::string note_of(const Limit& limit) {
+  std::vector<std::string> lines = {fmt::format("limit: {}", short_text(limit))};
+  const auto tell = [&](const char* what, const std::optional<double>& value) {
+    if (value) lines.push_back(fmt::format("{}: {}", what, value_text(limit.kind, *value)));
+  };
+  tell("last good", limit.good);
+  tell("first bad", limit.bad);
+  if (limit.bad) lines.back() += fmt::format(", {}", name_of(limit.beyond));
+  tell("theory", limit.theory);
+  lines.push_back(fmt::format("searched {} to {}", value_text(limit.kind, limit.low),
+                              value_text(limit.kind, limit.high)));
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
 }  // namespace
 
-std::string catalogue_svg(const std::vector<StabilityCase>& cases, const std::string& name) {
+Chart catalogue_chart(const std::vector<StabilityCase>& cases, std::set<std::string>& taken) {
   const StabilityOverview overview = overview_of(cases);
-  std::vector<std::string> heads = {"reference"}, labels;
-  for (const StabilityMethod& method : overview.methods) heads.push_back(method.label());
-  for (const StabilityRow& row : overview.rows) labels.push_back(row.label);
-  const double left = kEdge + std::min(widest_text(labels), kWidth / 2) + 8;
-  const double top = kTopGap + kSlant * widest_text(heads) + 8;
-  // The last head leans to the right beyond its column.
-  const double room = kWidth - left - kEdge - 0.5 * widest_text(heads);
-  const double width = std::min(kWidestCell, room / static_cast<double>(heads.size()));
-  std::string body = heads_svg(heads, left, width, top - 6);
-  std::set<Outcome> outcomes;
-  const auto cell = [&](std::size_t column, double y, Outcome outcome, const std::string& note) {
-    outcomes.insert(outcome);
-    body += outcome_cell_svg(outcome, {left + width * static_cast<double>(column), y, width, kRow},
-                             note);
+  Panel panel;
+  panel.looks = outcome_looks();
+  panel.x.names = {"reference"};
+  for (const StabilityMethod& method : overview.methods)
+    panel.x.names.push_back(plot_literal(method.label()));
+  const auto add = [&](std::size_t row, std::size_t column, Outcome outcome, std::string note) {
+    const auto x = static_cast<double>(column), y = static_cast<double>(row);
+    panel.cells.push_back(
+        {x - 0.5, x + 0.5, y - 0.5, y + 0.5, static_cast<std::size_t>(outcome), std::move(note)});
   };
-  double y = top;
-  for (const StabilityRow& row : overview.rows) {
-    body += fmt::format(
-        "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"end\" "
-        "font-size=\"{:g}\">{}</text>\n",
-        left - 6, y + 11, kFont, plot_text(plot_literal(row.label)));
-    cell(0, y, outcome_of(row.scene->reference), reference_note(*row.scene));
+  for (std::size_t r = 0; r < overview.rows.size(); ++r) {
+    const StabilityRow& row = overview.rows[r];
+    panel.y.names.push_back(plot_literal(row.label));
+    add(r, 0, outcome_of(row.scene->reference), reference_note(*row.scene));
     for (std::size_t m = 0; m < row.runs.size(); ++m)
-      if (const StabilityRun* run = row.runs[m]) cell(m + 1, y, run->outcome, note_of(row, *run));
-    y += kRow;
+      if (const StabilityRun* run = row.runs[m]) add(r, m + 1, run->outcome, note_of(row, *run));
   }
-  y += 12;
-  body += legend_svg(outcomes, y);
-  return svg_image(kWidth, y + 6, name, "Stiff and extreme cases",
-                   "how each case comes out in the reference and in each engine", body);
+  const double height = kRow * static_cast<double>(overview.rows.size());
+  return {file_stem("stability-catalogue", taken),
+          "Stiff and extreme cases",
+          "How each case comes out in the reference and in each engine; a cell is an ensemble.",
+          {std::move(panel)},
+          1,
+          height};
 }
 
-FigureOnPage map_figure(const OutcomeMap& map, const std::string& name) {
-  FigureOnPage figure;
-  figure.name = name;
-  figure.title = plot_literal(map.title);
+Chart limits_chart(const LimitGroup& group, std::set<std::string>& taken) {
+  const bool works_above = group.kind == Limit::Kind::length_scale;
+  const std::string title = fmt::format("{}, {}", words_of(group.kind), plot_literal(group.scene));
+  Panel panel{title, {axis_label(group.kind), true}, {}};
+  panel.looks = outcome_looks();
+  // What is stable need not be accurate.
+  const std::size_t works = panel.looks.size();
+  panel.looks.push_back({"works", "✓", "#0072b2", "#ffffff"});
+  Curve theory{"theory", {Ink::black, Line::solid, Marker::none, true}, {}, {}};
+  Curve islands{"bad all the same", {Ink::vermilion, Line::none, Marker::diamond}, {}, {}};
+  double low = INFINITY, high = 0;
+  for (std::size_t k = 0; k < group.limits.size(); ++k) {
+    const Limit& limit = *group.limits[k];
+    const auto row = static_cast<double>(k);
+    panel.y.names.push_back(
+        plot_literal(fmt::format("{}: {}", label_of(limit), short_text(limit))));
+    if (limit.low > 0) low = std::min(low, limit.low);
+    high = std::max(high, limit.high);
+    const auto add = [&](double from, double to, bool is_good) {
+      if (to > from)
+        panel.cells.push_back({from, to, row - 0.35, row + 0.35,
+                               is_good ? works : static_cast<std::size_t>(limit.beyond),
+                               note_of(limit)});
+    };
+    if (limit.good || limit.bad) {
+      const double border = border_of(limit, works_above);
+      add(limit.low, border, !works_above);
+      add(border, limit.high, works_above);
+    }
+    if (limit.theory)
+      for (const double y : {row - 0.45, row + 0.45, kNotObserved}) {
+        theory.x.push_back(*limit.theory);
+        theory.y.push_back(y);
+      }
+    for (const double island : limit.islands) {
+      islands.x.push_back(island);
+      islands.y.push_back(row);
+      islands.notes.push_back(value_text(limit.kind, island));
+    }
+  }
+  if (high > low) {
+    panel.x.low = low;
+    panel.x.high = high;
+  }
+  if (has_point(theory)) panel.curves.push_back(std::move(theory));
+  if (has_point(islands)) panel.curves.push_back(std::move(islands));
+  const double height = 22 * static_cast<double>(group.limits.size());
+  return {file_stem(fmt::format("limit-{}-{}", name_of(group.kind), group.scene), taken),
+          title,
+          "Bars: where each method works, and how it fails beyond.",
+          {std::move(panel)},
+          1,
+          height};
+}
+
+Chart map_chart(const OutcomeMap& map, std::set<std::string>& taken) {
   const AxisSpec x{plot_literal(map.x.label), map.x.logarithmic};
   const AxisSpec y{plot_literal(map.y.label), map.y.logarithmic};
-  CategoryMap outcomes{
-      plot_literal(map.title),      x, y, map.x.values, map.y.values, map.outcome, {}, map.theory,
-      plot_literal(map.theory_name)};
-  HeatMap errors;
-  errors.title = "log_{10} " + plot_literal(map.error_label);
-  errors.x = x;
-  errors.y = y;
-  errors.x_values = map.x.values;
-  errors.y_values = map.y.values;
-  errors.low_is_blue = true;
-  errors.missing = "–";
+  Panel outcomes{plot_literal(map.title), x, y};
+  outcomes.looks = outcome_looks();
+  Panel errors{"log_{10} " + plot_literal(map.error_label), x, y};
+  ColourMap colours{map.x.values, map.y.values, {}, "", 0, 1, true};
+  const std::vector<double> across = cell_borders(map.x.values, map.x.logarithmic);
+  const std::vector<double> up = cell_borders(map.y.values, map.y.logarithmic);
   double low = INFINITY, high = -INFINITY;
+  const std::size_t columns = map.x.values.size();
   for (std::size_t k = 0; k < map.outcome.size(); ++k) {
+    const std::size_t c = k % columns, r = k / columns;
     const double error = k < map.worst_error.size() ? map.worst_error[k] : kNotObserved;
     const double z = std::isfinite(error) ? std::log10(std::max(error, kLeastError)) : kNotObserved;
-    errors.z.push_back(z);
-    outcomes.notes.push_back(fmt::format(
-        "{} {:.3g}, {} {:.3g}: {}{}", map.x.label, map.x.values[k % map.x.values.size()],
-        map.y.label, map.y.values[k / map.x.values.size()], name_of(map.outcome[k]),
-        std::isnan(z) ? "" : fmt::format(", {} = {:.3g}", map.error_label, error)));
+    colours.z.push_back(z);
     low = std::fmin(low, z);
     high = std::fmax(high, z);
+    outcomes.cells.push_back(
+        {across[c], across[c + 1], up[r], up[r + 1], static_cast<std::size_t>(map.outcome[k]),
+         fmt::format("{}: {:.4g}\n{}: {:.4g}{}", map.x.label, map.x.values[c], map.y.label,
+                     map.y.values[r],
+                     std::isnan(z) ? "" : fmt::format("\n{}: {:.3g}", map.error_label, error))});
   }
-  FigureDrawing drawing;
-  drawing.panels.push_back(std::move(outcomes));
+  Curve theory{plot_literal(map.theory_name.empty() ? "theory" : map.theory_name),
+               {Ink::black, Line::dashed, Marker::none, true},
+               {},
+               {}};
+  for (const auto& [at_x, at_y] : map.theory) {
+    theory.x.push_back(at_x);
+    theory.y.push_back(at_y);
+  }
+  if (has_point(theory)) outcomes.curves.push_back(std::move(theory));
+  Chart chart{file_stem("map-" + map.name, taken),
+              plot_literal(map.title),
+              "How it comes out over two parameters; letters and colours say the same.",
+              {std::move(outcomes)},
+              2,
+              250};
   if (low <= high) {
-    errors.z_low = std::floor(low);
-    errors.z_high = std::max(std::ceil(high), errors.z_low + 1);
-    drawing.panels.push_back(std::move(errors));
+    colours.low = std::floor(low);
+    colours.high = std::max(std::ceil(high), colours.low + 1);
+    errors.colours = std::move(colours);
+    chart.panels.push_back(std::move(errors));
+    chart.caption += " Right: the largest error of all phases, blue where it is small.";
   }
-  figure.caption = "How it comes out over two parameters; letters and colours say the same.";
-  if (drawing.panels.size() > 1)
-    figure.caption += " Right: the largest error of all phases, blue where it is small.";
-  figure.svg = figure_svg(drawing, name, figure.title, figure.caption);
-  return figure;
-}
-
-std::vector<FigureOnPage> stability_charts(const std::vector<StabilityCase>& cases,
-                                           const LimitResults& limits) {
-  std::set<std::string> taken;
-  std::vector<FigureOnPage> figures;
-  const auto add = [&](const std::string& name, std::string title, std::string caption) {
-    figures.push_back({file_stem(name, taken), std::move(title), std::move(caption), ""});
-    return figures.size() - 1;
-  };
-  if (!cases.empty()) {
-    const std::size_t k = add("stability-catalogue", "Stiff and extreme cases",
-                              "Each cell is an ensemble; point at it to read why.");
-    figures[k].svg = catalogue_svg(cases, figures[k].name);
-  }
-  for (const LimitGroup& group : limit_groups(limits.limits)) {
-    const std::size_t k =
-        add(fmt::format("limit-{}-{}", name_of(group.kind), group.scene),
-            fmt::format("{}, {}", words_of(group.kind), plot_literal(group.scene)), "");
-    figures[k].svg = limits_svg(group, figures[k].name);
-  }
-  for (const OutcomeMap* map : complete_maps(limits))
-    figures.push_back(map_figure(*map, file_stem("map-" + map->name, taken)));
-  return figures;
+  return chart;
 }
 
 }  // namespace slipcheck

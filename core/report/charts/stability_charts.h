@@ -1,23 +1,27 @@
 #pragma once
 
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "report/html/figure_page.h"
-#include "studies/stability/limits.h"
-#include "studies/stability/stability.h"
+#include "report/charts/chart.h"
+#include "report/rows/stability_rows.h"
 
 namespace slipcheck {
 
-/// The catalogue as one map of cases by methods, the reference first; a cell says why when pointed
-/// at. SVG; `name` makes its ids unique.
-std::string catalogue_svg(const std::vector<StabilityCase>& cases, const std::string& name);
+// `taken` as in file_stem.h.
 
-/// The map of outcomes and, where any error is finite, that of its logarithm beside it.
-FigureOnPage map_figure(const OutcomeMap& map, const std::string& name);
+/// "stability-catalogue": cases by methods, the reference first.
+Chart catalogue_chart(const std::vector<StabilityCase>& cases, std::set<std::string>& taken);
 
-/// All figures: the catalogue, limits by kind and scene, maps; names fit for files.
-std::vector<FigureOnPage> stability_charts(const std::vector<StabilityCase>& cases,
-                                           const LimitResults& limits);
+/// "limit-<kind>-<scene>": limits of one kind on one scene as bars over the range that was
+/// searched: blue where it works, in the colour of what happens beyond; a line where theory puts
+/// the limit.
+Chart limits_chart(const LimitGroup& group, std::set<std::string>& taken);
+
+/// "map-<name>": the map of outcomes and, where any error is finite, that of its logarithm beside
+/// it.
+Chart map_chart(const OutcomeMap& map, std::set<std::string>& taken);
 
 }  // namespace slipcheck

@@ -66,18 +66,19 @@ std::string troubles_part(const PrecisionScene& scene) {
   return html_list("warnings", "Without a result", items);
 }
 
-std::string scene_part(const PrecisionScene& scene, std::size_t k) {
+std::string scene_part(const PrecisionScene& scene, std::size_t k, const std::string& charts) {
   std::string html = fmt::format(
       "<section class=\"precision\" id=\"precision-{}\" data-precision=\"{}\">\n<h3>{}</h3>\n",
       k + 1, k, escaped(scene.scenario.name));
   html += html_paragraph("title", "", scene.scenario.title);
-  html += fmt::format("<div class=\"plots\" data-precision=\"{}\"></div>\n", k);
+  html += fmt::format("<div class=\"plots\" data-precision=\"{}\"></div>\n", k) + charts;
   return html + curves_table(scene) + troubles_part(scene) + "</section>\n";
 }
 
 }  // namespace
 
-std::string html_precision(const std::vector<PrecisionScene>& scenes) {
+std::string html_precision(const std::vector<PrecisionScene>& scenes, const ReportCharts& charts,
+                           const StandingCharts& standing) {
   if (scenes.empty()) return {};
   std::string html = "<h2 id=\"precision\">Error against run time</h2>\n";
   html += html_paragraph(
@@ -98,7 +99,8 @@ std::string html_precision(const std::vector<PrecisionScene>& scenes) {
     html += fmt::format("<li><a href=\"#precision-{}\">{}</a></li>\n", k + 1,
                         escaped(scenes[k].scenario.name));
   html += "</ul></nav>\n";
-  for (std::size_t k = 0; k < scenes.size(); ++k) html += scene_part(scenes[k], k);
+  for (std::size_t k = 0; k < scenes.size(); ++k)
+    html += scene_part(scenes[k], k, standing.html(charts.precision[k]));
   return html;
 }
 

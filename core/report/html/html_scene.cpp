@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include "harness/compare/scene_features.h"
-#include "report/charts/phase_charts.h"
 #include "report/charts/scene_drawing.h"
 #include "report/html/html_run.h"
 #include "report/html/html_summary.h"
@@ -40,15 +39,6 @@ std::string left_out_part(const SceneRecord& scene) {
                       html_paragraph("faint", "", fmt::format("{}.", fmt::join(left_out, "; "))));
 }
 
-/// What the charts show in words, for readers without a script; with one they are beneath the
-/// charts.
-std::string words_part(const SceneRecord& scene) {
-  std::string items;
-  for (const PhaseChart& chart : phase_charts(scene))
-    items += "<li>" + escaped(chart.caption) + "</li>\n";
-  return items.empty() ? "" : "<noscript><ul>\n" + items + "</ul></noscript>\n";
-}
-
 }  // namespace
 
 std::string verdict_label(const SceneRecord& scene) {
@@ -57,7 +47,8 @@ std::string verdict_label(const SceneRecord& scene) {
                      symbol_of(verdict), verdict_name(scene));
 }
 
-std::string html_scene(const SceneRecord& scene, std::size_t k, const SharedSettings& shared) {
+std::string html_scene(const SceneRecord& scene, std::size_t k, const SharedSettings& shared,
+                       const std::string& charts) {
   const Scenario& scenario = scene.scenario;
   const std::vector<std::string> names = shown_observables(scene, false);
   std::string html = fmt::format(
@@ -69,7 +60,7 @@ std::string html_scene(const SceneRecord& scene, std::size_t k, const SharedSett
   html += "<div class=\"setting\">\n" + scene_drawing(scenario) + reference_part(scene, names) +
           "</div>\n";
   html += left_out_part(scene);
-  html += fmt::format("<div class=\"plots\" data-scene=\"{}\"></div>\n", k) + words_part(scene);
+  html += fmt::format("<div class=\"plots\" data-scene=\"{}\"></div>\n", k) + charts;
   if (!scene.runs.empty()) html += "<h3>Engine by engine</h3>\n";
   html += html_settings("Settings of all runs [SI]:", shared.of_scene(scene));
   for (std::size_t run = 0; run < scene.runs.size(); ++run)

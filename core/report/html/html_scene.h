@@ -12,7 +12,8 @@ namespace slipcheck {
 std::string verdict_label(const SceneRecord& scene);
 
 /// Section of the k-th scene: what it is, what of the reference it leaves out, the reference's
-/// values, what charts show in words, and each run.
-std::string html_scene(const SceneRecord& scene, std::size_t k, const SharedSettings& shared);
+/// values, a place for its charts, `charts` (html_charts.h), and each run.
+std::string html_scene(const SceneRecord& scene, std::size_t k, const SharedSettings& shared,
+                       const std::string& charts);
 
 }  // namespace slipcheck

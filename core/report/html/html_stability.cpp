@@ -164,8 +164,8 @@ std::string limits_part(const std::vector<Limit>& limits) {
   return html_table(limits_table(grouped));
 }
 
-/// A map as letters, its first row the highest of y; charts of it are the script's.
-std::string map_part(const OutcomeMap& map, std::size_t k) {
+/// A map as its chart and as letters, the first row the highest of y.
+std::string map_part(const OutcomeMap& map, std::size_t k, const std::string& chart) {
   const std::size_t columns = map.x.values.size();
   TextTable table{{{fmt::format("{} \\ {}", map.y.label, map.x.label)}}, {}, map.title};
   for (const double x : map.x.values) table.columns.push_back({fmt::format("{:.3g}", x)});
@@ -177,14 +177,15 @@ std::string map_part(const OutcomeMap& map, std::size_t k) {
   }
   return fmt::format("<h4>{0}</h4>\n<div class=\"plots\" id=\"map-{1}\" data-map=\"{2}\"></div>\n",
                      escaped(map.title), k + 1, k) +
-         html_details("As letters", html_table(table));
+         chart + html_details("As letters", html_table(table));
 }
 
-std::string limits_plots(const std::vector<Limit>& limits) {
+std::string limits_plots(const std::vector<Chart>& charts, const StandingCharts& standing) {
   std::string html;
-  for (std::size_t k = 0; k < limit_groups(limits).size(); ++k)
+  for (std::size_t k = 0; k < charts.size(); ++k)
     html +=
-        fmt::format("<div class=\"plots\" id=\"limits-{}\" data-limits=\"{}\"></div>\n", k + 1, k);
+        fmt::format("<div class=\"plots\" id=\"limits-{}\" data-limits=\"{}\"></div>\n", k + 1, k) +
+        standing.html({charts[k]});
   return html;
 }
 
@@ -199,7 +200,8 @@ std::string outcome_css() {
   return css;
 }
 
-std::string html_stability(const ReportContent& content) {
+std::string html_stability(const ReportContent& content, const ReportCharts& charts,
+                           const StandingCharts& standing) {
   const std::vector<OutcomeMap const*> maps = complete_maps(content.limits);
   const std::vector<Limit>& limits = content.limits.limits;
   if (content.cases.empty() && limits.empty() && maps.empty()) return {};
@@ -214,9 +216,11 @@ std::string html_stability(const ReportContent& content) {
             catalogue_part(content.cases, overview) + "<h3>Case by case</h3>\n";
     for (std::size_t k = 0; k < content.cases.size(); ++k) html += case_part(content.cases[k], k);
   }
-  if (!limits.empty()) html += "<h3>Limits</h3>\n" + limits_plots(limits) + limits_part(limits);
+  if (!limits.empty())
+    html += "<h3>Limits</h3>\n" + limits_plots(charts.limits, standing) + limits_part(limits);
   if (!maps.empty()) html += "<h3>Maps</h3>\n";
-  for (std::size_t k = 0; k < maps.size(); ++k) html += map_part(*maps[k], k);
+  for (std::size_t k = 0; k < maps.size(); ++k)
+    html += map_part(*maps[k], k, standing.html({charts.maps[k]}));
   return html;
 }
 

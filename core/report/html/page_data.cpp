@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "report/charts/phase_charts.h"
+#include "report/charts/scene_charts.h"
 #include "report/html/packed_text.h"
 #include "report/html/page_channel.h"
 #include "report/html/page_data_parts.h"
@@ -33,7 +33,7 @@ Json run_data(const EngineRecord& run) {
           {"verdict", class_of(run.verdict())}};
 }
 
-Json phase_data(const SceneRecord& scene, const PhaseChart& chart) {
+Json phase_data(const SceneRecord& scene, const ChartedPhases& chart) {
   const PhaseSpread& spread = chart.spread;
   const QuantityFormat format(std::max(std::abs(spread.low), std::abs(spread.high)),
                               spread.dimension);
@@ -120,7 +120,8 @@ Json series_data(const SceneRecord& scene) {
 Json scene_data(const SceneRecord& scene, std::size_t k, const MotionDetail& detail) {
   Json runs = Json::array(), phases = Json::array();
   for (const EngineRecord& run : scene.runs) runs.push_back(run_data(run));
-  for (const PhaseChart& chart : phase_charts(scene)) phases.push_back(phase_data(scene, chart));
+  for (const ChartedPhases& chart : charted_phases(scene, ChartExtent::page))
+    phases.push_back(phase_data(scene, chart));
   return {{"id", fmt::format("scene-{}", k + 1)},
           {"name", printable(scene.scenario.name)},
           {"runs", std::move(runs)},

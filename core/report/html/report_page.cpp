@@ -6,6 +6,8 @@
 #include <set>
 #include <string_view>
 
+#include "report/charts/report_charts.h"
+#include "report/html/html_charts.h"
 #include "report/html/html_engines.h"
 #include "report/html/html_page.h"
 #include "report/html/html_precision.h"
@@ -48,12 +50,14 @@ std::string parts_nav(bool scenes, bool precision, bool stability) {
 /// The toolbar is the script's.
 constexpr const char* kToolbar = "<div id=\"toolbar\"></div>\n";
 
-std::string scenes_part(const std::vector<SceneRecord>& scenes) {
+std::string scenes_part(const std::vector<SceneRecord>& scenes, const ReportCharts& charts,
+                        const StandingCharts& standing) {
   if (scenes.empty()) return kToolbar;
   const SharedSettings shared(scenes);
   std::string html = html_lacks(scenes) + shared.html() + kToolbar;
   html += "<h2 id=\"scenes\">Scenes</h2>\n" + html_contents(scenes);
-  for (std::size_t k = 0; k < scenes.size(); ++k) html += html_scene(scenes[k], k, shared);
+  for (std::size_t k = 0; k < scenes.size(); ++k)
+    html += html_scene(scenes[k], k, shared, standing.html(charts.scenes[k]));
   return html;
 }
 
@@ -98,8 +102,10 @@ std::string script_part(const ReportContent& content) {
 
 std::string report_page(const ReportContent& content, PageScript script) {
   const bool has_script = script == PageScript::included && !kPageScript.empty();
-  const std::string precision = html_precision(content.precision);
-  const std::string stability = html_stability(content);
+  const ReportCharts charts = report_charts(content, ChartExtent::page);
+  const StandingCharts standing = has_script ? StandingCharts() : StandingCharts(charts.all());
+  const std::string precision = html_precision(content.precision, charts, standing);
+  const std::string stability = html_stability(content, charts, standing);
   std::string html =
       html_head("Slipcheck report", stability.empty() ? "" : outcome_css(),
                 has_script ? std::vector{kLoader, kPageScript} : std::vector<std::string_view>());
@@ -110,7 +116,8 @@ std::string report_page(const ReportContent& content, PageScript script) {
   html += html_summary(content.scenes) +
           html_context(content.context, content.commands, engines_of(content)) +
           parts_nav(!content.scenes.empty(), !precision.empty(), !stability.empty());
-  html += "</header>\n<main>\n" + scenes_part(content.scenes) + precision + stability + "</main>\n";
+  html += "</header>\n<main>\n" + scenes_part(content.scenes, charts, standing) + precision +
+          stability + "</main>\n";
   if (has_script) html += script_part(content);
   return html + kHtmlEnd;
 }
