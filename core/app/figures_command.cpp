@@ -56,12 +56,12 @@ int draw(const FiguresArguments& arguments) {
   fs::create_directories(directory);
 
   watch_for_interrupts();
-  std::vector<Chart> page;
+  std::vector<PaperFigure> figures;
   {
     ProgressBar bar("drawing", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
     for (const PaperFigureMaker& maker : makers) {
       if (interrupted()) break;
-      bar.set(page.size(), makers.size());
+      bar.set(figures.size(), makers.size());
       PaperFigure figure;
       try {
         figure = maker.make();
@@ -69,16 +69,20 @@ int draw(const FiguresArguments& arguments) {
         break;
       }
       write_file_atomically(directory / (figure.name + ".csv"), csv_text(figure.table));
-      page.push_back(std::move(figure));
+      figures.push_back(std::move(figure));
     }
   }
+  const std::vector<Chart> page(figures.begin(), figures.end());
   const ChartDrawings drawn = write_charts_if_drawn(directory, page);
   if (interrupted()) {
     if (!arguments.quiet) fmt::print(stderr, "interrupted: what had finished is kept\n");
     return kInterrupted;
   }
-  // The page shows all figures; a few of them do not replace it.
+  // These are of all figures; a few of them do not replace them.
   if (!arguments.only.empty()) return kWithinTolerance;
+  write_file_atomically(directory / "stated.csv", stated_csv(figures));
+  write_file_atomically(directory / "figures.md",
+                        figures_markdown(figures, kPaperFiguresIntroduction));
   const fs::path index = directory / "index.html";
   write_file_atomically(index, figure_page(page, drawn, kPaperFiguresIntroduction,
                                            "slipcheck figures " + arguments.directory));

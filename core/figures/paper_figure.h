@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "figures/statement.h"
 #include "report/charts/chart.h"
 #include "report/files/csv.h"
 
@@ -9,7 +10,9 @@ namespace slipcheck {
 
 /// A figure of one of the papers, computed; its name is "K5".
 struct PaperFigure : Chart {
-  Table table;  ///< every number that is drawn, and the residuals
+  std::vector<Statement> statements;  ///< of the paper about it, each beside what the run gives
+  std::string notes;  ///< Markdown beneath the caption: what it shows beyond; maybe none
+  Table table;        ///< every number that is drawn, and the residuals
 };
 
 // One for each figure; K are Kondic's, B those of Brilliantov et al., L Luding's.

@@ -1,0 +1,66 @@
+#include "figures/statement.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "figures/paper_figure.h"
+#include "report/charts/plot_text.h"
+#include "report/files/markdown.h"
+#include "report/rows/csv_rows.h"
+#include "report/rows/text_table.h"
+
+namespace slipcheck {
+namespace {
+
+std::string measured_text(const Statement& statement) {
+  if (!std::isfinite(statement.measured)) return "–";
+  std::string text = fmt::format("{:.4g}", statement.measured);
+  if (statement.error > 0) text += fmt::format(" ± {:.1g}", statement.error);
+  return text;
+}
+
+TextTable table_of(std::span<const Statement> statements) {
+  TextTable table{{{"stated"}, {"paper", true}, {"measured", true}, {"agrees"}, {"remark"}}};
+  for (const Statement& each : statements)
+    table.rows.push_back({{each.what},
+                          {each.stated},
+                          {measured_text(each)},
+                          {each.agrees() ? "yes" : "no"},
+                          {each.remark}});
+  return table;
+}
+
+}  // namespace
+
+Statement stated_number(std::string what, std::string stated, double value, double half_digit,
+                        double measured, double error, std::string remark) {
+  return {std::move(what), std::move(stated), value - half_digit, value + half_digit, measured,
+          error,           std::move(remark)};
+}
+
+std::string stated_csv(std::span<const PaperFigure> figures) {
+  CsvRows rows(
+      {"figure", "claim", "stated", "low", "high", "measured", "error", "agrees", "remark"}, 12);
+  for (const PaperFigure& figure : figures)
+    for (const Statement& each : figure.statements)
+      rows.add({figure.name, each.what, each.stated, each.low, each.high, each.measured, each.error,
+                std::string(each.agrees() ? "yes" : "no"), each.remark});
+  return rows.text();
+}
+
+std::string figures_markdown(std::span<const PaperFigure> figures,
+                             const std::string& introduction) {
+  std::string text = "# The papers' figures\n\n" + introduction + "\n";
+  for (const PaperFigure& figure : figures) {
+    text += fmt::format("\n## {}: {}\n\n{}\n", figure.name,
+                        markdown_escaped(plain_plot_text(figure.title)),
+                        markdown_escaped(plain_plot_text(figure.caption)));
+    if (!figure.notes.empty()) text += "\n" + figure.notes + "\n";
+    if (!figure.statements.empty()) text += "\n" + markdown_table(table_of(figure.statements));
+  }
+  return text;
+}
+
+}  // namespace slipcheck
