@@ -33,9 +33,9 @@ struct GasArguments {
 
 void check(const GasArguments& arguments) {
   const GasSetup& setup = arguments.options.setup;
-  if (setup.particles % kGroup != 0)
+  if (setup.particles % kGasGroup != 0)
     throw BadOption(
-        fmt::format("--particles: must be a multiple of {}, got {}", kGroup, setup.particles));
+        fmt::format("--particles: must be a multiple of {}, got {}", kGasGroup, setup.particles));
   check_output("--out", arguments.directory, true);
   check_output("--json", arguments.json, false);
 }
@@ -94,8 +94,9 @@ void add_gas_command(CLI::App& app, int& exit_code) {
   GasOptions& options = arguments->options;
   command->add_option("FILE", arguments->file, "Scenario file")->required();
   command
-      ->add_option("--particles", options.setup.particles, fmt::format("A multiple of {}", kGroup))
-      ->check(CLI::Range(2 * kGroup, std::size_t{1} << 27))
+      ->add_option("--particles", options.setup.particles,
+                   fmt::format("A multiple of {}", kGasGroup))
+      ->check(CLI::Range(2 * kGasGroup, std::size_t{1} << 27))
       ->capture_default_str();
   command->add_option("--dimensions", options.setup.dimensions, "3, or 2: disks")
       ->check(CLI::IsMember({2, 3}))
@@ -133,7 +134,7 @@ void add_gas_command(CLI::App& app, int& exit_code) {
   command->add_flag("-q,--quiet", arguments->quiet, "No table; the exit code tells");
   command->footer(
       "Examples:\n"
-      "  slipcheck gas scenarios/gas-cooling.yaml --out results/gas\n"
+      "  slipcheck gas scenarios/gas-rolling.yaml --out results/gas\n"
       "  slipcheck gas scenarios/ice-viscoelastic.yaml --particles 1000000 --collisions 200");
   command->callback([arguments, &exit_code] { exit_code = cool(*arguments); });
 }

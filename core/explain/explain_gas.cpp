@@ -4,6 +4,7 @@
 
 #include "explain/explain_parts.h"
 #include "physics/closed_forms.h"
+#include "physics/granular_gas.h"
 #include "reference/reference_solver.h"
 
 namespace slipcheck {
@@ -12,12 +13,11 @@ namespace {
 /// Of a gas of hard disks [m], l = v/ν with the mean speed v = √(π T/2m) of a two-dimensional gas
 /// and the collision rate of a disk after Enskog, ν = 2 √π n d χ √(T/m):
 ///
-///   l = 1/(2 √2 n d χ),  χ = (1 − 7φ/16)/(1 − φ)²,
+///   l = 1/(2 √2 n d χ),  χ of contact_correlation(),
 ///
-/// n disks of diameter d per area that cover the share φ of it. χ, how much more often disks meet
-/// than points would, is Henderson's, Mol. Phys. 30, 971 (1975), right to 1 % up to φ = 0.6.
+/// n disks of diameter d per area that cover the share φ of it.
 double mean_free_path(double density, double diameter, double covered) {
-  const double chi = (1 - 7 * covered / 16) / ((1 - covered) * (1 - covered));
+  const double chi = contact_correlation(2, covered);
   return 1 / (2 * std::numbers::sqrt2 * density * diameter * chi);
 }
 

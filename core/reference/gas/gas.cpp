@@ -24,8 +24,8 @@ Gas::Gas(const GasSetup& setup, const GasLaw& law)
     : setup_(setup),
       law_(law),
       layout_{static_cast<std::size_t>(setup.dimensions), law.rough()},
-      groups_(setup.particles / kGroup),
-      particles_(groups_ * (layout_.stride() / kGroup)),
+      groups_(setup.particles / kGasGroup),
+      particles_(groups_ * (layout_.stride() / kGasGroup)),
       turns_(setup.seed, kTurnStream),
       rate_(collisions_on_the_way(setup.dimensions, setup.filled, 2 * setup.sphere.radius)),
       mean_square_(setup.speed * setup.speed) {
@@ -74,10 +74,10 @@ void Gas::fill(std::size_t from, std::size_t to, double mean_square, GasRandom& 
 void Gas::deal() {
   const std::size_t cells = cells_.size(), pieces = kColumns * cells;
   for (Cell& cell : cells_) cell.groups.clear();
-  std::array<std::uint64_t, kGroup> words{};
+  std::array<std::uint64_t, kGasGroup> words{};
   for (std::size_t c = 0; c < kColumns; ++c) {
-    if (c % kGroup == 0) words = turns_.next();
-    const std::size_t turn = words[c % kGroup] % cells;
+    if (c % kGasGroup == 0) words = turns_.next();
+    const std::size_t turn = words[c % kGasGroup] % cells;
     for (std::size_t b = 0; b < cells; ++b) {
       const std::size_t piece = c * cells + (b + turn) % cells;
       const std::size_t first = piece * groups_ / pieces, last = (piece + 1) * groups_ / pieces;

@@ -79,10 +79,10 @@ class Gas {
   };
   /// The c-th component of the k-th particle.
   double& component(std::size_t k, std::size_t c) {
-    return particles_[k / kGroup * (layout_.stride() / kGroup) + c].at[k % kGroup];
+    return particles_[k / kGasGroup * (layout_.stride() / kGasGroup) + c].at[k % kGasGroup];
   }
   double component(std::size_t k, std::size_t c) const {
-    return particles_[k / kGroup * (layout_.stride() / kGroup) + c].at[k % kGroup];
+    return particles_[k / kGasGroup * (layout_.stride() / kGasGroup) + c].at[k % kGasGroup];
   }
   void fill(std::size_t from, std::size_t to, double mean_square, GasRandom& random);
   void deal();
@@ -93,7 +93,7 @@ class Gas {
   GasLayout layout_;
   std::size_t groups_;
   struct alignas(64) Eight {
-    double at[kGroup] = {};
+    double at[kGasGroup] = {};
   };
   std::vector<Eight, HugePages<Eight>> particles_;  // a component of a group each
   std::vector<Cell> cells_;

@@ -17,7 +17,7 @@ namespace slipcheck {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using GasTag = HWY_CAPPED(double, kGroup);
+using GasTag = HWY_CAPPED(double, kGasGroup);
 using GasBits = hn::RebindToUnsigned<GasTag>;
 using GasVector = hn::Vec<GasTag>;
 using GasWords = hn::Vec<GasBits>;
@@ -110,7 +110,7 @@ class BounceOfLanes {
       stick =
           hn::Min(hn::Set(d, law_.largest_stick()), hn::Div(hn::Mul(cap, u_n), hn::Max(u_t, slow)));
     } else {
-      alignas(64) double normal[kGroup], tangential[kGroup], here[kGroup] = {};
+      alignas(64) double normal[kGasGroup], tangential[kGasGroup], here[kGasGroup] = {};
       hn::Store(u_n, d, normal);
       hn::Store(u_t, d, tangential);
       hn::Store(hn::IfThenElseZero(accepted, hn::Set(d, 1)), d, here);
@@ -133,7 +133,7 @@ template <std::size_t kD, bool kSpins, bool kConstant>
 HWY_ATTR void visit_lanes(const GasLaw& law, double shape_factor, GasRandom& random,
                           GasVisit& visit) {
   constexpr std::size_t kS = !kSpins ? 0 : kD == 3 ? 3 : 1;
-  constexpr std::size_t kStride = kGroup * (kD + kS);
+  constexpr std::size_t kStride = kGasGroup * (kD + kS);
   const GasTag d;
   const GasBits bits;
   const std::size_t lanes = hn::Lanes(d);
@@ -144,10 +144,10 @@ HWY_ATTR void visit_lanes(const GasLaw& law, double shape_factor, GasRandom& ran
   GasVector collided = hn::Zero(d);
   const GasVector one = hn::Set(d, 1);
   const std::size_t count = visit.groups.size();
-  std::array<std::uint64_t, kGroup> picks{};
+  std::array<std::uint64_t, kGasGroup> picks{};
   for (std::size_t m = 0; m < visit.candidates; ++m) {
-    if (m % kGroup == 0) picks = random.next();
-    const std::uint64_t pick = picks[m % kGroup];
+    if (m % kGasGroup == 0) picks = random.next();
+    const std::uint64_t pick = picks[m % kGasGroup];
     const std::size_t a = ((pick & 0xffffffff) * count) >> 32;
     std::size_t b = (((pick >> 32) & 0x1fffffff) * (count - 1)) >> 29;
     b += b >= a;
@@ -156,11 +156,11 @@ HWY_ATTR void visit_lanes(const GasLaw& law, double shape_factor, GasRandom& ran
     double* const second = visit.particles + visit.groups[b] * kStride;
     const auto turn =
         hn::IndicesFromVec(bits, hn::Xor(hn::Iota(bits, 0), hn::Set(bits, facing & (lanes - 1))));
-    for (std::size_t at = 0; at < kGroup; at += lanes) {
+    for (std::size_t at = 0; at < kGasGroup; at += lanes) {
       double* const pi = first + at;
       double* const pj = second + (at ^ (facing & ~(lanes - 1)));
       const auto load = [&](const double* from, std::size_t c)
-                            HWY_ATTR { return hn::Load(d, from + c * kGroup); };
+                            HWY_ATTR { return hn::Load(d, from + c * kGasGroup); };
       const auto faced = [&](GasVector v) HWY_ATTR {
         return hn::BitCast(d, hn::TableLookupLanes(hn::BitCast(bits, v), turn));
       };
@@ -186,8 +186,8 @@ HWY_ATTR void visit_lanes(const GasLaw& law, double shape_factor, GasRandom& ran
             hn::IfThenElseZero(accepted, hn::Mul(hn::Set(d, 0.25), hn::Add(one, e)));
         for (std::size_t c = 0; c < kD; ++c) {
           const GasVector impulse = hn::Mul(part, h.at[c]);
-          hn::Store(hn::Sub(vi.at[c], impulse), d, pi + c * kGroup);
-          hn::Store(faced(hn::Add(vj.at[c], impulse)), d, pj + c * kGroup);
+          hn::Store(hn::Sub(vi.at[c], impulse), d, pi + c * kGasGroup);
+          hn::Store(faced(hn::Add(vj.at[c], impulse)), d, pj + c * kGasGroup);
         }
         continue;
       }
@@ -230,8 +230,8 @@ HWY_ATTR void visit_lanes(const GasLaw& law, double shape_factor, GasRandom& ran
       for (std::size_t c = 0; c < kD; ++c) {
         GasVector impulse = hn::Mul(part, h.at[c]);
         if constexpr (kSpins) impulse = hn::Add(impulse, hn::Mul(stick, slip.at[c]));
-        hn::Store(hn::Sub(vi.at[c], impulse), d, pi + c * kGroup);
-        hn::Store(faced(hn::Add(vj.at[c], impulse)), d, pj + c * kGroup);
+        hn::Store(hn::Sub(vi.at[c], impulse), d, pi + c * kGasGroup);
+        hn::Store(faced(hn::Add(vj.at[c], impulse)), d, pj + c * kGasGroup);
       }
       if constexpr (kSpins) {
         // Δw = −(η/q) k×u_t of both.
@@ -240,13 +240,13 @@ HWY_ATTR void visit_lanes(const GasLaw& law, double shape_factor, GasRandom& ran
           const std::size_t x = kD == 2 ? 0 : (c + 1) % 3, y = kD == 2 ? 1 : (c + 2) % 3;
           const GasVector change =
               hn::Mul(turned, hn::Sub(hn::Mul(k.at[x], slip.at[y]), hn::Mul(k.at[y], slip.at[x])));
-          hn::Store(hn::Sub(wi.at[c], change), d, pi + (kD + c) * kGroup);
-          hn::Store(faced(hn::Sub(wj.at[c], change)), d, pj + (kD + c) * kGroup);
+          hn::Store(hn::Sub(wi.at[c], change), d, pi + (kD + c) * kGasGroup);
+          hn::Store(faced(hn::Sub(wj.at[c], change)), d, pj + (kD + c) * kGasGroup);
         }
       }
     }
   }
-  alignas(64) double counts[2][kGroup] = {};
+  alignas(64) double counts[2][kGasGroup] = {};
   hn::Store(collided, d, counts[0]);
   hn::Store(overtaken, d, counts[1]);
   for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -259,14 +259,14 @@ template <std::size_t kD>
 HWY_INLINE GasSquares squares_of_lanes(const GasLayout& layout, const GasVisit& visit) {
   const GasTag d;
   GasVector most = hn::Zero(d);
-  alignas(64) double sums[kGroup];
-  for (std::size_t at = 0; at < kGroup; at += hn::Lanes(d)) {
+  alignas(64) double sums[kGasGroup];
+  for (std::size_t at = 0; at < kGasGroup; at += hn::Lanes(d)) {
     GasVector sum = hn::Zero(d);
     for (const std::uint32_t group : visit.groups) {
       const double* from = visit.particles + group * layout.stride() + at;
       GasVector v2 = hn::Zero(d);
       for (std::size_t c = 0; c < kD; ++c) {
-        const GasVector v = hn::Load(d, from + c * kGroup);
+        const GasVector v = hn::Load(d, from + c * kGasGroup);
         v2 = hn::Add(v2, hn::Mul(v, v));
       }
       most = hn::Max(most, v2);

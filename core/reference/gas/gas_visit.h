@@ -12,14 +12,16 @@ namespace slipcheck {
 /// Particles lie in groups of eight: eight first components of the velocity, eight second ones, …,
 /// then those of the surface's velocity w = R ω [m/s], where there are spins. In two dimensions w
 /// is one number, counterclockwise.
-inline constexpr std::size_t kGroup = GasRandom::kWidth;
+inline constexpr std::size_t kGasGroup = GasRandom::kWidth;
 
 /// Components of the velocity and of w of a particle.
 struct GasLayout {
   std::size_t dimensions = 3;
   bool spins = false;
   std::size_t spin_components() const { return !spins ? 0 : dimensions == 3 ? 3 : 1; }
-  std::size_t stride() const { return kGroup * (dimensions + spin_components()); }  ///< of a group
+  std::size_t stride() const {
+    return kGasGroup * (dimensions + spin_components());
+  }  ///< of a group
 };
 
 /// What one cell does in one step.
