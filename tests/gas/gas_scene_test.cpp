@@ -77,7 +77,6 @@ TEST(GasOfScene, GasOfAsperitiesCoolsAndSpins) {
   options.setup.particles = 8000;
   options.collisions = 20;
   const GasRun run = run_gas(options, gas.law);
-  EXPECT_LT(run.samples.back().translation.value, 0.5 * run.samples[0].translation.value);
   EXPECT_GT(run.samples.back().rotation.value, 0);
   const GasStatement cooling = test::stated(run, test::kCooling)[0];
   // a_2 and correlations are not in the mean field: some per cent.

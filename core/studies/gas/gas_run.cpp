@@ -226,6 +226,7 @@ GasRun run_gas(const GasOptions& options, const GasLaw& law) {
     for (std::size_t k = 1; k <= options.samples; ++k) {
       const double next =
           options.collisions * static_cast<double>(k) / static_cast<double>(options.samples);
+      if (gas.collisions_per_particle() >= next) continue;  // steps longer than between samples
       while (gas.collisions_per_particle() < next) {
         gas.advance();
         options.progress(gas.collisions_per_particle());
