@@ -5,6 +5,7 @@ usage: study_test.py SLIPCHECK SOURCE_DIR
 """
 import csv
 import json
+import math
 import os
 import subprocess
 import sys
@@ -80,6 +81,59 @@ class Precision(Study):
             result = run("precision", *arguments, "--out", out)
             self.assertEqual(result.returncode, 2, (arguments, result.stderr))
             self.assertTrue(result.stderr)
+            self.assertFalse(out.exists())
+
+
+class Gas(Study):
+    ROLLING = SCENES / "gas-rolling.yaml"
+
+    def test_series_statements_and_table(self):
+        out = self.path / "out"
+        result = run("gas", self.ROLLING, "--particles", "40000", "--collisions", "60", "--samples",
+                     "60", "--out", out, "--json", "-")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        report = json.loads((out / "gas.json").read_text())
+        self.assertEqual(json.loads(result.stdout), report)
+        self.assertEqual(report["schema"], "slipcheck-gas/1")
+        self.assertEqual(report["gas"]["law"], "smooth")
+        self.assertEqual(report["gas"]["particles"], 40000)
+        self.assertAlmostEqual(report["gas"]["speed"], 0.2, 12)
+        # T = m v^2/3 of a steel ball of 2 mm.
+        mass = 7850 * 4 / 3 * math.pi * 0.002 ** 3
+        self.assertAlmostEqual(report["samples"][0]["translation"]["value"] / (mass * 0.04 / 3), 1, 9)
+        self.assertIsNone(report["samples"][0]["rotation"]["value"])
+        exponent = {each["name"]: each for each in report["statements"]}["exponent of T(t)"]
+        self.assertEqual(exponent["theory"], -2)
+        self.assertLess(abs(exponent["measured"]["value"] + 2), 4 * exponent["measured"]["error"])
+        rows = list(csv.DictReader((out / "gas.csv").read_text().splitlines()))
+        self.assertEqual(len(rows), 61)
+        self.assertEqual(rows[0]["T_rot [J]"], "")
+        self.assertGreater(float(rows[-1]["collisions per particle [-]"]), 60)
+        self.assertEqual(sorted(path.name for path in out.iterdir()), ["gas.csv", "gas.json"])
+        table = run("gas", self.ROLLING, "--particles", "8000", "--collisions", "20")
+        self.assertEqual(table.returncode, 0)
+        self.assertIn("van Noije and Ernst 1998", table.stdout)
+
+    def test_threads_change_nothing_and_seeds_do(self):
+        def text(*arguments):
+            return run("gas", SCENES / "rough-sticking.yaml", "--particles", "20000",
+                       "--collisions", "5", "--json", "-", *arguments).stdout
+        self.assertEqual(text("--threads", "1"), text("--threads", "4"))
+        self.assertNotEqual(text("--seed", "2"), text())
+
+    def test_bad_input_is_exit_2_and_writes_nothing(self):
+        for arguments, words in (
+                ([self.ROLLING, "--particles", "1001"], "--particles: must be a multiple of 8, got 1001"),
+                ([self.ROLLING, "--dimensions", "4"], "--dimensions"),
+                ([self.ROLLING, "--fraction", "0.8"], "--fraction"),
+                ([self.ROLLING, "--speed", "-1"], "--speed"),
+                ([self.ROLLING, "--step", "2"], "--step"),
+                ([SCENES / "box-one-ball.yaml"], "must have one between"),
+                ([SCENES / "nowhere.yaml"], "nowhere.yaml")):
+            out = self.path / "never"
+            result = run("gas", *arguments, "--out", out)
+            self.assertEqual(result.returncode, 2, (arguments, result.stdout))
+            self.assertIn(words, result.stderr)
             self.assertFalse(out.exists())
 
 
