@@ -96,7 +96,7 @@ void add_gas_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--particles", options.setup.particles,
                    fmt::format("A multiple of {}", kGasGroup))
-      ->check(CLI::Range(2 * kGasGroup, std::size_t{1} << 27))
+      ->check(CLI::Range(2 * kGasGroup, std::size_t{1} << 24))
       ->capture_default_str();
   command->add_option("--dimensions", options.setup.dimensions, "3, or 2: disks")
       ->check(CLI::IsMember({2, 3}))

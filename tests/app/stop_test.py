@@ -95,7 +95,9 @@ class Stopping(unittest.TestCase):
                         ["stability", hopeless, "-q", "--limits", "no"],
                         ["tune", hopeless, "--engine", "bullet", "-o", self.path / "t.yaml"],
                         ["check", hopeless, "--baselines", self.path / "baselines"],
-                        ["figures", self.path / "figures", "--only", "L10", "-q"]):
+                        ["figures", self.path / "figures", "--only", "L10", "-q"],
+                        ["gas", SOURCE / "scenarios" / "gas-rolling.yaml", "--particles",
+                         "1000000", "--collisions", "100000", "-q"]):
             with self.subTest(command=command[0]):
                 self.assertEqual(self.stopped(*command), 130)
         self.assertFalse((self.path / "t.yaml").exists())

@@ -42,7 +42,7 @@ inline std::vector<GasStatement> stated(const GasRun& run, const std::string& na
     if (each.name == name) found.push_back(each);
   return found;
 }
-inline constexpr const char* kCooling = "-d ln T/d(collisions of a particle)";
+inline constexpr const char* kCooling = "cooling per collision";
 inline constexpr const char* kExponent = "exponent of T(t)";
 
 }  // namespace slipcheck::test

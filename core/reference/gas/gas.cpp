@@ -50,6 +50,7 @@ void Gas::fill(std::size_t from, std::size_t to, double mean_square, GasRandom& 
   for (std::size_t c = from; c < to; ++c) {
     double mean = 0;
     for (std::size_t k = 0; k < n; k += 2) {
+      if (k % 65536 == 0) heed_stop();
       const auto words = random.next();
       const auto number = [&](std::size_t w) {
         return (static_cast<double>(words[w] >> 11) + 0.5) * 0x1p-53;

@@ -96,7 +96,6 @@ class Observation {
       sample.ratio = {T_rot / T, T_rot / T * moments.error(ratio_share)};
     }
     run_.samples.push_back(sample);
-    parts_.push_back(moments.parts);
   }
 
   GasRun finish(const Gas& gas) {
@@ -119,25 +118,34 @@ class Observation {
   bool is_haff() const { return law_.constant() && !law_.rough(); }
   double e() const { return std::get<double>(law_.hard.restitution); }
 
-  /// The mean over the second half of the samples, which remember each other: its error is that of
-  /// the means of the batches.
-  template <class Value, class Share>
-  Measured mean_over_samples(Value value, Share share) const {
-    std::vector<double> shares(parts_[0].size());
-    MeanOfMany mean;
+  /// The mean over the second half of the samples. They remember each other, all together for
+  /// longer than a single particle: the sum of their correlations up to the first that is none
+  /// makes the error √(1 + 2 Σ ρ_j (1 − j/n)) times as large.
+  template <class Value>
+  Measured mean_over_samples(Value value) const {
+    std::vector<double> x;
+    double mean = 0, variance = 0;
     for (std::size_t k = first_; k < run_.samples.size(); ++k) {
-      mean.add(value(run_.samples[k]));
-      for (std::size_t b = 0; b < shares.size(); ++b) shares[b] += share(parts_[k][b]);
+      const Measured each = value(run_.samples[k]);
+      x.push_back(each.value);
+      mean += each.value;
+      variance += each.error * each.error;
     }
-    MeanOfMany batches;
-    for (const double each : shares) batches.add(each / mean.count);
-    return {mean.mean().value, batches.mean().error};
+    const auto n = static_cast<double>(x.size());
+    mean /= n;
+    const auto correlation = [&](std::size_t j) {
+      double sum = 0;
+      for (std::size_t k = j; k < x.size(); ++k) sum += (x[k] - mean) * (x[k - j] - mean);
+      return sum;
+    };
+    double memory = 1;
+    for (std::size_t j = 1; j < x.size() && correlation(j) > 0; ++j)
+      memory += 2 * (1 - static_cast<double>(j) / n) * correlation(j) / correlation(0);
+    return {mean, std::sqrt(variance * memory) / n};
   }
 
   void state_cumulant() {
-    Measured a2 =
-        mean_over_samples([](const GasSample& sample) { return sample.a2.value; }, a2_share);
-    a2.error *= 1 + a2.value;
+    const Measured a2 = mean_over_samples([](const GasSample& sample) { return sample.a2; });
     a2_ = a2.value;
     if (!is_haff()) {
       run_.statements.push_back({"a_2", a2});
@@ -175,7 +183,7 @@ class Observation {
       }
     }
     run_.statements.push_back(
-        {"-d ln T/d(collisions of a particle)",
+        {"cooling per collision",
          {cooled.mean().value, ahead.mean().error},
          expected.mean().value,
          is_haff() ? "Haff 1983 with this a_2" : "mean field at these temperatures"});
@@ -195,9 +203,7 @@ class Observation {
 
   void state_partition(bool spins) {
     if (!spins) return;
-    Measured ratio =
-        mean_over_samples([](const GasSample& sample) { return sample.ratio.value; }, ratio_share);
-    ratio.error *= ratio.value;
+    const Measured ratio = mean_over_samples([](const GasSample& sample) { return sample.ratio; });
     MeanOfMany theory;
     for (std::size_t k = first_; k < run_.samples.size(); ++k) {
       const GasTemperatures& both = run_.samples[k].mean_field;
@@ -210,8 +216,7 @@ class Observation {
   const GasOptions& options_;
   const GasLaw& law_;
   GasRun run_;
-  std::vector<std::vector<GasMoments>> parts_;  // by sample, then batch
-  std::size_t first_ = 0;                       // sample of the statements
+  std::size_t first_ = 0;  // sample of the statements
   double a2_ = 0;
 };
 
