@@ -109,7 +109,7 @@ class FaultyEngine final : public Engine {
       kill_at_ = std::stol(fault_.substr(prefix.size()));
     }
     return {
-        {{"time_step", time_step}, {"strict", true}, {"pid", double(getpid())}}, {"physics"}, {}};
+        {{"time_step", time_step}, {"strict", true}, {"pid", double(getpid())}}, {{"physics"}}, {}};
   }
 
   void start(std::span<const BodyState> states, double) override {

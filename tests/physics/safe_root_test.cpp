@@ -29,8 +29,8 @@ TEST(FallTime, IsThatOfAParabola) {
   EXPECT_EQ(fall_time(1, 2, 0), kNever);
   EXPECT_EQ(fall_time(1, 0, 0), kNever);
   EXPECT_EQ(fall_time(0, 0, 10), kNever);
-  // From 1 nm with 1 km/s down: no digits are lost.
-  EXPECT_DOUBLE_EQ(fall_time(1e-9, -1e3, 10), 1e-12);
+  // From 1 nm with 1 km/s down no digits are lost: h/v (1 − g h/(2 v²) + …).
+  EXPECT_DOUBLE_EQ(fall_time(1e-9, -1e3, 10), 1e-12 * (1 - 5e-15));
 }
 
 }  // namespace

@@ -52,13 +52,15 @@ GasOfScene gas_of_scene(const Scenario& scenario, std::optional<double> speed) {
     const ContactMaker maker(scenario, *contact);
     if (std::holds_alternative<double>(e))
       made.speed_exponent = 0;
-    else if (maker.is_viscoelastic_restitution())
+    else if (maker.is_viscoelastic_restitution() && !made.law.rough())
       made.speed_exponent = 0.2;
     return made;
   }
   made.soft = true;
-  made.speed_exponent = speed_exponent_of(soft->normal);
-  if (std::holds_alternative<NoTangentialForce>(soft->tangential)) return made;
+  if (std::holds_alternative<NoTangentialForce>(soft->tangential)) {
+    made.speed_exponent = speed_exponent_of(soft->normal);
+    return made;
+  }
   if (!can_batch(*soft)) {
     Obstacles obstacles(scenario);
     obstacles.add(contact->path + ".tangential",

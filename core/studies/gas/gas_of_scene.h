@@ -15,7 +15,8 @@ struct GasOfScene {
   double speed = 0;     ///< root mean square of the scene's bodies [m/s]
   std::string contact;  ///< path of the contact in the file, "contacts[0]"
   bool soft = false;    ///< forces that last, taken as collisions in an instant
-  /// p of 1 − e ~ g^p for e near 1, where the law has one: 0, and 1/5 of the viscoelastic sphere.
+  /// p of 1 − e ~ g^p for e near 1, where the law has one and nothing else takes energy: 0, and 1/5
+  /// of the smooth viscoelastic sphere.
   std::optional<double> speed_exponent;
   GasLaw law;
 };

@@ -182,11 +182,10 @@ class Observation {
         log_rate.push_back(std::log(fall / (b.time - a.time)));
       }
     }
-    run_.statements.push_back(
-        {"cooling per collision",
-         {cooled.mean().value, ahead.mean().error},
-         expected.mean().value,
-         is_haff() ? "Haff 1983 with this a_2" : "mean field at these temperatures"});
+    run_.statements.push_back({"cooling per collision",
+                               {cooled.mean().value, ahead.mean().error},
+                               expected.mean().value,
+                               is_haff() ? "Haff 1983 with this a_2" : "mean field"});
     // −d ln T/dt ~ T^(1/p) belongs to T ~ (t + t_0)^(−p), whatever t_0. A gas that has not cooled
     // says nothing.
     if (log_T.size() < 4 || log_T.front() - log_T.back() < 0.5) return;
@@ -196,7 +195,7 @@ class Observation {
     if (options_.speed_exponent) {
       statement.theory = -2 / (1 + *options_.speed_exponent);
       statement.source =
-          *options_.speed_exponent == 0 ? "Haff 1983" : "Schwager and Poeschel 1998, as e -> 1";
+          *options_.speed_exponent == 0 ? "Haff 1983" : "Schwager and Poeschel 1998, e -> 1";
     }
     run_.statements.push_back(statement);
   }
@@ -209,8 +208,8 @@ class Observation {
       const GasTemperatures& both = run_.samples[k].mean_field;
       theory.add(both.rotation / both.translation);
     }
-    run_.statements.push_back({"T_rot/T", ratio, theory.mean().value,
-                               "mean field (Huthmann and Zippelius 1997) of the same times"});
+    run_.statements.push_back(
+        {"T_rot/T", ratio, theory.mean().value, "mean field, Huthmann and Zippelius 1997"});
   }
 
   const GasOptions& options_;
