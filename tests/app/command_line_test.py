@@ -428,7 +428,7 @@ class CommandLine(unittest.TestCase):
         for k, instant in enumerate(statistics["series"]["time"]):
             self.assertAlmostEqual(instant, 0.01 * (201 + k), delta=1e-11)
         page = page_data((self.path / "box/report.html").read_text())
-        self.assertEqual(len(page["scenes"][0]["series"]), 4)
+        self.assertEqual(len(page["scenes"][0]["charts"][0]["panels"]), 4)
 
     def test_every_bundled_scene_runs_in_the_reference(self):
         scenes = sorted(SCENES.glob("*.yaml"))
@@ -461,6 +461,14 @@ class CommandLine(unittest.TestCase):
                              ["K6.csv", "K6.svg", "K7.csv", "K7.svg"])
             texts.append([file.read_bytes() for file in sorted(folder.iterdir())])
         self.assertEqual(texts[0], texts[1])
+
+    def test_figures_without_gnuplot_keep_their_numbers(self):
+        folder, nothing = self.path / "figures", self.path / "nothing"
+        nothing.mkdir()
+        result = run("figures", folder, "--only", "K7", env=dict(os.environ, PATH=str(nothing)))
+        self.assertEqual((result.returncode, result.stdout), (0, ""))
+        self.assertIn("install gnuplot", result.stderr)
+        self.assertEqual([file.name for file in folder.iterdir()], ["K7.csv"])
 
     def test_figures_refuses_names_that_no_figure_has(self):
         folder = self.path / "figures"

@@ -141,11 +141,12 @@ class Report(unittest.TestCase):
         data = page_data(page)
         study = json.loads((precision / "precision.json").read_text())["scenes"][0]["curves"]
         self.assertEqual([scene["name"] for scene in data["precision"]], ["symmetric-30cms"])
-        shown = {curve["label"]: curve["points"] for curve in data["precision"][0]["curves"]}
+        work = data["precision"][0]["charts"][0]["panels"][0]
+        shown = {curve["label"]: curve["x"] for curve in work["curves"]}
         for curve in study:
             if curve["kind"] == "engine" and not curve.get("iterations"):
-                self.assertEqual([point["cost"] for point in shown[curve["method"]]],
-                                 [float(f"{point['cost']['cpu_per_simulated_second']:.5g}")
+                self.assertEqual(shown[curve["method"]],
+                                 [float(f"{point['cost']['cpu_per_simulated_second']:.6g}")
                                   for point in curve["points"]])
         text = page.read_text()
         self.assertIn("Error against run time", text)

@@ -108,8 +108,9 @@ class FaultyEngine final : public Engine {
     if (const std::string prefix = "kill-at-step-"; fault_.starts_with(prefix)) {
       kill_at_ = std::stol(fault_.substr(prefix.size()));
     }
-    return {
-        {{"time_step", time_step}, {"strict", true}, {"pid", double(getpid())}}, {{"physics"}}, {}};
+    return {{{"time_step", time_step}, {"strict", true}, {"pid", double(getpid())}},
+            {Lack{"physics"}},
+            {}};
   }
 
   void start(std::span<const BodyState> states, double) override {

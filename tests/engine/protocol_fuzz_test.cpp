@@ -46,7 +46,8 @@ std::vector<Bytes> good_messages() {
       encode(Request(Step{100})),
       encode(Request(Time{some_scene().initial, 0.5, 100, 3})),
       encode(Reply(Welcome{1, {"bullet", "3.24", "double", some_settings()}})),
-      encode(Reply(Configured{{{{"erp", 0.2}, {"on", true}}, {"this", "that"}, {"this"}}})),
+      encode(Reply(Configured{
+          {{{"erp", 0.2}, {"on", true}}, {Lack{"this", "one"}, Lack{"that", ""}}, {"this"}}})),
       encode(Reply(Refusal{"no"})),
       encode(Reply(frames)),
   };

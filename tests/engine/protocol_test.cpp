@@ -120,8 +120,8 @@ TEST(Protocol, TheOtherMessagesComeThrough) {
   const auto configure = request_through<Configure>(Configure{some_scene(), settings, 0.01});
   EXPECT_EQ(configure.settings, settings);
   EXPECT_EQ(configure.time_step, 0.01);
-  const auto configured =
-      through<Configured>(Configured{{settings, {{"friction below 2 m/s", "friction"}}, {"rows"}}});
+  const auto configured = through<Configured>(
+      Configured{{settings, {Lack{"friction below 2 m/s", "friction"}}, {"rows"}}});
   EXPECT_EQ(configured.applied.settings, settings);
   ASSERT_EQ(configured.applied.not_represented.size(), 1u);
   EXPECT_EQ(configured.applied.not_represented[0].text, "friction below 2 m/s");

@@ -68,20 +68,38 @@ const runs = [
   ['default', 'double', 240, 'deviates'], ['default', 'single', 240, 'deviates'],
   ['tuned', 'double', 240, 'within'], ['tuned', 'double', 1000, 'undecided'],
 ].map(([profile, precision, rate, verdict]) => ({ label: `bullet ${precision} ${profile} ${rate} Hz`, engine: 'bullet',
-  precision, profile, rate, verdict }));
+  precision, profile, rate, verdict, look: { ink: profile === 'tuned' ? 'vermilion' : 'blue', line: 'dashed', marker: rate > 240 ? 'square' : 'circle' } }));
+
+const axis = (label, low, high, log = false) => ({ label, low, high, log });
+const panel_of = (x, y, more) => ({ title: '', x, y, curves: [], bands: [], looks: [], cells: [], ...more });
+const curve_of = (label, ink, line, marker, x, y, more) => ({ label, look: { ink, line, marker }, halo: false, edge: false, x, y, ...more });
+
+// Each phase of each run in its row, and one that is far beyond the axis.
+function phases_chart(observable, reference, tolerance, spread) {
+  const rows = runs.map((_, k) => k).filter((r) => !(observable.startsWith('j') && r === 1));
+  const inside = curve_of('within the tolerance', 'blue', null, 'circle', [], [], { notes: [] });
+  const outside = curve_of('outside', 'vermilion', null, 'diamond', [], [], { notes: [] });
+  const beyond = curve_of('beyond the axis', 'vermilion', null, 'triangle', [1e6], [0.2], { notes: ['phase 8 of 32'], edge: true });
+  rows.forEach((r, row) => series_of(32, (k) => k).filter((k) => !(r === 0 && k === 7)).forEach((k) => {
+    const value = reference + (runs[r].profile === 'tuned' ? 0.3 * tolerance * noise(k + r) : spread * (0.5 + 0.5 * noise(k + r)));
+    const curve = Math.abs(value - reference) <= tolerance ? inside : outside;
+    curve.x.push(value);
+    curve.y.push(row + 0.7 * ((k + 0.5) / 32 - 0.5));
+    curve.notes.push(`phase ${k + 1} of 32`);
+  }));
+  const y = { ...axis('', -0.5, rows.length - 0.5), names: rows.map((r) => runs[r].label), runs: rows };
+  return { title: observable, caption: 'bullet double default 240 Hz: 27 of 32 phases outside the tolerance.', columns: 1, height: 100,
+    panels: [panel_of(axis(observable, reference - 2 * tolerance, reference + 1.1 * spread), y, {
+      bands: [{ label: 'tolerance', x: [reference - tolerance, reference + tolerance], y: [null, null] }],
+      truth: { value: reference, tolerance },
+      curves: [curve_of('reference', 'black', 'solid', null, [reference, reference], [-0.5, rows.length - 0.5]), inside, outside, beyond] })] };
+}
 
 function pair_scene() {
-  const phases = (observable, unit, factor, reference, tolerance, spread) => ({ observable, unit, factor, reference,
-    uncertainty: 1e-12, low: reference - tolerance, high: reference + tolerance,
-    caption: 'bullet double default 240 Hz: 27 of 32 phases outside the tolerance.',
-    values: runs.map((run, r) => (observable.startsWith('j') && r === 1 ? null
-      : series_of(32, (k) => (r === 0 && k === 7 ? null
-        : reference + (run.profile === 'tuned' ? 0.3 * tolerance * noise(k + r) : spread * (0.5 + 0.5 * noise(k + r))))))) });
   return {
     id: 'scene-1', name: 'symmetric-30cms', runs,
-    phases: [phases('i-j.effective_restitution', '', 1, 0.357143, 0.01, 0.13),
-      phases('i.sliding_time', 'ms', 1e-3, 0.0277, 0.0003, 0.002), phases('j.sliding_distance', 'mm', 1e-3, 0.004, 0.00004, 0.0006)],
-    series: [],
+    charts: [phases_chart('i-j.effective_restitution', 0.357143, 0.01, 0.13),
+      phases_chart('i.sliding_time [ms]', 27.7, 0.3, 2), phases_chart('j.sliding_distance [mm]', 4, 0.04, 0.6)],
     motion: { bodies: [{ name: 'i', radius: 0.002 }, { name: 'j', radius: 0.002 }], tilt: 0, substrate: true, periodic: null, gravity: 9.81,
       runs: [pair_motion(-1, 'reference', 0, 1),
         ...[0, 1, 2, 3].flatMap((run) => ['nearest', 'median', 'worst'].map((role, n) => pair_motion(run, role,
@@ -91,52 +109,53 @@ function pair_scene() {
 
 function box_scene() {
   const time = series_of(400, (k) => 0.02 * k);
-  const series = (title, unit, factor, mean, amplitude) => ({ title, unit, factor, time: channel(time),
-    values: channel(time.map((t, k) => mean * (1 - Math.exp(-t)) + amplitude * noise(k))), mean, uncertainty: 0.1 * amplitude, averaged_from: 150 });
-  return { id: 'scene-2', name: 'box-rough', runs: [runs[0], { ...runs[2], verdict: 'failed' }], phases: [],
-    series: [series('H, height of the centre of mass', 'mm', 1e-3, 0.012, 0.002), series('K, kinetic energy', 'µJ', 1e-6, 3e-6, 8e-7)], motion: null };
+  const strip = (label, mean, amplitude, time_label) => panel_of(axis(time_label, 0, 8), axis(label, 0, mean + 2 * amplitude), {
+    title: label, bands: [{ label: 'its 95 % interval', x: [3, 8], y: [mean - 0.1 * amplitude, mean + 0.1 * amplitude] }],
+    curves: [curve_of('averaged', 'blue', 'solid', null, channel(time), channel(time.map((t, k) => mean * (1 - Math.exp(-t)) + amplitude * noise(k)))),
+      curve_of('mean', 'black', 'solid', null, [3, 8], [mean, mean])] });
+  return { id: 'scene-2', name: 'box-rough', runs: [runs[0], { ...runs[2], verdict: 'failed' }], motion: null,
+    charts: [{ title: 'box-rough over time', caption: 'mean 12 mm', columns: 1, height: 110,
+      panels: [strip('H [mm]', 12, 2, ''), strip('K [µJ]', 3, 0.8, 'time [s]')] }] };
 }
 
 function slope_scene() {
-  return { id: 'scene-3', name: 'slope-rolls <&>', runs: runs.slice(2), phases: [], series: [],
+  return { id: 'scene-3', name: 'slope-rolls <&>', runs: runs.slice(2), charts: [],
     motion: { bodies: [{ name: 'ball', radius: 0.01 }], tilt: 5, substrate: true, periodic: null, gravity: 9.81,
       runs: [slope_motion(-1, 'reference', 1), slope_motion(0, 'median', 0.99), slope_motion(1, 'median', 1.002)] } };
 }
 
 function precision_scene() {
   const rates = [120, 240, 480, 960, 1920, 3840, 7680];
-  const engine = (profile, precision, cost, error, order) => ({ label: `bullet ${precision} ${profile}`, kind: 'engine', engine: 'bullet',
-    precision, profile, knob: 'rate', points: rates.map((rate, k) => ({ setting: `${rate} Hz, 10 iterations`, cost: cost * rate, spread: 0.02,
-      errors: [error * (240 / rate) ** order * (1 + 0.4 * noise(k)), k === 2 ? null : 2 * error], front: [profile === 'tuned' && k > 2, false] })) });
-  return { id: 'precision-1', name: 'symmetric-30cms',
-    quantities: [{ name: 'i-j.effective_restitution', label: 'worst error of e_eff' }, { name: 'i.sliding_time', label: 'worst error of i.sliding_time [s]' }],
-    curves: [engine('default', 'double', 4e-6, 0.14, 0), engine('default', 'single', 3.4e-6, 0.14, 0), engine('tuned', 'double', 5e-6, 1e-4, 1),
-      { label: 'contacts in time', kind: 'contact', engine: '', precision: 'double', profile: '', knob: 'tolerance',
-        points: series_of(6, (k) => ({ setting: `relative tolerance 1e-${2 * k + 2}`, cost: 2e-3 * (1 + k), spread: 0.05, errors: [10 ** (-2 * k - 2), 10 ** (-2 * k - 3)], front: [true, true] })) },
-      { label: 'event-driven', kind: 'event', engine: '', precision: 'double', profile: '', knob: '',
-        points: [{ setting: 'exact', cost: 1e-5, spread: 0.1, errors: [0, 0], front: [true, true] }] }] };
+  const notes = rates.map((rate) => `${rate} Hz, 10 iterations\nCPU 0.001 s per simulated s ± 2 %\nworst error: 0.14`);
+  const engine = (label, ink, line, cost, error, order) => curve_of(label, ink, line, 'circle', rates.map((rate) => cost * rate),
+    rates.map((rate, k) => (k === 2 ? null : error * (240 / rate) ** order)), { notes, edge: true });
+  const chart = (title) => ({ title, caption: 'Down and left is better.', columns: 2, height: 220, panels: ['CPU time [s]', 'step [s]'].map((label) =>
+    panel_of(axis(label, 1e-5, 1, true), axis('worst error [-]', 1e-12, 1, true), { title, curves: [engine('default', 'blue', 'solid', 4e-6, 0.14, 0),
+      engine('tuned', 'vermilion', 'dashed', 5e-6, 1e-4, 1), curve_of('nothing is cheaper and no worse', 'black', null, 'ring', [6e-4], [1e-4])] })) });
+  return { id: 'precision-1', name: 'symmetric-30cms', charts: [chart('e_eff'), chart('i.sliding_time')] };
 }
 
 function stability() {
-  const names = ['accurate', 'degraded', 'drifting', 'energy growing', 'tunnelled', 'exploded', 'NaN', 'timed out', 'crashed', 'refused'];
-  const letters = ['A', 'd', '~', 'E', 'T', 'X', 'N', 'H', 'C', '–'];
-  const fills = ['#0072b2', '#a9d6f0', '#f0e442', '#e69f00', '#cc79a7', '#d55e00', '#1b1b1b', '#6b5b4b', '#5c2a6b', '#e4e4e0'];
-  const speeds = series_of(14, (k) => 10 ** (-2 + k / 3)), restitutions = series_of(9, (k) => 0.1 + 0.1 * k);
-  const cells = restitutions.flatMap((e, r) => speeds.map((v, c) => (c > 11 ? 4 : c > 9 ? 3 : c + r > 12 ? 1 : 0)));
-  return { outcomes: names.map((name, k) => ({ name, letter: letters[k], usable: k < 2, fill: fills[k], ink: 'AENHC'.includes(letters[k]) ? '#ffffff' : '#1b1b1b' })),
-    maps: [{ id: 'map-1', title: 'Speed and restitution, bullet double default', x: { label: 'speed [m/s]', logarithmic: true, values: speeds },
-      y: { label: 'restitution [-]', logarithmic: false, values: restitutions }, cells, errors: cells.map((cell, k) => (cell > 3 ? null : 1e-3 * k)),
-      error_label: '|e − e_ref|', theory: [[3, 0.05], [5, 0.4], [9, 0.95]], theory_name: 'one radius a step' }],
-    limits: [{ id: 'limits-1', title: 'largest stable step', unit: 's', works: 'below', rows: [
-      { label: 'bullet double tuned, symmetric-30cms', good: 0.01, bad: 0.0101, low: 1e-5, high: 1, beyond: 3, theory: null },
-      { label: 'semi-implicit Euler, steel-pair', good: 2e-4, bad: 2.1e-4, low: 1e-5, high: 1, beyond: 5, theory: 2.2e-4 },
-      { label: 'bullet single default, spinning', good: null, bad: 1e-5, low: 1e-5, high: 1, beyond: 4, theory: null },
-      { label: 'velocity Verlet, spring', good: 1, bad: null, low: 1e-5, high: 1, beyond: null, theory: 0.3 }] }] };
+  const looks = [['accurate', 'A', '#0072b2', '#ffffff'], ['degraded', 'd', '#a9d6f0', '#1b1b1b'], ['tunnelled', 'T', '#cc79a7', '#1b1b1b'],
+    ['works', '✓', '#0072b2', '#ffffff']].map(([label, letter, fill, ink]) => ({ label, letter, fill, ink }));
+  const cells = series_of(9, (r) => series_of(14, (c) => ({ x: [10 ** (c / 3 - 2), 10 ** ((c + 1) / 3 - 2)], y: [r, r + 1],
+    look: c > 11 ? 2 : c + r > 12 ? 1 : 0, note: 'speed [m/s]: 1\n|e − e_ref|: 0.1' }))).flat();
+  const bars = [0.01, 2e-4].flatMap((border, row) => [[1e-5, border, 3], [border, 1, 2]].map(([low, high, look]) => ({
+    x: [low, high], y: [row - 0.35, row + 0.35], look, note: `limit: ${border} s` })));
+  const rows = { ...axis('', -0.5, 1.5), names: ['bullet double tuned: 10 ms', 'semi-implicit Euler: 0.2 ms'] };
+  const theory = (x, y) => curve_of('theory', 'black', 'dashed', null, x, y, { halo: true });
+  return { maps: [{ title: 'Speed and restitution', caption: 'How it comes out.', columns: 2, height: 250,
+    panels: [panel_of(axis('speed [m/s]', 0.01, 10 ** (14 / 3 - 2), true), axis('restitution [-]', 0, 9), { looks, cells, curves: [theory([3, 5, 9], [1, 4, 9])] })] }],
+    limits: [{ title: 'largest stable step', caption: 'Bars: where each method works.', columns: 1, height: 44,
+      panels: [panel_of(axis('step [s]', 1e-5, 1, true), rows, { looks, cells: bars, curves: [theory([2.2e-4, 2.2e-4], [0.55, 1.45])] })] }] };
 }
 
+const palette = Object.fromEntries([['black', '#1b1b1b', '#e8e8e6'], ['blue', '#0072b2', '#56b4e9'], ['vermilion', '#d55e00', '#f08a3c']]
+  .map(([ink, light, dark]) => [ink, [light, dark]]));
+
 export function fixture_data() {
-  return { schema: 'slipcheck-page/1', scenes: [pair_scene(), box_scene(), slope_scene(),
-    { id: 'scene-4', name: 'reference-only', runs: [], phases: [], series: [], motion: null }],
+  return { schema: 'slipcheck-page/2', palette, scenes: [pair_scene(), box_scene(), slope_scene(),
+    { id: 'scene-4', name: 'reference-only', runs: [], charts: [], motion: null }],
   precision: [precision_scene()], stability: stability() };
 }
 

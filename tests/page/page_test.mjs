@@ -18,7 +18,7 @@ const url = pathToFileURL(resolve(file)).href;
 const packed = /<script[^>]*id="slipcheck-data"[^>]*>([^<]*)</.exec(readFileSync(file, 'utf8'));
 assert(packed, `${file} has no data`);
 const data = JSON.parse(inflateSync(Buffer.from(packed[1], 'base64')));
-assert.equal(data.schema, 'slipcheck-page/1');
+assert.equal(data.schema, 'slipcheck-page/2');
 const moving = data.scenes.findIndex((scene) =>
   scene.motion?.runs.some((run) => run.run < 0) && scene.motion.runs.some((run) => run.run >= 0));
 
@@ -71,9 +71,9 @@ async function loads() {
 }
 
 async function charts() {
-  let expected = data.precision.length + (data.stability?.maps.length ?? 0) + (data.stability?.limits.length ?? 0);
+  let expected = data.precision.filter(({ charts: all }) => all.length).length + (data.stability?.maps.length ?? 0) + (data.stability?.limits.length ?? 0);
   for (const scene of data.scenes) {
-    expected += scene.phases.length + scene.series.length + (scene.motion?.runs.length ? 1 : 0);
+    expected += scene.charts.length + (scene.motion?.runs.length ? 1 : 0);
   }
   assert(expected > 0, 'nothing to draw');
   await visit(async (page) => {
@@ -91,16 +91,24 @@ async function charts() {
     }
     if (folder) await page.screenshot({ path: join(folder, 'light-wide.png'), fullPage: true });
     // A run's points are as many as it has phases: tooltips and eyes go by them.
-    const k = data.scenes.findIndex((scene) => scene.phases.length);
+    const has_phases = ({ panels: [{ y }] }) => y.runs;
+    const k = data.scenes.findIndex((scene) => scene.charts.some(has_phases));
     if (k < 0) return;
-    const { phases: [phases], motion, series } = data.scenes[k];
-    const points = phases.values.flatMap((values) => values ?? []).filter((value) => value !== null).length;
-    const nth = series.length + (motion?.runs.length ? 1 : 0);
+    const { charts: all, motion } = data.scenes[k];
+    const phases = all.find(has_phases);
+    const points = phases.panels[0].curves.flatMap(({ notes }) => notes ?? []).length;
+    const nth = all.indexOf(phases) + (motion?.runs.length ? 1 : 0);
     const figure = page.locator(`.plots[data-scene="${k}"] figure.chart`).nth(nth);
     await figure.scrollIntoViewIfNeeded();
     await figure.locator('svg').waitFor();
     const drawn = await figure.locator('svg path').count();
     assert(drawn >= points && drawn < points + 80, `${drawn} paths for ${points} points`);
+    // A point says its run, its phase and its value; a name in the legend takes its points away.
+    const legend = figure.locator('svg text', { hasText: /^(outside|within the tolerance)$/ }).first();
+    await legend.click();
+    await page.waitForTimeout(400);
+    assert(await figure.locator('svg path').count() < drawn, 'the legend hides nothing');
+    await legend.click();
   });
 }
 

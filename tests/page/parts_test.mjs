@@ -6,7 +6,7 @@ import { count_of, read_data, values_of } from '../../core/report/html/page/src/
 import { escaped, number_text, prefixed, quantity_text } from '../../core/report/html/page/src/dom.js';
 import { empty_filter, name_passes, run_passes, scene_passes } from '../../core/report/html/page/src/filter.js';
 import { between, between_periodic, end_of, frame_at, orientations, turned } from '../../core/report/html/page/src/motion.js';
-import { border_of, borders_of, floor_of, range_of } from '../../core/report/html/page/src/scales.js';
+import { shown, tell, unpacked } from '../../core/report/html/page/src/panels.js';
 import { sorted_order } from '../../core/report/html/page/src/sort.js';
 
 const close = (a, b, tolerance = 1e-12) => assert(Math.abs(a - b) <= tolerance, `${a} is not ${b}`);
@@ -105,35 +105,34 @@ test('spin that grows evenly: the angle is half of Ω t', () => {
   close(2 * Math.atan2(z, cosine), 1.5);
 });
 
-test('an axis shows its landmarks, and far values do not squeeze the others', () => {
-  const values = [...Array(50).fill(0).map((_, k) => 1 + k / 100), 1000];
-  const { low, high } = range_of(values, [1.2, null, 0.9]);
-  assert(low < 0.9 && high > 1.47 && high < 3, `${low} to ${high}`);
-  const all = range_of([1, 2, 3], []);
-  assert(all.low < 1 && all.high > 3);
-  const one = range_of([], [5]);
-  assert(one.low < 5 && one.high > 5);
-  assert.deepEqual(range_of([], []), { low: 0, high: 1 });
+const rows = () => ({ panels: [{
+  x: { label: 'time [ms]' }, y: { names: ['a', 'b', 'c'], runs: [4, 5, 7] }, truth: { value: 2, tolerance: 0.5 },
+  curves: [{ label: 'reference', x: [2, 2], y: [-0.5, 2.5] },
+    { label: 'outside', x: [1, 2, 3], y: [-0.2, 1.1, 2.3], notes: ['phase 1', 'phase 2', 'phase 3'] }],
+}] });
+
+test('rows of runs that are not shown go, and the others move up', () => {
+  const { panels: [{ y, curves: [reference, points] }] } = shown(rows(), (run) => run !== 5);
+  assert.deepEqual(y.names, ['a', 'c']);
+  assert.equal(y.high, 1.5);
+  assert.deepEqual(reference.y, [-0.5, 1.5]);
+  assert.deepEqual(points.x, [1, 3]);
+  assert.deepEqual(points.notes, ['phase 1', 'phase 3']);
+  points.y.forEach((value, k) => close(value, [-0.2, 1.3][k]));
+  assert.deepEqual(shown(rows(), () => false).panels[0].curves[1].x, []);
 });
 
-test('borders of cells lie half way, on a logarithmic axis at the geometric mean', () => {
-  assert.deepEqual(borders_of([1, 2, 3], false), [0.5, 1.5, 2.5, 3.5]);
-  const expected = [10 ** -0.5, 10 ** 0.5, 10 ** 1.5];
-  borders_of([1, 10], true).forEach((border, k) => close(border, expected[k]));
-  assert.deepEqual(borders_of([4], false), [3.5, 4.5]);
+test('a point says its run, its phase, its value and its error, escaped', () => {
+  const { panels: [panel] } = rows();
+  assert.equal(tell(panel, panel.curves[1], 2), '<b>c</b><br>phase 3<br>time [ms]: <b>3</b><br>error 1, 2 tolerances');
+  const curve = { label: '<b>', x: [1], y: [1], notes: ['1 Hz\n<i>'] };
+  assert.equal(tell({ x: {}, y: {} }, curve, 0), '<b>&lt;b&gt;</b><br>1 Hz<br>&lt;i&gt;');
 });
 
-test('no error is drawn below the least error', () => {
-  assert.equal(floor_of([3e-9, 0, null, 1]), 1e-10);
-  assert.equal(floor_of([0, null]), 1e-16);
-});
-
-test('limits: the bar is of one kind where all or nothing works', () => {
-  assert.equal(border_of({ good: 1, bad: 4, low: 0.1, high: 10 }, false), 2);
-  assert.equal(border_of({ good: 4, bad: 1, low: 0.1, high: 10 }, true), 2);
-  const all = { good: 1, bad: null, low: 0.1, high: 10 }, none = { good: null, bad: 1, low: 0.1, high: 10 };
-  assert.equal(border_of(all, false), 10);
-  assert.equal(border_of(none, false), 0.1);
-  assert.equal(border_of(all, true), 0.1);
-  assert.equal(border_of(none, true), 10);
+test('curves come as lists or as channels', () => {
+  const [curve] = unpacked({ panels: [{ curves: [{ x: { o: 0, s: 1, q: [1, 1, null] }, y: 4 }] }] }).panels[0].curves;
+  assert.deepEqual(curve.x, [1, 2, NaN]);
+  assert.deepEqual(curve.y, [4, 4, 4]);
+  const [plain] = unpacked({ panels: [{ curves: [{ x: [1, 2], y: [3, null] }] }] }).panels[0].curves;
+  assert.deepEqual([plain.x, plain.y], [[1, 2], [3, null]]);
 });

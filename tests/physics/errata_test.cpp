@@ -535,7 +535,7 @@ TEST(Luding, L5L12TangentsOfTheAnglesBeforeAndAfter) {
 /// Ψ2 of a collision with Ψ1 against a wall, for a solid ball.
 double psi_after(double psi, double e, double mu, double beta0) {
   const double mass = 1e-3, kappa = 2.0 / 7;
-  const PlanarImpulse impulse = planar_impulse({e, mu, beta0}, mass, kappa, -1, psi);
+  const PlanarImpulse impulse = planar_impulse({e, mu, beta0}, e, mass, kappa, -1, psi);
   return psi + impulse.tangential / (kappa * mass);
 }
 

@@ -79,7 +79,7 @@ def check_scripts(text, faults):
         faults.append(f"{constant} in the data")
 
     data = json.loads(zlib.decompress(base64.b64decode(packed)), parse_constant=refuse)
-    if data["schema"] != "slipcheck-page/1":
+    if data["schema"] != "slipcheck-page/2":
         faults.append(f"schema {data['schema']}")
     for part, attribute in (("scenes", "data-scene"), ("precision", "data-precision")):
         for k in range(len(data[part])):

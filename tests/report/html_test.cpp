@@ -32,7 +32,7 @@ TEST(Html, EscapesWhatScenesAndEnginesSay) {
   scene.runs[0].profile = evil;
   scene.runs[0].warnings = {evil};
   scene.runs[0].applied.settings = {{evil, evil}};
-  scene.runs[0].applied.not_represented = {{evil, evil}};
+  scene.runs[0].applied.not_represented = {Lack{evil, evil}};
   scene.runs[1] = failed_run(EngineRecord::Status::crashed, evil);
   const std::string html = page_of({scene}, evil);
   EXPECT_FALSE(contains(html, "<script"));
@@ -141,8 +141,9 @@ TEST(Html, ChartsTheWorstSixObservables) {
     scene.runs[0].errors[name] = {1. * body, 1. * body, 0.01, false, Verdict::deviates, ""};
   }
   std::vector<std::string> names;
-  for (const ChartedPhases& charted : charted_phases(scene, ChartExtent::page))
-    names.push_back(charted.spread.name);
+  std::set<std::string> taken;
+  for (const Chart& chart : phase_charts(scene, ChartExtent::page, taken))
+    names.push_back(chart.name.substr(std::string("phases-symmetric-steel-").size()));
   EXPECT_EQ(names, (std::vector<std::string>{"i-j.effective_restitution", "g9.sliding_time",
                                              "g8.sliding_time", "g7.sliding_time",
                                              "g6.sliding_time", "g5.sliding_time"}));
@@ -171,11 +172,11 @@ TEST(Html, CellsHoldTheirNumbersInSI) {
 TEST(Html, CountsWhatEnginesCannotRepresent) {
   SceneRecord first = lottery_scene(), second = lottery_scene();
   for (EngineRecord& run : first.runs)
-    run.applied.not_represented = {{"restitution below 0.3 m/s of approach"},
-                                   {"rolling (1.41 times)"}};
+    run.applied.not_represented = {Lack{"restitution below 0.3 m/s of approach"},
+                                   Lack{"rolling (1.41 times)"}};
   for (EngineRecord& run : second.runs)
     run.applied.not_represented = {
-        {"slow approaches (below 1e-05 m/s)", "restitution below … m/s of approach"}};
+        Lack{"slow approaches (below 1e-05 m/s)", "restitution below … m/s of approach"}};
   second.runs[0].profile = "tuned";
   const std::string html = page_of({first, second});
   EXPECT_TRUE(contains(html, "<th>bullet default, of 2</th><th>bullet tuned, of 1</th>"));

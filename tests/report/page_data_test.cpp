@@ -10,8 +10,11 @@
 #include <vector>
 
 #include "records.h"
+#include "report/charts/plot_text.h"
+#include "report/charts/report_charts.h"
 #include "report/html/packed_text.h"
 #include "report/html/page_channel.h"
+#include "report/html/page_chart.h"
 #include "scenario/load.h"
 #include "study_records.h"
 
@@ -35,10 +38,14 @@ std::vector<double> decoded(const Json& channel, std::size_t count) {
   return values;
 }
 
+Json data_of(const ReportContent& content) {
+  return page_data(content, report_charts(content, ChartExtent::page));
+}
+
 Json scene_data(const SceneRecord& scene) {
   ReportContent content;
   content.scenes = {scene};
-  return page_data(content).at("scenes").at(0);
+  return data_of(content).at("scenes").at(0);
 }
 
 TEST(PageChannel, IsRightToHalfAStep) {
@@ -86,8 +93,9 @@ TEST(PageData, UnpacksToWhatItWas) {
   // RFC 4648, section 10.
   EXPECT_EQ(base64_of("foobar"), "Zm9vYmFy");
   EXPECT_EQ(base64_of("fooba"), "Zm9vYmE=");
-  const std::string text = page_data(content).dump(), packed = deflated(text);
-  EXPECT_EQ(packed_page_data(content), base64_of(packed));
+  const std::string text = data_of(content).dump(), packed = deflated(text);
+  EXPECT_EQ(packed_page_data(content, report_charts(content, ChartExtent::page)),
+            base64_of(packed));
   EXPECT_LT(packed.size(), text.size() / 2);
   std::string unpacked(text.size(), '\0');
   uLongf size = unpacked.size();
@@ -113,55 +121,71 @@ TEST(PageData, HoldsEveryPhaseOfEveryRun) {
   EXPECT_EQ(data["runs"][1]["rate"], 4000);
   EXPECT_EQ(data["runs"][1]["verdict"], "deviates");
   EXPECT_EQ(data["runs"][2]["verdict"], "failed");
-  ASSERT_EQ(data.at("phases").size(), 2u);
-  const Json& e = data["phases"][0];
-  EXPECT_EQ(e["observable"], "i-j.effective_restitution");
-  EXPECT_EQ(e["unit"], "");
-  EXPECT_DOUBLE_EQ(e["reference"], 0.357142857);
-  EXPECT_NEAR(e["low"].get<double>(), 5.0 / 14 - 0.005, 1e-9);
-  EXPECT_NEAR(e["high"].get<double>(), 5.0 / 14 + 0.005, 1e-9);
-  ASSERT_EQ(e["values"].size(), 3u);
-  ASSERT_EQ(e["values"][0].size(), 64u);
-  EXPECT_EQ(e["values"][0][0], 0.358);
-  EXPECT_NEAR(e["values"][0][63].get<double>(), 0.498, 1e-9);
-  EXPECT_TRUE(e["values"][2].is_null());
-  const Json& t = data["phases"][1];
-  EXPECT_EQ(t["unit"], "ms");
-  EXPECT_EQ(t["factor"], 1e-3);
-  EXPECT_TRUE(t["values"][0][7].is_null());
-  EXPECT_FALSE(t["values"][1][7].is_null());
+  EXPECT_NE(data["runs"][0]["look"], data["runs"][1]["look"]);
+  ASSERT_EQ(data.at("charts").size(), 2u);
+  EXPECT_EQ(data["charts"][0]["title"], "i-j.effective_restitution");
+  const Json& e = data["charts"][0]["panels"][0];
+  EXPECT_EQ(e["y"]["runs"], Json::parse("[0, 1]"));  // the third shows nothing
+  EXPECT_EQ(e["y"]["names"][1], "bullet double default 4000 Hz");
+  EXPECT_DOUBLE_EQ(e["truth"]["value"], 0.357142857);
+  EXPECT_DOUBLE_EQ(e["truth"]["tolerance"], 0.005);
+  EXPECT_NEAR(e["bands"][0]["x"][0].get<double>(), 5.0 / 14 - 0.005, 1e-6);
+  EXPECT_TRUE(e["bands"][0]["y"][1].is_null());  // up to the frame
+  // Every phase of both runs is within, outside or beyond the axis.
+  const auto points = [](const Json& panel) {
+    std::size_t count = 0;
+    for (const Json& curve : panel["curves"])
+      if (curve.contains("notes")) {
+        EXPECT_EQ(curve["notes"].size(), curve["x"].size());
+        count += curve["notes"].size();
+      }
+    return count;
+  };
+  EXPECT_EQ(points(e), 2u * 64);
+  EXPECT_EQ(e["curves"][0]["label"], "reference");
+  EXPECT_EQ(e["curves"][1]["label"], "within the tolerance");
+  EXPECT_EQ(e["curves"][1]["x"][0], 0.358);
+  EXPECT_EQ(e["curves"][1]["notes"][0], "phase 1 of 64");
+  EXPECT_EQ(e["curves"][1]["look"]["ink"], "blue");
+  EXPECT_TRUE(e["curves"][1]["look"]["line"].is_null());
+  const Json& t = data["charts"][1]["panels"][0];
+  EXPECT_EQ(t["x"]["label"], "i.sliding_time [ms]");
+  EXPECT_EQ(points(t), 2u * 64 - 1);
 }
 
 TEST(PageData, HoldsWhatABoxShowsOverTime) {
   SceneRecord scene = box_scene();
   scene.reference.box->samples = 200;
-  const Json series = scene_data(scene).at("series");
+  const Json charts = scene_data(scene).at("charts");
+  const auto strips = std::ranges::find_if(
+      charts, [](const Json& chart) { return chart["title"] == "symmetric-steel over time"; });
+  ASSERT_NE(strips, charts.end());
   // H, K and the collision rate; R is zero throughout.
-  ASSERT_EQ(series.size(), 3u);
-  EXPECT_EQ(series[0]["unit"], "mm");
-  EXPECT_EQ(series[0]["mean"], 0.015);
-  EXPECT_EQ(series[0]["uncertainty"], 0.001);
-  EXPECT_EQ(series[0]["averaged_from"], 50);
-  const std::vector<double> time = decoded(series[0]["time"], 250);
-  const std::vector<double> height = decoded(series[0]["values"], 250);
-  ASSERT_EQ(time.size(), 250u);
-  ASSERT_EQ(height.size(), 250u);
-  for (std::size_t k = 0; k < 250; ++k) {
-    const double t = 0.51 + 0.01 * static_cast<double>(k);
+  ASSERT_EQ((*strips)["panels"].size(), 3u);
+  const Json& height = (*strips)["panels"][0];
+  EXPECT_EQ(height["y"]["label"], "H [mm]");
+  EXPECT_EQ(height["curves"][2]["label"], "mean");
+  EXPECT_EQ(height["curves"][2]["y"], Json::parse("[15, 15]"));
+  EXPECT_EQ(height["bands"][0]["y"], Json::parse("[14, 16]"));
+  EXPECT_EQ(height["curves"][0]["label"], "not averaged");
+  const Json& averaged = height["curves"][1];
+  const std::vector<double> time = decoded(averaged["x"], 200);
+  const std::vector<double> values = decoded(averaged["y"], 200);
+  ASSERT_EQ(time.size(), 200u);
+  for (std::size_t k = 0; k < 200; ++k) {
+    const double t = 0.51 + 0.01 * static_cast<double>(k + 50);
     EXPECT_NEAR(time[k], t, 2.5 / 4000);
-    EXPECT_NEAR(height[k], 0.015 + 0.002 * std::sin(7 * t), 0.004 / 4000);
+    EXPECT_NEAR(values[k], 15 + 2 * std::sin(7 * t), 4.0 / 4000);
   }
-  EXPECT_TRUE(scene_data(box_scene(1)).at("series").empty());
-  EXPECT_TRUE(scene_data(lottery_scene()).at("series").empty());
 }
 
 TEST(PageData, KeepsTheExtremesOfALongSeries) {
   SceneRecord scene = box_scene(100'000);
   scene.reference.box->series.height[54'321] = 0.02;
-  const Json series = scene_data(scene).at("series")[0];
-  const std::vector<double> height = decoded(series.at("values"), 0);
+  const Json panel = scene_data(scene).at("charts")[0].at("panels")[0];
+  const std::vector<double> height = decoded(panel.at("curves").at(0).at("y"), 0);
   EXPECT_LE(height.size(), 2u * 2u * 300u);
-  EXPECT_NEAR(*std::max_element(height.begin(), height.end()), 0.02, 1e-5);
+  EXPECT_NEAR(*std::max_element(height.begin(), height.end()), 20, 1e-2);
 }
 
 /// A ball of 10 mm that slides to the right at 1 m/s without turning, on a plane tilted by 5°.
@@ -271,47 +295,53 @@ TEST(PageData, LeavesOutMotionThatDoesNotFitTheScene) {
 TEST(PageData, HoldsErrorAgainstRunTime) {
   ReportContent content;
   content.precision = {precision_scene()};
-  const Json data = page_data(content).at("precision").at(0);
+  const Json data = data_of(content).at("precision").at(0);
   EXPECT_EQ(data["id"], "precision-1");
   EXPECT_EQ(data["name"], "symmetric-steel");
-  ASSERT_EQ(data["quantities"].size(), 2u);
-  EXPECT_EQ(data["quantities"][0]["name"], "i-j.effective_restitution");
-  EXPECT_EQ(data["quantities"][1]["name"], "trajectory");
-  // Four of the engine, not that of other iterations, which is best at nothing, and two solvers.
-  ASSERT_EQ(data["curves"].size(), 6u);
-  const Json& tuned = data["curves"][3];
-  EXPECT_EQ(tuned["label"], "bullet double tuned");
-  EXPECT_EQ(tuned["kind"], "engine");
-  EXPECT_EQ(tuned["knob"], "rate");
-  ASSERT_EQ(tuned["points"].size(), 3u);
-  EXPECT_EQ(tuned["points"][0]["setting"], "240 Hz");
-  EXPECT_EQ(tuned["points"][0]["cost"], 0.00048);  // 2 µs × 240
-  EXPECT_EQ(tuned["points"][0]["errors"], Json::parse("[0.001, 0.0001]"));
-  EXPECT_EQ(tuned["points"][2]["front"], Json::parse("[true, true]"));
+  ASSERT_EQ(data["charts"].size(), 2u);
+  EXPECT_EQ(data["charts"][0]["title"], "symmetric-steel, i-j.effective_restitution");
+  const Json& work = data["charts"][0]["panels"][0];
+  EXPECT_EQ(work["x"]["log"], true);
+  const auto tuned = std::ranges::find_if(
+      work["curves"], [](const Json& curve) { return curve["label"] == "bullet double tuned"; });
+  ASSERT_NE(tuned, work["curves"].end());
+  EXPECT_EQ((*tuned)["x"][0], 0.00048);  // 2 µs × 240
+  EXPECT_EQ((*tuned)["y"][0], 0.001);
+  EXPECT_EQ((*tuned)["look"]["line"], "solid");
 }
 
 TEST(PageData, HoldsMapsAndLimits) {
   ReportContent content;
-  EXPECT_TRUE(page_data(content).at("stability").is_null());
+  EXPECT_TRUE(data_of(content).at("stability").is_null());
   content.limits = limit_results();
   content.limits.maps.push_back({});  // interrupted
-  const Json data = page_data(content).at("stability");
-  ASSERT_EQ(data["outcomes"].size(), 10u);
-  EXPECT_EQ(data["outcomes"][4]["name"], "tunnelled");
-  EXPECT_EQ(data["outcomes"][1]["usable"], true);
+  const Json data = data_of(content).at("stability");
   ASSERT_EQ(data["maps"].size(), 1u);
-  EXPECT_EQ(data["maps"][0]["cells"], Json::parse("[0, 1, 4, 6, 0, 3]"));
-  EXPECT_EQ(data["maps"][0]["errors"], Json::parse("[1e-9, 0.03, 0.5, null, 0, 0.2]"));
-  EXPECT_EQ(data["maps"][0]["x"]["values"], Json::parse("[0.01, 0.1, 1]"));
+  ASSERT_EQ(data["maps"][0]["panels"].size(), 1u);  // errors are in the cells' notes
+  const Json& map = data["maps"][0]["panels"][0];
+  std::vector<std::string> outcomes;
+  for (const Json& cell : map["cells"])
+    outcomes.push_back(map["looks"][cell["look"].get<std::size_t>()]["label"]);
+  EXPECT_EQ(outcomes, (std::vector<std::string>{"accurate", "degraded", "tunnelled", "NaN",
+                                                "accurate", "energy growing"}));
+  EXPECT_EQ(map["cells"][1]["note"], "speed [m/s]: 0.1\nrestitution [-]: 0\n|e − e_ref|: 0.03");
   ASSERT_EQ(data["limits"].size(), 2u);
   EXPECT_EQ(data["limits"][0]["title"], "largest stable step, steel-pair");
-  EXPECT_EQ(data["limits"][0]["unit"], "s");
-  EXPECT_EQ(data["limits"][0]["works"], "below");
-  EXPECT_EQ(data["limits"][0]["rows"].size(), 3u);
-  EXPECT_EQ(data["limits"][0]["rows"][0]["good"], 0.01);
-  EXPECT_EQ(data["limits"][0]["rows"][0]["beyond"], 3);
-  EXPECT_TRUE(data["limits"][0]["rows"][1]["bad"].is_null());
-  EXPECT_EQ(data["limits"][1]["rows"][0]["theory"], 1.01e-5);
+  EXPECT_EQ(data["limits"][0]["panels"][0]["y"]["names"].size(), 3u);
+  EXPECT_EQ(data["limits"][1]["panels"][0]["curves"][0]["x"][0], 1.01e-5);
+}
+
+TEST(PageChart, HoldsNoFormulaAndNothingThatJsonHasNot) {
+  Panel panel{"t^s_{col}", {plot_literal("a_b")}, {}, {{"", {}, {1, kNaN, kInfinity}, {1, 2, 3}}}};
+  panel.colours = ColourMap{{1, 2}, {1}, {0, 1}, "z"};
+  Panel plain = panel;
+  plain.colours.reset();
+  const Json chart = page_chart({"name", "", "", {panel, plain}});
+  ASSERT_EQ(chart["panels"].size(), 1u);
+  EXPECT_EQ(chart["panels"][0]["title"], "t^s_col");
+  EXPECT_EQ(chart["panels"][0]["x"]["label"], "a_b");
+  EXPECT_EQ(chart["panels"][0]["curves"][0]["x"], Json::parse("[1, null, null]"));
+  EXPECT_EQ(page_palette()["blue"], Json::parse(R"(["#0072b2", "#56b4e9"])"));
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ inline EngineRecord lottery_run(double rate, std::size_t phases) {
   run.errors["i-j.effective_restitution"] = {0.071, 0.141, 0.005, true, Verdict::deviates, ""};
   run.errors["i.sliding_time"] = {0.001, 0.003, 0.01, false, Verdict::within, ""};
   run.applied.settings = {{"friction", 0.1}, {"split_impulse", true}, {"solver", "sequential"}};
-  run.applied.not_represented = {{"static friction", "friction"}, {"coupled drilling"}};
+  run.applied.not_represented = {Lack{"static friction", "friction"}, Lack{"coupled drilling"}};
   return run;
 }
 

@@ -27,7 +27,7 @@ std::vector<SceneRecord> scenes() {
   evil.reference.warnings = {"</style></svg>"};
   evil.runs[0].engine = evil.runs[0].profile = evil.runs[0].version = kEvil;
   evil.runs[0].applied.settings = {{kEvil, kEvil}, {"nan", kNaN}};
-  evil.runs[0].applied.not_represented = {{kEvil, kEvil}};
+  evil.runs[0].applied.not_represented = {Lack{kEvil, kEvil}};
   evil.runs[0].observables["i.sliding_time"].values[3] = kNaN;
   evil.runs.push_back(failed_run(EngineRecord::Status::crashed, "<img src=x onerror=alert(1)>"));
   evil.runs.push_back(failed_run(EngineRecord::Status::skipped, ""));

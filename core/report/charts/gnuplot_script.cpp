@@ -20,6 +20,7 @@ constexpr double kLeft = 70, kRight = 14, kTop = 12, kTitle = 22;  // around a p
 constexpr double kBottom = 28, kAxisLabel = 22, kColourBar = 66;
 constexpr double kSample = 34, kLegendLine = 20;  // of the legend
 constexpr double kSlant = 0.87;                   // sine of the angle of names on top, 60°
+constexpr double kTitleShare = 1.25;              // of the frame, for titles and labels
 constexpr std::size_t kLongestName = 44;          // columns
 constexpr double kLeastCell = 9;                  // that has room for a letter
 
@@ -65,6 +66,14 @@ std::string shown_name(const std::string& name) {
 }
 
 double text_width(std::string_view text) { return kFont * plot_text_width(text); }
+
+/// A title or a label, cut where it would leave its room [px].
+std::string fitted(const std::string& text, double room) {
+  const double size = 13.0 / kFont;  // these are larger
+  if (size * text_width(text) <= room) return text;
+  return plot_literal(
+      shortened(plain_plot_text(text), static_cast<std::size_t>(room / (size * text_width("x")))));
+}
 
 double widest_of(const std::vector<std::string>& names) {
   double widest = 0;
@@ -154,7 +163,7 @@ class ScriptWriter {
   void finish_plot();
 
   void place(const Place& frame);
-  void set_axis(char name, const AxisSpec& axis, const AxisRange& range);
+  void set_axis(char name, const AxisSpec& axis, const AxisRange& range, double room);
   void add_colours(const ColourMap& map, const Panel& panel, const Place& frame);
   void add_cells(const Panel& panel, const Place& frame);
   void add_curve(const Curve& curve);
@@ -190,8 +199,8 @@ void ScriptWriter::place(const Place& frame) {
   line("unset logscale\nunset label\nunset arrow\nunset object\nunset colorbox\nunset x2tics");
 }
 
-void ScriptWriter::set_axis(char name, const AxisSpec& axis, const AxisRange& range) {
-  line("set {}label {} font ',13' offset {}", name, gnuplot_text(axis.label),
+void ScriptWriter::set_axis(char name, const AxisSpec& axis, const AxisRange& range, double room) {
+  line("set {}label {} font ',13' offset {}", name, gnuplot_text(fitted(axis.label, room)),
        name == 'x' ? "0, 0.5" : "0.8, 0");
   const bool is_reversed = name == 'y' && !axis.names.empty();
   line("set {}range [{}:{}]", name, number(is_reversed ? range.high : range.low),
@@ -216,7 +225,10 @@ void ScriptWriter::add_colours(const ColourMap& map, const Panel& panel, const P
   const auto level = [&](std::size_t k) {
     return std::isnan(map.z[k]) ? -1 : heat_level((map.z[k] - map.low) / (map.high - map.low));
   };
-  std::string rows;
+  std::string rows, missing;
+  for (std::size_t k = 0; k < map.z.size(); ++k)
+    if (std::isnan(map.z[k]))
+      missing += fmt::format("{} {} –\n", map.x_values[k % columns], map.y_values[k / columns]);
   for (std::size_t r = 0; r < map.y_values.size(); ++r)
     for (std::size_t c = 0; c < columns;) {
       // Neighbours of one colour are one rectangle.
@@ -239,6 +251,8 @@ void ScriptWriter::add_colours(const ColourMap& map, const Panel& panel, const P
   add_plot(block(map.label, rows) +
            " using 1:2:3:4:5:6:7 with boxxyerror fs solid 1 noborder lc "
            "palette");
+  if (!missing.empty())
+    add_plot(block("missing", missing) + " using 1:2:3 with labels tc rgb '#7a7a7a' font ',10'");
 }
 
 void ScriptWriter::add_cells(const Panel& panel, const Place& frame) {
@@ -308,12 +322,13 @@ void ScriptWriter::draw_panel(const Panel& panel, const Place& frame) {
   x_ = x_range(panel);
   y_ = y_range(panel);
   place(frame);
-  line("set title {} font ',13' offset 0, {}", gnuplot_text(panel.title),
+  line("set title {} font ',13' offset 0, {}",
+       gnuplot_text(fitted(panel.title, kTitleShare * frame.width)),
        panel.x.names.empty() ? "-0.4" : "0");
   line("set border {} lc rgb '{}'", panel.y.names.empty() || !panel.x.names.empty() ? 15 : 1,
        kFrame);
-  set_axis('x', panel.x, x_);
-  set_axis('y', panel.y, y_);
+  set_axis('x', panel.x, x_, kTitleShare * frame.width);
+  set_axis('y', panel.y, y_, kTitleShare * frame.height);
   line("{}", panel.y.logarithmic || !panel.y.names.empty() ? "unset xzeroaxis"
                                                            : "set xzeroaxis lt 1 lc rgb '#d5d5d0'");
   for (const Band& band : panel.bands) {

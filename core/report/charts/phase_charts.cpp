@@ -133,7 +133,8 @@ Chart phase_chart(const SceneRecord& scene, const PhaseSpread& spread, const std
 
 }  // namespace
 
-std::vector<ChartedPhases> charted_phases(const SceneRecord& scene, ChartExtent extent) {
+std::vector<Chart> phase_charts(const SceneRecord& scene, ChartExtent extent,
+                                std::set<std::string>& taken) {
   struct Charted {
     PhaseSpread spread;
     std::string twins;
@@ -150,19 +151,9 @@ std::vector<ChartedPhases> charted_phases(const SceneRecord& scene, ChartExtent 
     else if (extent == ChartExtent::all || all.size() < kMostCharts)
       all.push_back({std::move(*spread), ""});
   }
-  std::vector<ChartedPhases> result;
-  for (Charted& one : all) {
-    std::string caption = caption_of(one.spread, one.twins);
-    result.push_back({std::move(one.spread), std::move(caption)});
-  }
-  return result;
-}
-
-std::vector<Chart> phase_charts(const SceneRecord& scene, ChartExtent extent,
-                                std::set<std::string>& taken) {
   std::vector<Chart> charts;
-  for (const auto& [spread, caption] : charted_phases(scene, extent))
-    charts.push_back(phase_chart(scene, spread, caption, taken));
+  for (const auto& [spread, twins] : all)
+    charts.push_back(phase_chart(scene, spread, caption_of(spread, twins), taken));
   return charts;
 }
 

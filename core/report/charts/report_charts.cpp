@@ -12,8 +12,9 @@ ReportCharts report_charts(const ReportContent& content, ChartExtent extent) {
   ReportCharts charts;
   std::set<std::string> taken;
   for (const SceneRecord& scene : content.scenes) {
+    std::vector<Chart>& motions = charts.motions.emplace_back();
+    if (auto motion = motion_chart(scene, taken)) motions.push_back(std::move(*motion));
     std::vector<Chart>& all = charts.scenes.emplace_back();
-    if (auto motion = motion_chart(scene, taken)) all.push_back(std::move(*motion));
     if (auto series = series_chart(scene, taken)) all.push_back(std::move(*series));
     for (Chart& phases : phase_charts(scene, extent, taken)) all.push_back(std::move(phases));
   }
@@ -34,7 +35,10 @@ std::vector<Chart> ReportCharts::all() const {
   const auto add = [&](const std::vector<Chart>& charts) {
     all.insert(all.end(), charts.begin(), charts.end());
   };
-  for (const std::vector<Chart>& charts : scenes) add(charts);
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    add(motions[k]);
+    add(scenes[k]);
+  }
   for (const std::vector<Chart>& charts : precision) add(charts);
   for (const auto* charts : {&catalogue, &limits, &maps}) add(*charts);
   return all;

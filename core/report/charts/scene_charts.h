@@ -7,7 +7,6 @@
 
 #include "harness/compare/record.h"
 #include "report/charts/chart.h"
-#include "report/rows/phase_spread.h"
 
 namespace slipcheck {
 
@@ -22,13 +21,6 @@ enum class ChartExtent { page, all };
 /// once.
 std::vector<Chart> phase_charts(const SceneRecord& scene, ChartExtent extent,
                                 std::set<std::string>& taken);
-
-/// What these are made of.
-struct ChartedPhases {
-  PhaseSpread spread;
-  std::string caption;
-};
-std::vector<ChartedPhases> charted_phases(const SceneRecord& scene, ChartExtent extent);
 
 /// "motion-<scene>": slip, speed and energy over time, of the reference and of each engine's run
 /// the phase in the middle, of at most four bodies; none where no motion was recorded.

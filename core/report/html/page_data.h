@@ -3,15 +3,17 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "report/charts/report_charts.h"
 #include "report/rows/report_content.h"
 
 namespace slipcheck {
 
-/// What the page's script draws, as "slipcheck-page/1": phases, series in a box and motion of each
-/// scene, error against run time, maps and limits. All values SI, rounded as drawings need them.
-nlohmann::json page_data(const ReportContent& content);
+/// What the page's script draws, as "slipcheck-page/2": charts (page_chart.h) and the motion of
+/// each scene [SI], which the script draws over time and plays back. `charts` are those of the
+/// content.
+nlohmann::json page_data(const ReportContent& content, const ReportCharts& charts);
 
 /// The same compressed and in base64, as it stands on the page.
-std::string packed_page_data(const ReportContent& content);
+std::string packed_page_data(const ReportContent& content, const ReportCharts& charts);
 
 }  // namespace slipcheck

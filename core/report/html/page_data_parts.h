@@ -22,10 +22,4 @@ MotionDetail motion_detail(const std::vector<SceneRecord>& scenes);
 /// null where none was recorded and for more than 50 bodies.
 nlohmann::json motion_page_data(const SceneRecord& scene, const MotionDetail& detail);
 
-/// Error against run time of one scene: the quantities and methods that are drawn.
-nlohmann::json precision_page_data(const PrecisionScene& scene);
-
-/// Outcomes, maps and limits; null without maps and limits.
-nlohmann::json stability_page_data(const LimitResults& results);
-
 }  // namespace slipcheck

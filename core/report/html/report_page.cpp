@@ -57,7 +57,8 @@ std::string scenes_part(const std::vector<SceneRecord>& scenes, const ReportChar
   std::string html = html_lacks(scenes) + shared.html() + kToolbar;
   html += "<h2 id=\"scenes\">Scenes</h2>\n" + html_contents(scenes);
   for (std::size_t k = 0; k < scenes.size(); ++k)
-    html += html_scene(scenes[k], k, shared, standing.html(charts.scenes[k]));
+    html += html_scene(scenes[k], k, shared,
+                       standing.html(charts.motions[k]) + standing.html(charts.scenes[k]));
   return html;
 }
 
@@ -88,11 +89,11 @@ std::string packed_part(std::string_view id, std::string_view base64) {
 }
 
 /// What the script draws, the script, and the terms of what is in it.
-std::string script_part(const ReportContent& content) {
+std::string script_part(const ReportContent& content, const ReportCharts& charts) {
   std::string html = "<footer>\n";
   html += html_details("Licences of the libraries in this page",
                        fmt::format("<pre tabindex=\"0\">{}</pre>\n", escaped_lines(kPageLicences)));
-  html += "</footer>\n" + packed_part("slipcheck-data", packed_page_data(content)) +
+  html += "</footer>\n" + packed_part("slipcheck-data", packed_page_data(content, charts)) +
           packed_part("slipcheck-script", base64_of(deflated(kPageScript))) + "<script>";
   html += kLoader;
   return html + "</script>\n";
@@ -118,7 +119,7 @@ std::string report_page(const ReportContent& content, PageScript script) {
           parts_nav(!content.scenes.empty(), !precision.empty(), !stability.empty());
   html += "</header>\n<main>\n" + scenes_part(content.scenes, charts, standing) + precision +
           stability + "</main>\n";
-  if (has_script) html += script_part(content);
+  if (has_script) html += script_part(content, charts);
   return html + kHtmlEnd;
 }
 

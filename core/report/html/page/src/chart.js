@@ -5,7 +5,7 @@ import * as echarts from 'echarts/core';
 import { CustomChart, LineChart, ScatterChart } from 'echarts/charts';
 import {
   AriaComponent, DataZoomInsideComponent, DataZoomSliderComponent, GridComponent,
-  LegendScrollComponent, MarkAreaComponent, MarkLineComponent, TooltipComponent,
+  LegendScrollComponent, MarkAreaComponent, TitleComponent, TooltipComponent,
 } from 'echarts/components';
 import { SVGRenderer } from 'echarts/renderers';
 import { make, number_text } from './dom.js';
@@ -13,7 +13,7 @@ import { on_theme, theme_colours } from './theme.js';
 
 echarts.use([
   AriaComponent, CustomChart, DataZoomInsideComponent, DataZoomSliderComponent, GridComponent,
-  LegendScrollComponent, LineChart, MarkAreaComponent, MarkLineComponent, ScatterChart, SVGRenderer,
+  LegendScrollComponent, LineChart, MarkAreaComponent, ScatterChart, SVGRenderer, TitleComponent,
   TooltipComponent,
 ]);
 
@@ -138,14 +138,6 @@ export function log_axis_of(colours, low, high, count, more = {}) {
     axisTick: { ...axis.axisTick, customValues },
     splitLine: { ...axis.splitLine, customValues },
     axisLabel: { ...axis.axisLabel, customValues, formatter: (value) => number_text(10 ** value, 3) },
-  };
-}
-
-/** Lines across a chart; `more.data` as ECharts has it, not rounded. */
-export function mark_line(colour, more) {
-  return {
-    silent: true, symbol: 'none', animation: false, precision: -1, label: { show: false },
-    lineStyle: { color: colour, width: 2, type: 'solid' }, ...more,
   };
 }
 

@@ -3,19 +3,15 @@ import style from './style.css';
 import { redraw_charts } from './chart.js';
 import { read_data } from './data.js';
 import { make } from './dom.js';
+import { add_figure } from './figure.js';
 import { apply_filter, make_filter_form, run_passes } from './filter.js';
-import { add_limits_chart } from './limits_chart.js';
-import { add_map_chart } from './map_chart.js';
 import { unpacked } from './motion.js';
-import { add_phase_chart } from './phase_chart.js';
-import { add_precision_chart } from './precision_chart.js';
 import { add_replay } from './replay.js';
-import { add_series_chart } from './series_chart.js';
 import { make_sortable } from './sort.js';
-import { make_theme_button, start_theme } from './theme.js';
+import { make_theme_button, set_palette, start_theme } from './theme.js';
 import { add_time_chart } from './time_chart.js';
 
-const kSchema = 'slipcheck-page/1';
+const kSchema = 'slipcheck-page/2';
 
 function plots(selector, fill) {
   for (const element of document.querySelectorAll(`.plots[data-${selector}]`)) {
@@ -33,8 +29,7 @@ function fill_scene(parent, scene, passes) {
     if (scene.motion.runs.some((run) => run.run < 0)) add_replay(parent, scene, unpack);
     add_time_chart(parent, scene, unpack, passes);
   }
-  for (const series of scene.series ?? []) add_series_chart(parent, series);
-  for (const phases of scene.phases ?? []) add_phase_chart(parent, scene, phases, passes);
+  for (const chart of scene.charts) add_figure(parent, [chart], (k) => passes(scene.runs[k]));
 }
 
 function fill_toolbar(scenes, changed) {
@@ -66,10 +61,11 @@ async function start() {
   });
   if (!data) return;
   if (data.schema !== kSchema) throw new Error(`data of the schema ${data.schema}, not ${kSchema}`);
+  set_palette(data.palette);
   plots('scene', (parent, k) => fill_scene(parent, scenes[k], (run) => passes(run)));
-  plots('precision', (parent, k) => add_precision_chart(parent, data.precision[k], () => true));
-  plots('map', (parent, k) => add_map_chart(parent, data.stability.maps[k], data.stability.outcomes));
-  plots('limits', (parent, k) => add_limits_chart(parent, data.stability.limits[k], data.stability.outcomes));
+  plots('precision', (parent, k) => { if (data.precision[k].charts.length) add_figure(parent, data.precision[k].charts); });
+  plots('map', (parent, k) => add_figure(parent, [data.stability.maps[k]]));
+  plots('limits', (parent, k) => add_figure(parent, [data.stability.limits[k]]));
   document.documentElement.dataset.ready = '';
 }
 

@@ -60,9 +60,9 @@ class Replay {
         'This browser shows no WebGL, which the replay is drawn with; the charts and tables have the same numbers.'));
       return;
     }
-    this.world.paint(theme_colours(), this.run);
+    this.world.paint(theme_colours(), this.scene.runs[this.run] ?? null);
     this.choose_roles();
-    this.end_theme = on_theme(() => { this.world.paint(theme_colours(), this.run); this.show(); });
+    this.end_theme = on_theme(() => { this.world.paint(theme_colours(), this.scene.runs[this.run] ?? null); this.show(); });
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.canvas);
     this.resize();
@@ -80,7 +80,7 @@ class Replay {
     const run = make_select('Engine', [...this.runs.map((k) => [k, this.scene.runs[k].label]), ['', 'none']], (value) => {
       this.run = value === '' ? null : Number(value);
       this.choose_roles();
-      this.world.paint(theme_colours(), this.run);
+      this.world.paint(theme_colours(), this.scene.runs[this.run] ?? null);
       this.show();
     });
     run.select.classList.add('replay-run');

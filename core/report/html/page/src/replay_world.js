@@ -81,12 +81,12 @@ export class ReplayWorld {
     this.scene.add(sun, new AmbientLight(0xffffff, 1.3));
   }
 
-  /** The page's colours, and the look of the k-th run for the ghost. */
+  /** The page's colours, and that of the run for the ghost; null without one. */
   paint(colours, run) {
     const page = new Color(colours.card);
     this.scene.background = page.clone().lerp(new Color(colours.page), 0.5);
     this.scene.fog = new Fog(this.scene.background, 1, 1000);
-    const ghost = new Color(run === null ? colours.faint : look_of(run).colour);
+    const ghost = new Color(run === null ? colours.faint : look_of(run.look).colour);
     this.motion.bodies.forEach((_, k) => {
       // Bodies differ in tint; what is blue or orange elsewhere on the page are runs.
       this.balls.setColorAt(k, new Color().setHSL([0.58, 0.11, 0.42, 0.92, 0.0, 0.75][k % 6], 0.35, 0.62));

@@ -10,6 +10,17 @@ export function on_theme(listener) {
   return () => listeners.delete(listener);
 }
 
+let palette = {};
+
+/** {blue: [on light, on dark], …} of the page's data. */
+export function set_palette(colours) {
+  palette = colours;
+}
+
+export function ink_colour(ink) {
+  return palette[ink]?.[is_dark() ? 1 : 0];
+}
+
 export function is_dark() {
   const chosen = document.documentElement.dataset.theme;
   return chosen ? chosen === 'dark' : system.matches;

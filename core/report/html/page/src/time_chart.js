@@ -100,7 +100,7 @@ function option_of(scene, motions, choice, passes, { colours, width }) {
     ],
     series: columns.flatMap(({ values, scale }, k) => shown.map((motion, m) => {
       const is_reference = motion.run < 0;
-      const look = is_reference ? { colour: colours.truth, symbol: 'none', dash: 'solid' } : look_of(motion.run);
+      const look = is_reference ? { colour: colours.truth, symbol: 'none', dash: 'solid' } : look_of(scene.runs[motion.run].look);
       const marked = Math.max(1, Math.ceil(motion.count / kMarks));
       const faint = choice.role === 'all' ? { median: 1, worst: 0.55, nearest: 0.55 }[motion.role] : 1;
       return {
