@@ -55,4 +55,10 @@ double HeadOnCollision::symmetric_sliding_distance(double v_rel, double kinetic_
          (8 * kinetic_friction * gravity * (1 + A) * (1 + A));
 }
 
+SymmetricLosses HeadOnCollision::symmetric_losses() const {
+  const double e = restitution;
+  return {(1 - e) * (1 + e), 1 - e, (1 + e) * (e - 1 + 2 * A * e) / ((1 + A) * (1 + A)),
+          (1 + e) / (1 + A)};
+}
+
 }  // namespace slipcheck

@@ -39,6 +39,21 @@ struct SlideToRoll {
   Vector3 momentum_change;   ///< Δp per unit mass [m/s]
 };
 
+/// What each of two spheres that meet at v and −v loses in the collision and while it slides
+/// afterwards, K Sec. IV A 4: of its translational energy as shares of v², of its momentum of v
+/// [-].
+struct SymmetricLosses {
+  double collision_energy;    ///< 1 − e_n²
+  double collision_momentum;  ///< 1 − e_n
+  double sliding_energy;      ///< (1 + e_n)(e_n − 1 + 2 A e_n)/(1 + A)², K (46)
+  double sliding_momentum;    ///< (1 + e_n)/(1 + A), K (48)
+
+  /// (1 + A)² (1 − e_n)/(e_n − 1 + 2 A e_n) [-], K (47).
+  double energy_ratio() const { return collision_energy / sliding_energy; }
+  /// (1 + A)(1 − e_n)/(1 + e_n) [-], K (49).
+  double momentum_ratio() const { return collision_momentum / sliding_momentum; }
+};
+
 /// Two equal spheres that roll along one line and collide centrally, K Sec. IV. Velocities are
 /// signed along the line; Ω stands for RΩ = v of rolling.
 struct HeadOnCollision {
@@ -64,6 +79,8 @@ struct HeadOnCollision {
   double zero_sliding_distance_ratio() const;
   /// K (44): s of each of two spheres that meet at v and −v, v_rel = 2v [m/s].
   double symmetric_sliding_distance(double v_rel, double kinetic_friction, double gravity) const;
+  /// K (46)-(49), whatever the speed, the size and the friction.
+  SymmetricLosses symmetric_losses() const;
 };
 
 }  // namespace slipcheck

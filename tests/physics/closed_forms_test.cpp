@@ -99,6 +99,59 @@ TEST(HeadOnCollision, K44SlidingDistance) {
   EXPECT_NEAR(s, std::abs(collide_and_slide(0.05, -0.05, 0.9, 0).s), 1e-15);
 }
 
+TEST(HeadOnCollision, K46ToK49LossesOfTheCollisionAndOfTheSlide) {
+  const double v = 0.05;
+  for (double e : {0.5, 0.7, 0.9, 1.0}) {
+    const SymmetricLosses losses = HeadOnCollision{2.5, e, 0}.symmetric_losses();
+    // Sphere i comes along +x and is thrown back at −e v; what it then has it loses by sliding.
+    const double slid = collide_and_slide(v, -v, e, 0).v;
+    const double slide_energy = (e * v * e * v - slid * slid) / (v * v);
+    const double slide_momentum = (slid - -e * v) / v;
+    EXPECT_NEAR(losses.sliding_energy, slide_energy, 1e-13);
+    EXPECT_NEAR(losses.sliding_momentum, slide_momentum, 1e-13);
+    EXPECT_NEAR(losses.energy_ratio(), (1 - e * e) / slide_energy, 1e-12);
+    EXPECT_NEAR(losses.momentum_ratio(), (1 - e) / slide_momentum, 1e-12);
+  }
+  // Elastic: 40/49, the paper's 80 %, and 4/7, its 60 %; all of it by sliding.
+  const SymmetricLosses elastic = HeadOnCollision{2.5, 1, 0}.symmetric_losses();
+  EXPECT_NEAR(elastic.sliding_energy, 40.0 / 49, 1e-15);
+  EXPECT_NEAR(elastic.sliding_momentum, 4.0 / 7, 1e-15);
+  EXPECT_EQ(elastic.energy_ratio(), 0);
+  EXPECT_EQ(elastic.momentum_ratio(), 0);
+}
+
+TEST(HeadOnCollision, K47K49LossesAreEqualAt53Over73And5Over9) {
+  // (47) = 1: (1+A)²(1 − e) = e − 1 + 2Ae, e = ((1+A)² + 1)/((1+A)² + 1 + 2A); (49) = 1: e =
+  // A/(2+A).
+  EXPECT_NEAR((HeadOnCollision{2.5, 53.0 / 73, 0}.symmetric_losses().energy_ratio()), 1, 1e-14);
+  EXPECT_NEAR((HeadOnCollision{2.5, 5.0 / 9, 0}.symmetric_losses().momentum_ratio()), 1, 1e-14);
+}
+
+TEST(HeadOnCollision, K65K66APairLosesTwiceAsMuchByASymmetricCollision) {
+  // Of the energy that both have before an elastic collision: 2A/(1+A)² with a target at rest,
+  // 4A/(1+A)² at equal speeds.
+  const auto lost = [](double v_i, double v_j, double e, double c) {
+    double sum = 0;
+    for (const bool first : {true, false}) {
+      const double own = first ? v_i : v_j, other = first ? v_j : v_i;
+      const double before = HeadOnCollision{2.5, e, c}.velocity_after(own, other);
+      const double after = collide_and_slide(own, other, e, c).v;
+      sum += before * before - after * after;
+    }
+    return sum / (v_i * v_i + v_j * v_j);
+  };
+  EXPECT_NEAR(lost(0.1, 0, 1, 0), 20.0 / 49, 1e-13);
+  EXPECT_NEAR(lost(0.1, -0.1, 1, 0), 40.0 / 49, 1e-13);
+  // K (64) corrected, the sum of (62) corrected and (63): rubbing makes the pair lose more, not
+  // less as K has it, [2Ae(1+e) + e² − 1 + 4C(1+A) − 4C²]/(2(1+A)²).
+  const double A = 2.5, e = 0.9, c = 0.13;
+  EXPECT_NEAR(
+      lost(0.1, 0, e, c),
+      (2 * A * e * (1 + e) + e * e - 1 + 4 * c * (1 + A) - 4 * c * c) / (2 * (1 + A) * (1 + A)),
+      1e-13);
+  EXPECT_GT(lost(0.1, 0, e, c), lost(0.1, 0, e, 0));
+}
+
 TEST(HeadOnCollision, EffectiveRestitutionIsWhatIsLeftOfTheRelativeVelocity) {
   for (double e : {0.4, 0.7, 0.9, 1.0})
     for (double c : {0.0, 0.1}) {
