@@ -5,150 +5,237 @@
 #include <cmath>
 
 #include "figures/columns.h"
+#include "figures/ice.h"
 #include "figures/paper_figure.h"
-#include "physics/contact/elastic_pair.h"
 #include "reference/pair/pair_batch.h"
 
 namespace slipcheck {
 namespace {
 
-constexpr double kYoungModulus = 1e10, kPoissonRatio = 0.3, kDensity = 1000;
-constexpr double kRadius = 0.01;                 // [m]
-constexpr double kDissipationTime = 1e-6;        // A [s]
-constexpr std::array kSizes = {2e-4, 2e-5};      // ζ0/R_eff of the two rough cases
-constexpr double kSlowest = 1e-3, kFastest = 1;  // [m/s]
-constexpr std::size_t kGrid = 73;
-constexpr int kSteps = 6400;  // in a collision
+constexpr std::size_t kGrid = 50;                // of the planes
+constexpr double kSlowest = 0.2, kFastest = 10;  // their speeds, evenly [cm/s]
+constexpr double kCut = 1;                       // g^T of the cuts [cm/s]
+constexpr int kSteps = 6400;                     // in a collision
 
 using Form = AsperityForce::Form;
 
+/// Two spheres of ice with asperities of a size ζ0, and μ = α √ζ0 with α = 1 in some unit of
+/// length.
 struct RoughIce {
-  RoughIce(double relative_size, Form form)
-      : sphere{kRadius, kDensity * 4 * M_PI / 3 * std::pow(kRadius, 3), 2.0 / 5} {
-    const double radius = effective_radius(sphere, sphere);
-    size = relative_size * radius;
-    friction = std::sqrt(size / 1e-2);  // μ = α √ζ0, α = 1 cm^-1/2
-    const ElasticMaterial ice{kYoungModulus, kPoissonRatio, kDissipationTime};
-    contact = {ViscoelasticForce{hertz_modulus(ice, ice, radius), kDissipationTime},
-               ContactEnd::zero_overlap, AsperityForce{friction, size, form}};
-  }
-  /// All g_N and in each all g_T of `speeds`; raises `doubt` to the largest of ε^T.
-  std::vector<PairCollision> collide(const std::vector<double>& speeds, double& doubt) const {
-    std::vector<double> normal, tangential;
-    for (double g_n : speeds)
-      for (double g_t : speeds) normal.push_back(g_n), tangential.push_back(g_t);
+  double relative_size;  ///< ζ0/R_eff [-]
+  double unit = 1e-6;    ///< [m]
+  Form form = Form::printed;
+  IceLaw law = kIceLaw;
+
+  double size() const { return relative_size * kIce.radius / 2; }  ///< ζ0 [m]
+  double friction() const { return std::sqrt(size() / unit); }     ///< μ [-]
+
+  /// At these speeds [cm/s]; raises `doubt`, where given, to the largest of ε^T.
+  std::vector<PairCollision> collide(const std::vector<double>& g_n, const std::vector<double>& g_t,
+                                     double* doubt = nullptr) const {
+    const SoftContact contact{law.force(ice_pair(), ice_pair_fit(law).dissipation_time), law.end,
+                              AsperityForce{friction(), size(), form}};
+    const Sphere sphere = ice_sphere();
+    const auto normal = scaled(g_n, kCentimetre), tangential = scaled(g_t, kCentimetre);
     std::vector<PairCollision> found(normal.size());
+    if (doubt == nullptr) {
+      collide_batch(contact, sphere, sphere, normal, tangential, kSteps, found);
+      return found;
+    }
     std::vector<PairDoubt> doubts(normal.size());
     collide_batch(contact, sphere, sphere, normal, tangential, kSteps, found, doubts);
-    for (const PairDoubt& d : doubts) doubt = std::max(doubt, d.tangential_restitution);
+    for (const PairDoubt& d : doubts) *doubt = std::max(*doubt, d.tangential_restitution);
     return found;
   }
 
-  Sphere sphere;
-  double size = 0, friction = 0;
-  SoftContact contact;
+  /// ε^T of those.
+  std::vector<double> turned(const std::vector<double>& g_n, const std::vector<double>& g_t,
+                             double* doubt = nullptr) const {
+    std::vector<double> values;
+    for (const PairCollision& each : collide(g_n, g_t, doubt))
+      values.push_back(each.tangential_restitution);
+    return values;
+  }
+
+  /// g^T_cr at a g^N [cm/s]: below it no asperity breaks, and as the law is linear in the bend ε^T
+  /// is the same for all g^T. To the 1.5 % between two of them.
+  double critical(double g_n) const {
+    const auto g_t = logarithmically_spaced(1e-3, 100, 800);
+    const auto values = turned(std::vector<double>(g_t.size(), g_n), g_t);
+    std::size_t first = 1;
+    while (first < g_t.size() && std::abs(values[first] - values[0]) < 1e-6) ++first;
+    return first < g_t.size() ? g_t[first] : NAN;
+  }
 };
 
-std::string size_text(const RoughIce& ice) { return fmt::format("ζ_0 = {:g} µm", ice.size / 1e-6); }
+/// Of B's three panels.
+constexpr std::array<RoughIce, 3> kCases = {{{1e-7}, {2e-4}, {1e-3}}};
+constexpr RoughIce kInCentimetres{1e-7, 1e-2};
+
+std::string name_of(const RoughIce& ice) {
+  return fmt::format("{:g} R_eff{}", ice.relative_size, ice.unit == 1e-2 ? " in cm" : "");
+}
+
+double least(const std::vector<double>& values) {
+  return *std::min_element(values.begin(), values.end());
+}
+
+double share_below_zero(const std::vector<double>& values) {
+  return static_cast<double>(
+             std::count_if(values.begin(), values.end(), [](double value) { return value < 0; })) /
+         static_cast<double>(values.size());
+}
 
 }  // namespace
 
 PaperFigure figure_b2() {
-  const std::vector<double> speeds = logarithmically_spaced(kSlowest, kFastest, kGrid);
-  const std::size_t cut = kGrid - 1;  // the fastest g_N
   PaperFigure figure;
   figure.name = "B2";
   figure.title = "Tangential restitution of rough ice";
   Table& table = figure.table;
-  std::vector<double> normal, tangential, in_cm_s;
-  for (double speed : speeds) in_cm_s.push_back(speed / 1e-2);
-  for (double g_n : in_cm_s)
-    for (double g_t : in_cm_s) normal.push_back(g_n), tangential.push_back(g_t);
-  table.add("g_N [cm/s]", normal);
-  table.add("g_T [cm/s]", tangential);
-
-  // Where the printed law throws back most.
-  struct {
-    double restitution = 1, g_n = 0, g_t = 0, size = 0;
-  } lowest;
+  const auto speeds = equally_spaced(kSlowest, kFastest, kGrid);
+  std::vector<double> g_n, g_t;
+  for (double n : speeds)
+    for (double t : speeds) g_n.push_back(n), g_t.push_back(t);
+  table.add("g_N [cm/s]", g_n);
+  table.add("g_T [cm/s]", g_t);
   double doubt = 0;
-  std::vector<Panel> cuts;
-  std::string cases;
-  for (std::size_t c = 0; c < kSizes.size(); ++c) {
-    const char letter = static_cast<char>('a' + c);
-    const RoughIce printed(kSizes[c], Form::printed), passive(kSizes[c], Form::passive);
-    cases += fmt::format("{}ζ_0 = {:g} R_{{eff}} = {:g} µm with μ = {:.4f}", c == 0 ? "" : ", ",
-                         kSizes[c], printed.size / 1e-6, printed.friction);
-    const double kappa = tangential_mass_ratio(printed.sphere, printed.sphere);
-    Panel chart{fmt::format("({}) g^N = {:g} cm/s, {}", static_cast<char>('e' + c), in_cm_s[cut],
-                            size_text(printed)),
-                {"g^T [cm/s]", true, 0.1, 100},
-                {"ε^T", false, -1.05, 1.05}};
-    const auto row = [&](const std::vector<double>& values) {
-      const auto begin = values.begin() + static_cast<std::ptrdiff_t>(cut * kGrid);
-      return std::vector<double>(begin, begin + kGrid);
-    };
+  const double kappa = tangential_mass_ratio(ice_sphere(), ice_sphere());
+
+  // The planes: B's three, and the first with the other reading of μ.
+  std::array<std::vector<double>, 4> planes;
+  for (std::size_t c = 0; c < planes.size(); ++c) {
+    const RoughIce& ice = c < kCases.size() ? kCases[c] : kInCentimetres;
+    const std::vector<PairCollision> seen = ice.collide(g_n, g_t, &doubt);
     std::vector<double> sliding;
-    for (const bool is_printed : {true, false}) {
-      std::vector<double> map;
-      const std::vector<PairCollision> seen =
-          (is_printed ? printed : passive).collide(speeds, doubt);
-      for (std::size_t k = 0; k < seen.size(); ++k) {
-        const double g_n = speeds[k / kGrid], g_t = speeds[k % kGrid];
-        map.push_back(seen[k].tangential_restitution);
-        if (is_printed && seen[k].tangential_restitution < lowest.restitution)
-          lowest = {seen[k].tangential_restitution, g_n, g_t, kSizes[c]};
-        // Many asperities break: on average half of μ F_N acts.
-        if (is_printed)
-          sliding.push_back(1 - 0.5 * printed.friction * (1 + seen[k].normal_restitution) * g_n /
-                                    (kappa * g_t));
-      }
-      const std::string form = is_printed ? "printed" : "passive";
-      table.add(fmt::format("eps^T {} {:g} R_eff [-]", form, kSizes[c]), map);
-      Panel all{fmt::format("({}) {}, {}", static_cast<char>(letter + (is_printed ? 0 : 2)), form,
-                            size_text(printed)),
-                {"g^T [cm/s]", true},
-                {"g^N [cm/s]", true}};
-      all.colours = ColourMap{in_cm_s, in_cm_s, map, "ε^T"};
-      figure.panels.push_back(std::move(all));
-      chart.curves.push_back(
-          {form + " form",
-           is_printed ? Look{Ink::blue, Line::solid} : Look{Ink::vermilion, Line::dashed}, in_cm_s,
-           row(map)});
-      if (is_printed) {
-        std::vector<double> residual = map;
-        for (std::size_t k = 0; k < map.size(); ++k) residual[k] -= sliding[k];
-        table.add(fmt::format("eps^T sliding limit {:g} R_eff [-]", kSizes[c]), sliding);
-        table.add(fmt::format("residual printed - sliding limit {:g} R_eff [-]", kSizes[c]),
-                  residual);
-      }
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      planes[c].push_back(seen[k].tangential_restitution);
+      // Many asperities break: on average half of μ F_N acts.
+      sliding.push_back(1 - 0.5 * ice.friction() * (1 + seen[k].normal_restitution) * g_n[k] /
+                                (kappa * g_t[k]));
     }
-    chart.curves.push_back(
-        {"sliding limit, closed form", {Ink::black, Line::dotted}, in_cm_s, row(sliding)});
-    cuts.push_back(chart);
+    table.add(fmt::format("eps^T {} [-]", name_of(ice)), planes[c]);
+    table.add(fmt::format("eps^T sliding limit {} [-]", name_of(ice)), sliding);
+    Panel plane{fmt::format("({}) ζ_0 = {:g} R_{{eff}}, μ = {:.2g}", "abcd"[c], ice.relative_size,
+                            ice.friction()),
+                {"g^T [cm/s]"},
+                {"g^N [cm/s]"}};
+    plane.colours = ColourMap{speeds, speeds, planes[c], "ε^T"};
+    figure.panels.push_back(std::move(plane));
   }
-  // Rows: both sizes printed, both passive, both cuts.
-  std::swap(figure.panels[1], figure.panels[2]);
-  for (Panel& panel : cuts) figure.panels.push_back(std::move(panel));
+
+  // Cuts over g^N.
+  const auto cut = logarithmically_spaced(0.1, 100, 181);
+  const std::vector<double> fixed(cut.size(), kCut);
+  table.add("g_N of the cuts [cm/s]", cut);
+  std::array<std::vector<double>, 3> cuts;
+  for (const Form form : {Form::printed, Form::passive}) {
+    const bool is_printed = form == Form::printed;
+    Panel panel{fmt::format("({}) g^T = {:g} cm/s, {}", is_printed ? 'e' : 'f', kCut,
+                            is_printed ? "as printed" : "passive form"),
+                {"g^N [cm/s]", true, 0.1, 100},
+                {"ε^T", false, -1.05, 1.05}};
+    const std::array<Look, 3> looks = {
+        {{Ink::blue, Line::solid}, {Ink::vermilion, Line::dashed}, {Ink::black, Line::dash_dot}}};
+    for (std::size_t c = 0; c < kCases.size(); ++c) {
+      RoughIce ice = kCases[c];
+      ice.form = form;
+      const auto values = ice.turned(cut, fixed);
+      table.add(fmt::format("eps^T of the cut {} {} [-]", is_printed ? "printed" : "passive",
+                            name_of(ice)),
+                values);
+      if (is_printed) cuts[c] = values;
+      panel.curves.push_back(
+          {is_printed ? fmt::format("ζ_0 = {:g} R_{{eff}}", ice.relative_size) : "", looks[c], cut,
+           values});
+    }
+    figure.panels.push_back(std::move(panel));
+  }
+
+  // g^T_cr of (b) and (c).
+  const std::vector<double> normal = {0.5, 1, 2, 5, 10};
+  table.add("g_N of g_T_cr [cm/s]", normal);
+  std::array<std::vector<double>, 2> critical;
+  for (const std::size_t c : {0u, 1u}) {
+    for (double n : normal) critical[c].push_back(kCases[c + 1].critical(n));
+    table.add(fmt::format("g_T_cr {} [cm/s]", name_of(kCases[c + 1])), critical[c]);
+  }
+  const auto growth = [&](std::size_t c) {
+    return std::log(critical[c].back() / critical[c].front()) /
+           std::log(normal.back() / normal.front());
+  };
+
+  // The others with ζ_0 in cm.
+  const double never_back = std::min(least(RoughIce{2e-4, 1e-2}.turned(g_n, g_t)),
+                                     least(RoughIce{1e-3, 1e-2}.turned(g_n, g_t)));
+  // (24) to zero overlap instead, whose tail attracts.
+  double tail_low = 1, tail_high = -1;
+  for (const std::size_t c : {1u, 2u}) {
+    RoughIce ice = kCases[c];
+    ice.law = kExpandedIceLaw;
+    const auto values = ice.turned(g_n, g_t);
+    tail_low = std::min(tail_low, least(values));
+    tail_high = std::max(tail_high, *std::max_element(values.begin(), values.end()));
+  }
 
   figure.caption = fmt::format(
-      "ε^T = g_T'/g_T of two free spheres of ice (R = {:g} cm, Y = {:g} Pa, ν = {:g}, ρ = {:g} "
-      "kg/m³, A = {:g} s) whose asperities bend and break, (35), with μ = √ζ_0 (ζ_0 in cm), for "
-      "two roughnesses: {}. The values are the project's; the paper's own are not at hand. ",
-      kRadius / kCentimetre, kYoungModulus, kPoissonRatio, kDensity, kDissipationTime, cases);
-  figure.caption +=
-      "(a), (b) the law as printed, (c), (d) the passive form, (e), (f) their uppermost rows. "
-      "Blue, ε^T near 1: the spheres slide at small g^N, where many asperities break; on average "
-      "half of μ F_N acts, the closed form 1 − μ(1+ε^N) g^N/(2κ g^T). Brown, ε^T near −1: an "
-      "asperity that does not break throws a small g^T back. ";
-  if (lowest.restitution < -1)
-    figure.caption += fmt::format(
-        "The law as printed is not passive everywhere: ε^T falls to −{:.3f} at ζ_0 = {:g} "
-        "R_{{eff}}, g^N = {:.3g} cm/s, g^T = {:.3g} cm/s (the darkest colour is −1 and below). ",
-        -lowest.restitution, lowest.size, lowest.g_n / kCentimetre, lowest.g_t / kCentimetre);
-  figure.caption += fmt::format(
-      "{} steps in a collision; with half as many ε^T changes by at most {:.0e}. B Fig. 2.", kSteps,
-      doubt);
+      "ε^T = g_T'/g_T of two free spheres over both parts of their impact velocity, for the three "
+      "sizes of asperities of the paper, ζ_0 = {:g} nm, {:g} µm and {:g} µm, which bend and break, "
+      "(35); the normal law is (25) to zero force with A = {:.3g} s, that of Fig. 1 for two "
+      "spheres. μ = √ζ_0 with ζ_0 in µm; (d) is (a) with ζ_0 in cm. Blue: they slide, and many "
+      "asperities break; brown: an asperity that does not break throws them back. (e) Over g^N at "
+      "g^T = {:g} cm/s, (f) the same with the project's passive form. {} steps in a collision; "
+      "with half as many ε^T changes by at most {:.0e}. B Fig. 2. ",
+      kCases[0].size() / 1e-9, kCases[1].size() / 1e-6, kCases[2].size() / 1e-6,
+      ice_pair_fit().dissipation_time, kCut, kSteps, doubt);
+  figure.caption += ice_caption();
+  figure.notes = fmt::format(
+      "The unit of ζ_0 in μ = α√ζ_0, α = 1, is not printed. With µm, μ = {:.3f}, {:.2f} and "
+      "{:.2f}, (b) and (c) have the two phases, the transition and the minimum that the paper "
+      "tells, on {:.0f} and {:.0f} % of the plane they throw back, and (a) does not stay above "
+      "0.85; with cm, {:.1g}, {:.2g} and {:.2g}, (a) does, but the others stay above {:.2f}: no "
+      "reading has both. Where many asperities break half of μF_N acts on average, "
+      "ε^T = 1 − μ(1+ε^N) g^N/(2κ g^T).\n\nWith (24) to zero overlap, which attracts at the end, "
+      "ε^T of (b) and (c) runs from {:.2f} to {:.2f} on the same plane: the tail throws back more "
+      "than came.",
+      kCases[0].friction(), kCases[1].friction(), kCases[2].friction(),
+      100 * share_below_zero(planes[1]), 100 * share_below_zero(planes[2]),
+      kInCentimetres.friction(), RoughIce{2e-4, 1e-2}.friction(), RoughIce{1e-3, 1e-2}.friction(),
+      never_back, tail_low, tail_high);
+
+  // Where ε^T of (c) is least over g^N, and what it is at high g^N.
+  const std::size_t deepest =
+      static_cast<std::size_t>(std::min_element(cuts[2].begin(), cuts[2].end()) - cuts[2].begin());
+  double mean = 0, squares = 0, count = 0;
+  for (std::size_t k = 0; k < cut.size(); ++k)
+    if (cut[k] > 20) mean += cuts[2][k], squares += cuts[2][k] * cuts[2][k], count += 1;
+  mean /= count;
+  const double scatter = std::sqrt(squares / count - mean * mean);
+  double gentle = 1;  // of all three where g^N is small and g^T large
+  for (const RoughIce& ice : kCases) gentle = std::min(gentle, ice.turned({0.01}, {kFastest})[0]);
+  figure.statements = {
+      {"(a)-(c): ε^T at g^N = 0.01 cm/s, g^T = 10 cm/s", "→ 1 as g^N → 0", 0.99, 1, gentle, 0,
+       "least of the three; read as above 0.99"},
+      {"(a): least ε^T, μ by µm", "0.85 to 1", 0.85, 1, least(planes[0]), 0,
+       "no reading of μ gives this and two phases in (b) and (c)"},
+      {"(a): least ε^T, μ by cm", "0.85 to 1", 0.85, 1, least(planes[3]), 0,
+       "but then (b) and (c) have one phase"},
+      {"(b): share of the plane with ε^T < 0", "some, at small g^T and larger g^N", 1e-3, 1,
+       share_below_zero(planes[1])},
+      {"(c): share of the plane with ε^T < 0", "some, another than in (b)", 1e-3, 1,
+       share_below_zero(planes[2])},
+      {"(b): power of g^N in g^T_cr, 0.5 to 10 cm/s", "grows", 0, kUnbounded, growth(0)},
+      {"(c): power of g^N in g^T_cr, 0.5 to 10 cm/s", "grows", 0, kUnbounded, growth(1)},
+      {"(b), (c): least ε^T", "−1 is not reached", -1, 1,
+       std::min(least(planes[1]), least(planes[2]))},
+      {"(c): least ε^T over g^N at g^T = 1 cm/s", "a negative minimum", -1, 0, cuts[2][deepest]},
+      {"(c): g^N/g^T of that minimum", "several", 2, 10, cut[deepest] / kCut, 0, "read as 2 to 10"},
+      {"(c): mean ε^T from 20 to 100 cm/s over the depth of the minimum", "rises up to zero", -0.5,
+       0.5, mean / std::abs(cuts[2][deepest]), 0,
+       fmt::format("read as below a half; it swings about it by {:.2f}", scatter)},
+      stated_number("ε^T of the smoothest, (a) by cm, at g^N = g^T = 1 cm/s", "−1", -1, 0.005,
+                    kInCentimetres.turned({1}, {1})[0], 0,
+                    "the limit of smooth spheres is +1; as printed both limits are −1")};
   return figure;
 }
 

@@ -40,6 +40,13 @@ Statement stated_number(std::string what, std::string stated, double value, doub
           error,           std::move(remark)};
 }
 
+Statement stated_order(std::string what, std::string stated, double value, double measured,
+                       double error, std::string remark) {
+  const double half = std::sqrt(10.0);
+  return {std::move(what), std::move(stated), value / half, value * half, measured,
+          error,           std::move(remark)};
+}
+
 std::string stated_csv(std::span<const PaperFigure> figures) {
   CsvRows rows(
       {"figure", "claim", "stated", "low", "high", "measured", "error", "agrees", "remark"}, 12);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,13 @@ struct Statement {
 /// Where the last digit of a stated number may be rounded: `value` ± `half_digit`.
 Statement stated_number(std::string what, std::string stated, double value, double half_digit,
                         double measured, double error = 0, std::string remark = {});
+
+/// A power of ten stated alone: what is nearer to `value` than to its neighbours.
+Statement stated_order(std::string what, std::string stated, double value, double measured,
+                       double error = 0, std::string remark = {});
+
+/// Where a statement has no bound.
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 struct PaperFigure;
 
