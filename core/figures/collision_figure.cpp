@@ -49,7 +49,7 @@ struct Course {
 
 }  // namespace
 
-PaperFigure figure_k5() {
+PaperFigure figure_collision_course() {
   const SteelPair pair{kSpeed, -kSpeed}, elastic{kSpeed, -kSpeed, 1};
   const double t_col = kSteel.collision_time;
   const PairInsight insight = pair.insight(), without_damping = elastic.insight();
@@ -84,7 +84,7 @@ PaperFigure figure_k5() {
   }
 
   PaperFigure figure;
-  figure.name = "K5";
+  figure.name = "collision-course";
   figure.title = "One symmetric collision";
   figure.caption = fmt::format(
       "Two spheres that roll into each other at ±{:g} cm/s (v_{{rel}} = {:g} cm/s), sphere i; "
@@ -161,6 +161,18 @@ PaperFigure figure_k5() {
                   points(Ink::blue, Marker::circle, added_v),
                   points(Ink::green, Marker::square, added_surface)};
   figure.panels = {overlap_chart, velocities, onset_chart, added};
+
+  // Elastic: the slip that the collision leaves beside v0, and what the substrate took of v_rel.
+  const double v_rel = 2 * kSpeed;
+  const double left = -value_of(elastic.solve(), "i.slip_after_collision.x");
+  figure.statements = {
+      stated_number("u^f/v^0 after a symmetric elastic collision", "twice", 2, 0.5, left / kSpeed),
+      stated_order(
+          "v_rel − u^f by the substrate's friction, second term of (37) [cm/s]", "0.01", 0.01,
+          (v_rel - left) / kCentimetre, 0,
+          "the part of (37) with t_min is printed four times too small, which does not show"),
+      stated_order("v^a, above which the substrate changes the collision little, App. D [cm/s]",
+                   "10^-3", 1e-3, a / insight.contact_frequency / kCentimetre)};
   return figure;
 }
 

@@ -5,12 +5,30 @@
 namespace slipcheck {
 
 std::span<const PaperFigureMaker> paper_figures() {
-  static constexpr std::array<PaperFigureMaker, 19> kFigures = {{
-      {"K5", figure_k5},   {"K6", figure_k6},   {"K7", figure_k7},   {"K8", figure_k8},
-      {"K9", figure_k9},   {"K10", figure_k10}, {"K11", figure_k11}, {"K12", figure_k12},
-      {"B1", figure_b1},   {"B2", figure_b2},   {"L2", figure_l2},   {"L7", figure_l7},
-      {"L8", figure_l8},   {"L9", figure_l9},   {"L10", figure_l10}, {"L11", figure_l11},
-      {"L12", figure_l12}, {"L13", figure_l13}, {"LB", figure_lb},
+  static constexpr std::array<PaperFigureMaker, 23> kFigures = {{
+      {"K5", figure_k5},
+      {"K6", figure_k6},
+      {"K7", figure_k7},
+      {"K8", figure_k8},
+      {"K9", figure_k9},
+      {"K10", figure_k10},
+      {"K11", figure_k11},
+      {"collision-course", figure_collision_course},
+      {"slide-course", figure_slide_course},
+      {"spin-exchange", figure_spin_exchange},
+      {"rolling-restitution", figure_rolling_restitution},
+      {"rolling-gas", figure_rolling_gas},
+      {"B1", figure_b1},
+      {"B2", figure_b2},
+      {"L2", figure_l2},
+      {"L7", figure_l7},
+      {"L8", figure_l8},
+      {"L9", figure_l9},
+      {"L10", figure_l10},
+      {"L11", figure_l11},
+      {"L12", figure_l12},
+      {"L13", figure_l13},
+      {"LB", figure_lb},
   }};
   return kFigures;
 }
@@ -26,8 +44,10 @@ const char* const kPaperFiguresIntroduction =
     "and stands beside the closed form; where a paper's first-order formula and the integrated "
     "law differ, both are drawn. K is L. Kondic, Phys. Rev. E 60, 751 (1999), B is N. V. "
     "Brilliantov et al., Phys. Rev. E 53, 5382 (1996), L is S. Luding, Phys. Rev. E 52, 4442 "
-    "(1995). The papers' texts were not at hand: the "
-    "numbers follow the order of their topics as far as it is known here, and a figure may show a "
-    "quantity over another range or in another unit than the printed one of its number.";
+    "(1995). A figure named after a paper's has its quantities and its parameters; ranges are the "
+    "project's where the text does not give them. What has a name in words is the project's own. "
+    "Beneath each stands what the paper says of it, beside what the run gives: a claim agrees "
+    "where the measured value, with its error, lies within what the paper's digits or words allow. "
+    "Nothing is tuned; where a claim fails, the remark says why.";
 
 }  // namespace slipcheck

@@ -14,7 +14,7 @@ constexpr double kSpeed = 0.05;  // of each sphere [m/s]: v_rel = 10 cm/s
 
 }  // namespace
 
-PaperFigure figure_k6() {
+PaperFigure figure_slide_course() {
   const SteelPair pair{kSpeed, -kSpeed};
   const double lead = 4e-3, last = 36e-3;
   const ContactScene scene = pair.scene(lead);
@@ -59,7 +59,7 @@ PaperFigure figure_k6() {
   }
 
   PaperFigure figure;
-  figure.name = "K6";
+  figure.name = "slide-course";
   figure.title = "From a symmetric collision to rolling";
   figure.caption = fmt::format(
       "Sphere i of two that meet at ±{:g} cm/s at t = 0; lines: closed forms with the collision "

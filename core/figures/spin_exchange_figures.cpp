@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -22,8 +23,7 @@ struct SphereQuantity {
   double unit_in_si = 1;
   std::string observable;  ///< without the body's name
   std::function<double(const AfterCollision&)> closed;
-  /// By which the observable becomes the closed form's quantity, by sphere.
-  std::array<double, 2> factor = {1, 1};
+  double factor = 1;  ///< by which the observable becomes the closed form's quantity
   /// What is drawn of either [SI], where it is not the quantity itself; sphere and point.
   std::function<double(double, std::size_t, std::size_t)> drawn = nullptr;
 };
@@ -49,7 +49,7 @@ Panel chart_of(const SphereQuantity& quantity, std::size_t k, char letter, Table
     std::vector<double> values;
     const std::string name = observable_key(quantity.observable).of(kBodies[k]).text();
     for (std::size_t n = 0; n < results.size(); ++n)
-      values.push_back(drawn(quantity.factor[k] * value_of(results[n], name), n));
+      values.push_back(drawn(quantity.factor * value_of(results[n], name), n));
     return values;
   };
   const auto add_column = [&](const char* column, const std::vector<double>& values) {
@@ -115,18 +115,70 @@ std::array<double, 2> speeds_at(std::size_t n) {
   return {v_i, asymmetric_collisions().ratio[n] * v_i};
 }
 
+/// Where j is at rest.
+std::size_t at_rest() {
+  const std::vector<double>& ratio = asymmetric_collisions().ratio;
+  const auto nearest = std::min_element(
+      ratio.begin(), ratio.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return static_cast<std::size_t>(nearest - ratio.begin());
+}
+
+/// What K says of the spins and, in App. F, of the jump: of a target at rest, v^0 = 10 cm/s.
+std::vector<Statement> spin_statements() {
+  const AsymmetricCollisions& all = asymmetric_collisions();
+  const std::size_t n = at_rest();
+  const double v = AsymmetricCollisions::kFirstSpeed;
+  const SteelPair pair{v, 0}, elastic{v, 0, 1};
+  const ReferenceResult struck = elastic.solve();
+  const double damping = pair.contact().damping_ratio();
+  const auto share = [&](double surface) { return (v - surface) / v; };
+  const double exchanged =
+      share(kSteel.radius * value_of(all.free[n], "i.angular_velocity_after_collision.y"));
+  const double slip = left_out_by_k(v);
+  const double flight = value_of(all.free[n], "i.flight_time");
+  const std::string falls =
+      "K takes the force of the first touch for the whole contact; it falls "
+      "as the spins become alike";
+  return {
+      stated_number("C for γ_S = γ_N/2, e_n = 0.9", "0.13", 0.13, 0.005, all.constant),
+      stated_number("share of v_i + v_j exchanged, (56)", "C = 0.13", 0.13, 0.005, exchanged, 0,
+                    fmt::format("first order; without Coulomb's cap ½(1 − e^−2C) = {:.4f}, with "
+                                "it {:.4f}",
+                                all.share, share(all.capped_free[0][n].surface_velocity))),
+      {"what Coulomb's cap takes of that share, App. E", "O(ε²)", 0, damping * damping,
+       all.share - share(all.capped[0][n].surface_velocity), 0,
+       fmt::format("read as at most ε² = {:.4f}", damping * damping)},
+      stated_number("u^f/v^0 of a sphere that hits one at rest, elastic", "−1", -1, slip,
+                    value_of(struck, "i.slip_after_collision.x") / v),
+      stated_number("u^f/v^0 of the one at rest", "1", 1, slip,
+                    value_of(struck, "j.slip_after_collision.x") / v),
+      stated_number(
+          "v^d = 2g/γ_S, above which the faster sphere lifts off [cm/s]", "0.5", 0.5, 0.05,
+          2 * kSteel.gravity / (pair.rubbing_ratio * pair.contact().damping_rate()) / kCentimetre),
+      stated_number("v^z of the jump [cm/s]", "0.5", 0.5, 0.05,
+                    value_of(all.free[n], "i.lift_off_speed") / kCentimetre, 0, falls),
+      stated_number("h^z [cm]", "1.3e-4", 1.3e-4, 0.05e-4,
+                    value_of(all.free[n], "i.jump_height") / kCentimetre, 0, falls),
+      stated_order("t^z [s]", "10^-2", 1e-2, flight, 0,
+                   "a misprint: 2v^z/g is 1.0e-3 s for the paper's own v^z"),
+      {"t^z/t_col", "≫ 1", 10, kUnbounded, flight / value_of(all.free[n], "i-j.contact_time"), 0,
+       "read as above 10"},
+      {"t^s/t^z", "≫ 1", 10, kUnbounded, value_of(all.free[n], "i.sliding_time") / flight, 0,
+       "read as above 10"}};
+}
+
 }  // namespace
 
-PaperFigure figure_k8() {
+PaperFigure figure_spin_exchange() {
   PaperFigure figure =
-      started("K8", "Slip after asymmetric collisions",
+      started("spin-exchange", "Slip after asymmetric collisions",
               "(a), (b) Slip velocity u^f of both spheres at the end of the collision, (62) "
               "corrected. (c), (d) The exchanged share of the spins, c in R ΔΩ = −c(v_i + v_j).");
   const SphereQuantity slip{"u^f", "cm/s", kCentimetre, "slip_after_collision.x",
                             [](const AfterCollision& a) { return a.slip; }};
   SphereQuantity share{"c", "", 1, "angular_velocity_after_collision.y",
                        [](const AfterCollision& a) { return a.surface_velocity; }};
-  share.factor = {kSteel.radius, kSteel.radius};
+  share.factor = kSteel.radius;
   share.drawn = [](double surface, std::size_t k, std::size_t n) {
     const auto before = speeds_at(n);
     const double sum = before[0] + before[1];
@@ -138,34 +190,26 @@ PaperFigure figure_k8() {
   c_i.y.high = c_j.y.high = 0.15;
   figure.panels = {chart_of(slip, 0, 'a', figure.table), chart_of(slip, 1, 'b', figure.table), c_i,
                    c_j};
-  return figure;
-}
+  figure.statements = spin_statements();
 
-PaperFigure figure_k9() {
   const AsymmetricCollisions& all = asymmetric_collisions();
-  const HeadOnCollision rule{steel_sphere().inverse_shape_factor(), SteelPair{}.restitution,
-                             all.share};
-  const double returning = 1 / rule.zero_sliding_distance_ratio();
-  PaperFigure figure = started(
-      "K9", "Sliding times and distances after asymmetric collisions",
-      fmt::format("Time t^s for which each sphere slides and the length s of its displacement "
-                  "meanwhile. (61), corrected, puts s_i = 0 with the exponential exchange at "
-                  "v_j/v_i = −{:.3f}.",
-                  -returning));
-  const SphereQuantity time{"t^s", "ms", 1e-3, "sliding_time",
-                            [](const AfterCollision& a) { return a.sliding_time; }};
-  const SphereQuantity way{"s", "mm", 1e-3, "sliding_distance",
-                           [](const AfterCollision& a) { return std::abs(a.sliding_distance); }};
-  Panel s_i = chart_of(way, 0, 'c', figure.table);
-  s_i.marks.push_back({returning, "(61)"});
-  figure.panels = {chart_of(time, 0, 'a', figure.table), chart_of(time, 1, 'b', figure.table), s_i,
-                   chart_of(way, 1, 'd', figure.table)};
+  const std::size_t n = at_rest();
+  const auto taken = [&](double surface) { return -surface / AsymmetricCollisions::kFirstSpeed; };
+  const double capped = taken(all.capped[1][n].surface_velocity);
+  const double seen =
+      taken(kSteel.radius * value_of(all.held[n], "j.angular_velocity_after_collision.y"));
+  figure.notes = fmt::format(
+      "K takes the share to first order, C. Of a target at rest, which the rubbing presses down, "
+      "the substrate's friction takes back {:.0f} % of the exchanged spin: c = {:.4f} with the cap "
+      "and {:.4f} integrated.",
+      100 * (1 - seen / capped), capped, seen);
   return figure;
 }
 
-PaperFigure figure_k10() {
+PaperFigure figure_rolling_restitution() {
   PaperFigure figure = started(
-      "K10", "Rolling velocities and effective restitution after asymmetric collisions",
+      "rolling-restitution",
+      "Rolling velocities and effective restitution after asymmetric collisions",
       "(a), (b) Velocity v^s with which each sphere rolls on. (c) e_{eff} = (v^s_j − v^s_i)/(v_i "
       "− v_j), which the spin exchange leaves at (A e_n − 1)/(1+A); to first order the friction "
       "on the sphere that the rubbing presses down adds Aμ_k ∫F_R dt/((1+A) m v_{rel}). (d) e_n "
@@ -216,21 +260,31 @@ PaperFigure figure_k10() {
   figure.panels.push_back(add('d', "restitution of the collision", "e_n", "i-j.restitution",
                               std::vector<double>(all.ratio.size(), rule.restitution),
                               {"e_n", false, 0.895, 0.905}));
-  return figure;
-}
 
-PaperFigure figure_k11() {
-  PaperFigure figure = started(
-      "K11", "Energy and momentum lost while sliding after asymmetric collisions",
-      "ΔE = |v^f|² − |v^s|² and Δp = v^f − v^s (per unit mass, ΔE times two) of each sphere.");
-  const SphereQuantity energy{"ΔE", "cm²/s²", 1e-4, "energy_change_sliding",
-                              [](const AfterCollision& a) { return a.energy_change; }};
-  SphereQuantity momentum{"Δp", "cm/s", kCentimetre, "momentum_change_sliding",
-                          [](const AfterCollision& a) { return a.momentum_change; }};
-  momentum.factor = {-1, 1};  // observed along the line away from the other sphere
-  figure.panels = {chart_of(energy, 0, 'a', figure.table), chart_of(energy, 1, 'b', figure.table),
-                   chart_of(momentum, 0, 'c', figure.table),
-                   chart_of(momentum, 1, 'd', figure.table)};
+  // K's case, Sec. IV (vi): opposite directions, or one at rest.
+  const std::size_t n = at_rest();
+  const auto effective_at = [&](std::size_t k) {
+    return value_of(all.held[k], "i-j.effective_restitution");
+  };
+  double low = effective_at(0), high = low, highest = low;
+  for (std::size_t k = 0; k < all.held.size(); ++k) {
+    highest = std::max(highest, effective_at(k));
+    if (k > n) continue;
+    low = std::min(low, effective_at(k));
+    high = std::max(high, effective_at(k));
+  }
+  const std::string grows = "grows by what the substrate rubs the pressed sphere";
+  figure.statements = {stated_number("e_eff after a symmetric collision, (68)", "0.36", 0.36, 0.005,
+                                     effective_at(0)),
+                       stated_number("e_eff with a target at rest, (68)", "0.36", 0.36, 0.005,
+                                     effective_at(n), 0, grows),
+                       {"range of e_eff over opposite directions", "none: e_n and A alone", 0, 0.01,
+                        high - low, 0, "read as less than one in its second digit"}};
+  figure.notes = fmt::format(
+      "The substrate's friction on the sphere that the rubbing presses down lifts e_eff from "
+      "{:.4f}, (68), to {:.4f} for a target at rest and {:.3f} for nearly equal speeds, which K "
+      "leaves out.",
+      closed[0], effective_at(n), highest);
   return figure;
 }
 

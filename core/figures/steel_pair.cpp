@@ -11,13 +11,21 @@ namespace slipcheck {
 
 std::string steel_caption() {
   return fmt::format(
-      "Steel, R = {:g} mm, ρ = {:g} g/cm³, e_n = {:g}, linear contact until the overlap is zero "
-      "with t_{{col}} = {:g} µs at all speeds, γ_S = {:g} γ_N, ν_s = {:g}, μ_s = {:g}, μ_k = "
+      "Steel, R = {:g} mm, ρ = {:g} g/cm³, e_n = {:g} unless said otherwise, linear contact until "
+      "the overlap is zero "
+      "with t_{{col}} = {:g} µs (v_{{rel}}/10 cm/s)^{{−1/5}}, γ_S = {:g} γ_N, ν_s = {:g}, μ_s = "
+      "{:g}, μ_k = "
       "{:g}, g = {:g} cm/s².",
       1e3 * kSteel.radius, 1e-3 * kSteel.density, SteelPair{}.restitution,
       1e6 * kSteel.collision_time, kSteel.rubbing_ratio, kSteel.rubbing_friction,
       kSteel.static_friction, kSteel.kinetic_friction, 100 * kSteel.gravity);
 }
+
+double steel_collision_time(double v_rel) {
+  return kSteel.collision_time * std::pow(v_rel / 0.1, -0.2);
+}
+
+double left_out_by_k(double v_rel) { return kSteel.gravity * steel_collision_time(v_rel) / v_rel; }
 
 Sphere steel_sphere() {
   return {kSteel.radius, kSteel.density * 4 * M_PI / 3 * std::pow(kSteel.radius, 3), 2.0 / 5};
@@ -25,7 +33,8 @@ Sphere steel_sphere() {
 
 LinearContact SteelPair::contact() const {
   return LinearContact::with_collision_time(steel_sphere().mass / 2, restitution,
-                                            kSteel.collision_time, ContactEnd::zero_overlap);
+                                            steel_collision_time(v_i - v_j),
+                                            ContactEnd::zero_overlap);
 }
 
 RollingPair SteelPair::rolling() const {
@@ -34,7 +43,7 @@ RollingPair SteelPair::rolling() const {
     pair.spheres[k] = {steel_sphere(), k == 0 ? v_i : v_j, kSteel.static_friction,
                        kSteel.kinetic_friction};
   pair.gravity = kSteel.gravity;
-  pair.rubbing_rate = kSteel.rubbing_ratio * contact().damping_rate();
+  pair.rubbing_rate = rubbing_ratio * contact().damping_rate();
   pair.rubbing_friction = kSteel.rubbing_friction;
   pair.confined = confined;
   return pair;
@@ -62,9 +71,9 @@ ContactScene SteelPair::scene(double lead) const {
   ContactScene made = with_hard_contacts(std::move(hard));
   const LinearContact law = contact();
   const double mass = law.reduced_mass();
-  made.soft[0] = SoftContact{
-      LinearForce{law.stiffness(), law.damping_rate() * mass}, ContactEnd::zero_overlap,
-      ViscousForce{kSteel.rubbing_ratio * law.damping_rate() * mass, kSteel.rubbing_friction}};
+  made.soft[0] =
+      SoftContact{LinearForce{law.stiffness(), law.damping_rate() * mass}, ContactEnd::zero_overlap,
+                  ViscousForce{rubbing_ratio * law.damping_rate() * mass, kSteel.rubbing_friction}};
   return made;
 }
 
