@@ -475,7 +475,8 @@ class CommandLine(unittest.TestCase):
         result = run("figures", folder, "--only", "K7,K4")
         self.assertEqual(result.returncode, 2)
         self.assertEqual(result.stderr, "slipcheck: --only: must be of K5, K6, K7, K8, K9, K10, K11, "
-                         "K12, B1, B2, L2, L7, L8, L9, L10, L11, L12, L13, LB, got K4\n")
+                         "collision-course, slide-course, spin-exchange, rolling-restitution, "
+                         "rolling-gas, B1, B2, L2, L7, L8, L9, L10, L11, L12, L13, LB, got K4\n")
         self.assertFalse(folder.exists())
         folder.write_text("a file")
         result = run("figures", folder, "--only", "K7")

@@ -15,17 +15,42 @@ from pathlib import Path
 from random import Random
 
 SLIPCHECK = sys.argv[1]
-NAMES = ["K5", "K6", "K7", "K8", "K9", "K10", "K11", "K12", "B1", "B2",
+NAMES = ["K5", "K6", "K7", "K8", "K9", "K10", "K11", "collision-course", "slide-course",
+         "spin-exchange", "rolling-restitution", "rolling-gas", "B1", "B2",
          "L2", "L7", "L8", "L9", "L10", "L11", "L12", "L13", "LB"]
 SVG = "{http://www.w3.org/2000/svg}"
 
-# Kondic's spheres, in SI: A = m R²/I, friction, gravity, restitution, duration of the collision.
-A, MU_S, MU_K, G, E_N, T_COL = 2.5, 0.5, 0.1, 9.81, 0.9, 2.55e-5
+# Kondic's spheres, in SI: A = m R²/I, friction, gravity, restitution, radius, duration of the
+# collision at v_rel = 10 cm/s.
+A, MU_S, MU_K, G, E_N, R, T_COL = 2.5, 0.5, 0.1, 9.81, 0.9, 2e-3, 2.55e-5
 GAMMA = -2 * math.log(E_N) / T_COL
 OMEGA0 = math.hypot(math.pi / T_COL, GAMMA / 2)
 C = math.pi * A * (GAMMA / 2) / (2 * OMEGA0)
 SHARE = (1 - math.exp(-2 * C)) / 2
 V_I = 10.0  # cm/s, of the asymmetric collisions
+
+
+def t_col(v):
+    """In s at v_rel in cm/s: App. B, in proportion to v^(−1/5)."""
+    return T_COL * (v / 10)**-0.2
+
+
+def free_contact(e, v):
+    """ω0, ω and γ_N of the collision at v_rel [cm/s]."""
+    gamma = -2 * math.log(e) / t_col(v)
+    omega = math.pi / t_col(v)
+    return math.hypot(omega, gamma / 2), omega, gamma
+
+
+def slid(v_m, v_p, c):
+    """t^s [s], s [cm], ΔE [cm²/s²], Δp [cm/s] of sphere i: half the sum of both speeds stays, the
+    difference turns round by e_n, its surface keeps v_i less c of the sum; then it slides."""
+    v_i, v_j = (v_p + v_m) / 2, (v_p - v_m) / 2
+    after = (v_i + v_j) / 2 - E_N * (v_i - v_j) / 2
+    slip = after - (v_i - c * v_p)
+    time = abs(slip) / (100 * (1 + A) * MU_K * G)
+    rolling = after - math.copysign(100 * MU_K * G * time, slip)
+    return time, (after + rolling) / 2 * time, after**2 - rolling**2, after - rolling
 
 
 class Figures(unittest.TestCase):
@@ -63,7 +88,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(self.result.stdout, f"{self.path}/index.html\n")
         self.assertEqual({file.name for file in self.path.iterdir()},
                          {f"{name}.{kind}" for name in NAMES for kind in ("svg", "csv")}
-                         | {"index.html"})
+                         | {"index.html", "stated.csv", "figures.md"})
 
     def test_svg_is_well_formed_and_complete_in_itself(self):
         for name in NAMES:
@@ -91,7 +116,7 @@ class Figures(unittest.TestCase):
             self.assertGreater(len(drawn), 1, name)
 
     def test_asymmetric_figures_show_every_way_to_reckon_the_spins(self):
-        for name in ("K8", "K9", "K10", "K11"):
+        for name in ("spin-exchange", "rolling-restitution"):
             text = "".join(ElementTree.parse(self.path / f"{name}.svg").getroot().itertext())
             for label in ("C = 0", f"first order, C = {C:.3f}", f"= {SHARE:.3f}", "Coulomb",
                           "held on the plane", "free to jump"):
@@ -109,7 +134,7 @@ class Figures(unittest.TestCase):
             else:
                 self.assertTrue((self.path / link).exists(), link)
         self.assertEqual(len(list(root.iter("figcaption"))), len(NAMES))
-        self.assertIn("were not at hand", text)
+        self.assertIn("Nothing is tuned", text)
 
     def test_every_column_has_its_unit_and_numbers(self):
         for name in NAMES:
@@ -117,8 +142,209 @@ class Figures(unittest.TestCase):
                 self.assertRegex(title, r" \[[^\]]+\]$")
                 self.assertTrue(any(value is not None for value in values), title)
 
-    def test_k5_free_contact_and_onset_of_sliding(self):
-        rows = list(self.rows("K5", "t/t_col [-]", "overlap reference [µm]", "v_i reference [cm/s]",
+    def statement(self, figure, start):
+        """The one of the figure that begins so; its numbers and whether it agrees."""
+        with open(self.path / "stated.csv", newline="", encoding="utf-8") as file:
+            rows = [row for row in csv.DictReader(file)
+                    if row["figure"] == figure and row["claim"].startswith(start)]
+        self.assertEqual(len(rows), 1, (figure, start))
+        return {key: float(rows[0][key]) if rows[0][key] else None
+                for key in ("low", "high", "measured", "error")} | {"agrees": rows[0]["agrees"]}
+
+    def assert_stated(self, figure, start, expected, relative, agrees):
+        """Measured is what the test derives, to the part of it that is left out there."""
+        row = self.statement(figure, start)
+        self.assertTrue(math.isclose(row["measured"], expected, rel_tol=relative), (start, row))
+        self.assertEqual(row["agrees"], agrees, (start, row))
+
+    def test_every_statement_is_judged_by_its_own_numbers(self):
+        with open(self.path / "stated.csv", newline="", encoding="utf-8") as file:
+            header, *rows = csv.reader(file)
+        self.assertEqual(header, ["figure", "claim", "stated", "low", "high", "measured", "error",
+                                  "agrees", "remark"])
+        self.assertGreater(len(rows), 60)
+        for row in rows:
+            self.assertEqual(len(row), len(header))
+            figure, claim, stated, low, high, measured, error, agrees, remark = row
+            self.assertIn(figure, NAMES)
+            self.assertTrue(claim and stated)
+            self.assertIn(agrees, ("yes", "no"))
+            low = float(low) if low else -math.inf
+            high = float(high) if high else math.inf
+            self.assertTrue(low <= high and float(error) >= 0, row)
+            inside = measured and low <= float(measured) + float(error) and \
+                float(measured) - float(error) <= high
+            self.assertEqual(agrees, "yes" if inside else "no", row)
+            self.assertTrue(agrees == "yes" or remark, row)  # why not
+        self.assertEqual(len({(row[0], row[1]) for row in rows}), len(rows))
+
+    def test_page_of_statements_has_them_all(self):
+        text = (self.path / "figures.md").read_text()
+        self.assertEqual([line[3:].split(":")[0] for line in text.splitlines()
+                          if line.startswith("## ")], NAMES)
+        with open(self.path / "stated.csv", newline="", encoding="utf-8") as file:
+            self.assertEqual(sum(text.count(f"| {word} |") for word in ("yes", "no")),
+                             len(list(csv.reader(file))) - 1)
+
+    def test_k5_compression(self):
+        for e in (1, 0.9, 0.8, 0.7):
+            for v, closed, printed in self.rows(
+                    "K5", "v_rel [cm/s]", f"x_max closed form e_n = {e:g} [-]",
+                    f"x_max of (39) as printed e_n = {e:g} [-]"):
+                # x = (v/(2R ω)) e^(−γt/2) sin ωt is deepest at tan ωt = 2ω/γ.
+                omega0, omega, gamma = free_contact(e, v)
+                t = math.atan2(2 * omega, gamma) / omega
+                deepest = v / 100 / (2 * R * omega) * math.exp(-gamma / 2 * t) * math.sin(omega * t)
+                self.assertTrue(math.isclose(closed, deepest, rel_tol=1e-9), (e, v))
+                first = v / 100 / (2 * R * omega0) * (1 - math.pi / 2 * gamma / omega0)
+                self.assertTrue(math.isclose(printed, first, rel_tol=1e-9), (e, v))
+            for v, seen, residual in self.rows(
+                    "K5", "v_rel of points [cm/s]", f"x_max reference e_n = {e:g} [-]",
+                    f"x_max residual e_n = {e:g} [-]"):
+                if v is None:
+                    continue
+                # App. D: the substrate's friction presses them together, 2 μ_k g/(v ω0) of it.
+                omega0, _, _ = free_contact(e, v)
+                self.assertAlmostEqual(residual / seen, 0,
+                                       delta=1.1 * 2 * MU_K * G / (v / 100 * omega0))
+        for v, seen, time in self.rows("K5", "v_rel of points [cm/s]", "x_min reference e_n = 1 [-]",
+                                       "t_min reference e_n = 1 [s]"):
+            if v is None:
+                continue
+            # F_N = m R ω0² x is then (1+A) μ_s m g, of spheres that come at v to (ω0 t)²/6.
+            omega0, _, _ = free_contact(1, v)
+            onset = (1 + A) * MU_S * G / (R * omega0**2)
+            self.assertTrue(math.isclose(seen, onset, rel_tol=1e-6), v)
+            t_min = 2 * R * onset / (v / 100)
+            self.assertTrue(math.isclose(time, t_min, rel_tol=(omega0 * t_min)**2), v)
+
+    def test_k5_statements(self):
+        omega0, _, gamma = free_contact(1, 10)
+        left_out = 0.01  # App. D at 10 cm/s: 0.0016
+        self.assert_stated("K5", "x_max^0", 0.1 / (2 * R * omega0), left_out, "yes")
+        damped0, _, gamma = free_contact(E_N, 10)
+        self.assert_stated("K5", "x_max/x_max^0", 1 - math.pi / 4 * gamma / damped0,
+                           (gamma / damped0)**2, "no")
+        self.assert_stated("K5", "power of v_rel in x_max", 0.8, 0.005, "yes")
+        # In diameters (1+A) μ_s g/(R ω0²), twice what is printed, and 2R/v_rel times that in time.
+        onset = (1 + A) * MU_S * G / (R * omega0**2)
+        self.assert_stated("K5", "x_min^0 at", onset, 1e-3, "no")
+        self.assert_stated("K5", "power of v_rel in x_min^0", -0.4, 1e-3, "yes")
+        self.assert_stated("K5", "t_min^0 at", 2 * R * onset / 0.1, 1e-3, "yes")
+        self.assert_stated("K5", "t_min^0/t_col", 2 * R * onset / 0.1 / T_COL, 1e-3, "no")
+        self.assert_stated("K5", "v^b", 2 * R * onset * omega0 * 100, 1e-3, "yes")
+        self.assert_stated("K5", "v^c", 2 * (1 + A) * MU_S * G / gamma * 100, 1e-9, "no")
+        self.assert_stated("K5", "E_ps/E_col", 4 * MU_S * G / (omega0 * 0.1), left_out, "yes")
+        # Hertz: t_c = 2.9432 (m_eff/k)^(2/5) v^(−1/5), k = (4/5)(4/3) E* √R_eff, R_eff = R/2.
+        modulus = 2.06e11 / (2 * (1 - 0.28**2))
+        mass = 7850 * 4 / 3 * math.pi * R**3
+        for speed, claim in ((0.1, "t_col at 10 cm/s"), (1, "t_col at 100 cm/s")):
+            time = 2.9432 * (mass / 2 / (0.8 * 4 / 3 * modulus * math.sqrt(R / 2)))**0.4 * speed**-0.2
+            self.assert_stated("K5", claim, time, 1e-4, "no")
+        self.assert_stated("K5", "power of v_0 in t_col", -0.2, 1e-6, "yes")
+        self.assert_stated("K5", "power of R in t_col", 1, 1e-6, "yes")
+
+    def test_k6_meets_the_closed_forms_to_t_col_over_t_s(self):
+        for v, t, t_closed, s, s_closed in self.rows(
+                "K6", "v_rel [cm/s]", "t^s reference [s]", "t^s closed form [s]",
+                "s reference [cm]", "s closed form [cm]"):
+            slide = (1 + E_N) * v / 100 / (2 * (1 + A) * MU_K * G)
+            way = (v / 100)**2 * (1 + E_N) * (E_N - 1 + 2 * E_N * A) / (
+                8 * MU_K * G * (1 + A)**2) * 100
+            self.assertTrue(math.isclose(t_closed, slide, rel_tol=1e-10))
+            self.assertTrue(math.isclose(s_closed, way, rel_tol=1e-10))
+            self.assertTrue(math.isclose(t, slide, rel_tol=t_col(v) / slide), v)
+            self.assertTrue(math.isclose(s, way, rel_tol=t_col(v) / slide), v)
+        self.assertEqual(min(self.table("K6")["v_rel [cm/s]"]), 1)
+        self.assertEqual(max(self.table("K6")["v_rel [cm/s]"]), 100)
+        slide, way, _, _ = slid(-10, 0, 0)
+        left_out = T_COL / slide
+        self.assert_stated("K6", "t^s", slide, left_out, "yes")
+        self.assert_stated("K6", "s at", way, left_out, "yes")
+        self.assert_stated("K6", "|v^s|/v^0", (A * E_N - 1) / (1 + A), 2 * left_out, "yes")
+        self.assert_stated("K6", "e_n below", 1 / A, 5 * left_out, "yes")
+
+    def test_k7_losses(self):
+        def losses(e):
+            """Of v² and v of each: by the slide, which ends at (Ae − 1)/(1 + A), and before it."""
+            end = (A * e - 1) / (1 + A)
+            return e**2 - end**2, e - end, 1 - e**2, 1 - e
+
+        columns = ("dE_slip", "dp_slip", "dE_col/dE_slip", "dp_col/dp_slip")
+        # What the substrate does during the collision: g t_col/v_rel = 0.0025 of the speeds.
+        left_out = 2 * G * T_COL / 0.1
+        for kind, at, tolerance in (("closed form", "e_n [-]", 1e-9),
+                                    ("reference", "e_n of points [-]", left_out)):
+            for e, *values in self.rows("K7", at, *(f"{name} {kind} [-]" for name in columns)):
+                if e is None:
+                    continue
+                energy, momentum, collision, parting = losses(e)
+                for value, expected in zip(values, (energy, momentum, collision / energy,
+                                                    parting / momentum)):
+                    self.assertAlmostEqual(value, expected, delta=tolerance * (1 + expected))
+        self.assert_stated("K7", "ΔE_slip for", 40 / 49, left_out, "yes")
+        self.assert_stated("K7", "Δp_slip for", 4 / 7, left_out, "yes")
+        # (47) = 1 at ((1+A)² + 1)/((1+A)² + 1 + 2A), (49) = 1 at A/(2+A).
+        self.assert_stated("K7", "e_n at which collision", 53 / 73, left_out, "yes")
+        self.assert_stated("K7", "e_n at which they", 5 / 9, left_out, "yes")
+
+    def test_k8_to_k11_closed_forms_and_integrated_spheres(self):
+        names = (("K8", "t^s", "s"), ("K9", "|s|", "cm"), ("K10", "ΔE", "cm²/s²"),
+                 ("K11", "Δp", "cm/s"))
+        for k, (figure, symbol, unit) in enumerate(names):
+            drawn = 0
+            for v_m, v_p, value in self.rows(figure, "v_m [cm/s]", "v_p [cm/s]",
+                                             f"{symbol} closed form [{unit}]"):
+                if value is None:
+                    self.assertGreater(abs(v_p), 2 * abs(v_m))
+                    continue
+                expected = slid(v_m, v_p, C)[k]
+                self.assertAlmostEqual(value, abs(expected) if k == 1 else expected,
+                                       delta=1e-9 * v_m**2)
+                drawn += 1
+            self.assertGreater(drawn, 1000)
+        points = {}
+        for figure, symbol, unit in names:
+            for v_m, v_p, value in self.rows(figure, "v_m of points [cm/s]", "v_p of points [cm/s]",
+                                             f"{symbol} reference [{unit}]"):
+                if v_m is not None:
+                    points.setdefault((v_m, v_p), []).append(value)
+        self.assertGreater(len(points), 30)
+        epsilon = GAMMA / OMEGA0
+        for (v_m, v_p), (time, way, energy, momentum) in points.items():
+            slip = 100 * (1 + A) * MU_K * G * time
+            # As in spin-exchange; Coulomb's cap takes O(ε²) of the sum, App. E.
+            most = 1.01 * (1 + A) * MU_K * (100 * G * t_col(-v_m) + SHARE * abs(v_p) / A)
+            self.assertAlmostEqual(slip, -(1 + E_N) / 2 * v_m + SHARE * v_p,
+                                   delta=most + epsilon**2 * abs(v_p))
+            # What a slide is, whatever came before, to the integration's 1e-9.
+            self.assertAlmostEqual(momentum, slip / (1 + A), delta=1e-6)
+            self.assertAlmostEqual(way, abs(energy) * time / (2 * momentum), delta=1e-6)
+
+    def test_k8_to_k11_statements(self):
+        # The extreme sphere's slip is ½(1+e) ± c of |v_m|, c from 0.1 to C: 2c/(1+e).
+        for figure, claim, agrees in (("K8", "change of t^s", "yes"), ("K11", "change of Δp", "yes")):
+            self.assert_stated(figure, claim, 2 * SHARE / (1 + E_N), 0.15, agrees)
+        for figure, claim, index in (("K9", "change of s", 1), ("K10", "change of ΔE", 2)):
+            change = max(abs(slid(-10, v_p, SHARE)[index] / slid(-10, 0, 0)[index] - 1)
+                         for v_p in (-10, 10))
+            self.assert_stated(figure, claim, change, 0.05, "yes")
+        self.assert_stated("K9", "v_i/v_j for which s_i = 0, elastic", -6, 0.01, "yes")
+        # Where the slide ends at −v^f, i.e. 2(1+A) v^f = u: v_p [(1+A) − c] = v_m [e(1+A) − ½(1+e)].
+        share = (E_N * (1 + A) - (1 + E_N) / 2) / ((1 + A) - SHARE)
+        ratio = (share + 1) / (share - 1)
+        self.assert_stated("K9", "v_i/v_j for which s_i = 0, e_n", ratio, 0.02, "no")
+        self.assert_stated("K10", "the same by (62)", slid(-10, 10, SHARE)[2], 0.02, "no")
+        pair = sum(slid(-10, v_p, SHARE)[2] for v_p in (-10, 10)) / 100
+        self.assert_stated("K10", "ΔE of both", pair, 0.03, "no")
+        smooth = sum(slid(-10, v_p, 0)[2] for v_p in (-10, 10)) / 100
+        self.assert_stated("K10", "what the rubbing adds", pair - smooth, 0.2, "no")
+        self.assert_stated("K10", "loss of a symmetric", 2, 0.005, "yes")
+        for start in ("Δp over", "the same, symmetric", "the same, i at rest"):
+            self.assert_stated("K11", start, 1, G * T_COL / 0.1, "yes")
+
+    def test_collision_course_free_contact_and_onset_of_sliding(self):
+        rows = list(self.rows("collision-course", "t/t_col [-]", "overlap reference [µm]", "v_i reference [cm/s]",
                               "RΩ_i reference [cm/s]"))
         omega = math.pi / T_COL
         # App. D: the substrate's friction presses the spheres together with a = 2 μ_k g. To the
@@ -137,18 +363,18 @@ class Figures(unittest.TestCase):
         # t_min = 2 (1+A) μ_s g/(v_rel ω0²), e_n = 1: 22.6 ns, between two of the points.
         t_min = 2 * (1 + A) * MU_S * G / (0.1 * (math.pi / T_COL)**2) * 1e9
         self.assertAlmostEqual(t_min, 22.6, delta=0.05)
-        for t, slip in self.rows("K5", "t [ns]", "u_i reference e_n = 1 [cm/s]"):
+        for t, slip in self.rows("collision-course", "t [ns]", "u_i reference e_n = 1 [cm/s]"):
             if t < t_min:
                 self.assertAlmostEqual(slip, 0, delta=1e-12)
             else:
                 self.assertLess(slip, -1e-7)
 
-    def test_k6_slides_for_its_time_and_rolls_on(self):
+    def test_slide_course_slides_for_its_time_and_rolls_on(self):
         slide = (1 + E_N) * 0.1 / (2 * (1 + A) * MU_K * G) * 1e3
         e_eff = (A * E_N - 1) / (1 + A)
         # t_col/t^s of the speed: the closed forms take the collision as an instant.
         tolerance = 5 * T_COL * 1e3 / slide
-        for t, v, slip in self.rows("K6", "t [ms]", "v_i reference [cm/s]", "u_i reference [cm/s]"):
+        for t, v, slip in self.rows("slide-course", "t [ms]", "v_i reference [cm/s]", "u_i reference [cm/s]"):
             if t < 0:
                 self.assertAlmostEqual(v, 5, delta=1e-9)
                 self.assertAlmostEqual(slip, 0, delta=1e-9)
@@ -158,24 +384,10 @@ class Figures(unittest.TestCase):
             else:
                 self.assertAlmostEqual(slip, -(1 + E_N) * 5 * (1 - t / slide), delta=tolerance)
 
-    def test_k7_meets_the_closed_forms_to_t_col_over_t_s(self):
-        for v, t, t_closed, s, s_closed in self.rows(
-                "K7", "v_rel [cm/s]", "t^s reference [ms]", "t^s closed form [ms]",
-                "s reference [cm]", "s closed form [cm]"):
-            slide = (1 + E_N) * v / 100 / (2 * (1 + A) * MU_K * G) * 1e3
-            way = (v / 100)**2 * (1 + E_N) * (E_N - 1 + 2 * E_N * A) / (
-                8 * MU_K * G * (1 + A)**2) * 100
-            self.assertTrue(math.isclose(t_closed, slide, rel_tol=1e-10))
-            self.assertTrue(math.isclose(s_closed, way, rel_tol=1e-10))
-            self.assertTrue(math.isclose(t, slide, rel_tol=T_COL * 1e3 / slide), v)
-            self.assertTrue(math.isclose(s, way, rel_tol=T_COL * 1e3 / slide), v)
-        self.assertLess(min(self.table("K7")["v_rel [cm/s]"]), 0.5)
-        self.assertGreater(max(self.table("K7")["v_rel [cm/s]"]), 99)
-
-    def test_k8_slip_by_each_spin_exchange_and_the_integrated_one(self):
+    def test_spin_exchange_slip_by_each_spin_exchange_and_the_integrated_one(self):
         for body, sign in (("i", -1), ("j", 1)):
             for ratio, none, first, exponential, cap, held, free in self.rows(
-                    "K8", "v_j/v_i [-]", *(f"u^f_{body} {way} [cm/s]" for way in (
+                    "spin-exchange", "v_j/v_i [-]", *(f"u^f_{body} {way} [cm/s]" for way in (
                         "C = 0", "first order", "exponential", "with cap", "reference held",
                         "reference free"))):
                 smooth = sign * (1 + E_N) / 2 * V_I * (1 - ratio)
@@ -189,54 +401,30 @@ class Figures(unittest.TestCase):
                 # The substrate's friction in the collision, on weight and rubbing: at most
                 # (1+A) μ_k (g t_col + ∫F_R dt/m) with ∫F_R dt = SHARE turned m/A. Tenfold
                 # second order, 1 %.
-                most = 1.01 * (1 + A) * MU_K * (100 * G * T_COL + SHARE * turned / A)
+                most = 1.01 * (1 + A) * MU_K * (100 * G * t_col(V_I * (1 - ratio)) + SHARE * turned / A)
                 self.assertAlmostEqual(held, cap, delta=most)
                 self.assertAlmostEqual(free, cap, delta=most)
         # Between "with the cap" and nothing: what physics-notes.md measures for a target at rest.
-        table = self.table("K8")
+        table = self.table("spin-exchange")
         at_rest = min(range(len(table["v_j/v_i [-]"])), key=lambda n: abs(table["v_j/v_i [-]"][n]))
         self.assertAlmostEqual(table["c_i with cap [-]"][at_rest], 0.113, delta=0.0015)
 
-    def test_k9_k10_k11_hang_together(self):
-        """What the slip says of the rest, exactly, whatever the contact's law: for spheres held on
-        the plane, to the integration's 1e-9 of the speed."""
-        for body in "ij":
-            slip = self.table("K8")[f"u^f_{body} reference held [cm/s]"]
-            time = self.table("K9")[f"t^s_{body} reference held [ms]"]
-            rolling = self.table("K10")[f"v^s_{body} reference held [cm/s]"]
-            energy = self.table("K11")[f"ΔE_{body} reference held [cm²/s²]"]
-            momentum = self.table("K11")[f"Δp_{body} reference held [cm/s]"]
-            for u, t, v, e, p in zip(slip, time, rolling, energy, momentum):
-                self.assertAlmostEqual(t, abs(u) / (100 * (1 + A) * MU_K * G) * 1e3, delta=1e-5)
-                self.assertAlmostEqual(p, u / (1 + A), delta=1e-7)
-                self.assertAlmostEqual(e, p * (2 * v + p), delta=1e-5)
-
-    def test_k9_returns_where_61_corrected_says(self):
-        # v_i/v_j = −[(1+2A)(1+e) − 2C]/[3 + 2A − 2C − e(1+2A)], C the exchanged share.
-        ratio = -(3 + 2 * A - 2 * SHARE - E_N * (1 + 2 * A)) / ((1 + 2 * A) * (1 + E_N) - 2 * SHARE)
-        table = list(self.rows("K9", "v_j/v_i [-]", "s_i exponential [mm]",
-                               "s_i reference held [mm]"))
-        closest = min(table, key=lambda row: abs(row[0] - ratio))
-        self.assertLess(abs(closest[0] - ratio), 0.025)  # half a step
-        for way in closest[1:]:
-            self.assertEqual(way, min(row[1 if way == closest[1] else 2] for row in table
-                                      if row[0] < 0.5))
-
-    def test_k10_effective_restitution(self):
+    def test_rolling_restitution_effective_restitution(self):
         expected = (A * E_N - 1) / (1 + A)
         for ratio, closed, pressed, free in self.rows(
-                "K10", "v_j/v_i [-]", "e_eff closed form [-]",
+                "rolling-restitution", "v_j/v_i [-]", "e_eff closed form [-]",
                 "e_eff with friction on the pressed sphere [-]", "e_eff reference free [-]"):
             self.assertAlmostEqual(closed, expected, delta=1e-11)
             if ratio <= 0.5:
                 # Second order of the friction, a tenth of the first, and t_col/t^s.
                 slide = (1 + E_N) * V_I / 100 * (1 - ratio) / (2 * (1 + A) * MU_K * G)
                 self.assertAlmostEqual(free, pressed,
-                                       delta=0.1 * (pressed - closed) + T_COL / slide)
+                                       delta=0.1 * (pressed - closed)
+                                       + t_col(V_I * (1 - ratio)) / slide)
 
-    def test_k12_gas(self):
+    def test_rolling_gas(self):
         isolated = (A * E_N - 1) / (1 + A)
-        points = list(self.rows("K12", "area fraction [-]", "l/s [-]", "e_eff [-]",
+        points = list(self.rows("rolling-gas", "area fraction [-]", "l/s [-]", "e_eff [-]",
                                 "e_eff standard error [-]", "e right after the collision [-]"))
         self.assertGreater(len(points), 15)
         for fraction, ratio, effective, error, after in points:
@@ -262,17 +450,45 @@ class Figures(unittest.TestCase):
             self.assertAlmostEqual(effective, e_mean + slope * (x - x_mean),
                                    delta=0.05 * (E_N - isolated) + 3 * error)
 
+    @staticmethod
+    def viscous_restitution(damping, compact):
+        """ẍ = −(x + Dẋ)^(3/2), B (25), until the force ends, or −√x (x + (3/2) Dẋ), (24), until the
+        overlap does; from x = 0, ẋ = 1."""
+        def rate(x, w):
+            if compact:
+                return w, -max(x + damping * w, 0.0)**1.5
+            return w, -math.sqrt(max(x, 0.0)) * (x + 1.5 * damping * w)
+
+        x, w, h = 0.0, 1.0, 4e-3
+        while True:
+            a = rate(x, w)
+            b = rate(x + h / 2 * a[0], w + h / 2 * a[1])
+            c = rate(x + h / 2 * b[0], w + h / 2 * b[1])
+            d = rate(x + h * c[0], w + h * c[1])
+            x += h / 6 * (a[0] + 2 * b[0] + 2 * c[0] + d[0])
+            w += h / 6 * (a[1] + 2 * b[1] + 2 * c[1] + d[1])
+            if w < 0 and (x + damping * w <= 0 if compact else x <= 0):
+                return -w
+
+    @staticmethod
+    def ice_damping(time, speed, pair=False):
+        """A/T of ice with R = 1 cm at v [cm/s], with L = v T and T⁻² = (ρ/m_eff) √L."""
+        radius = 0.01
+        mass = 1000 * 4 / 3 * math.pi * radius**3
+        stiffness = 2 * 1e10 * math.sqrt(radius) / (3 * (1 - 0.3**2)) / mass
+        if pair:
+            stiffness *= math.sqrt(2)  # √R_eff falls by √2, m_eff by 2
+        return time * (stiffness * math.sqrt(speed / 100))**0.4
+
     def test_b1_power_law_fit_and_series(self):
         speeds = self.table("B1")["v [cm/s]"]
         data = self.table("B1")["eps^N power law [-]"]
-        curve = self.table("B1")["eps^N reference even in v [-]"]
+        curve = self.table("B1")["eps^N (24) even in v [-]"]
         measured = [k for k, value in enumerate(data) if value is not None]
         self.assertAlmostEqual(speeds[measured[0]], 0.015, delta=1e-9)
         self.assertAlmostEqual(speeds[measured[-1]], 5, delta=1e-9)
         for k in measured:
             self.assertTrue(math.isclose(data[k], 0.32 * speeds[k]**-0.234, rel_tol=1e-9))
-            if speeds[k] >= 0.25:  # of 0.015 to 5 cm/s evenly spaced, 95 %
-                self.assertTrue(math.isclose(curve[k], data[k], rel_tol=0.05), speeds[k])
         # 1 − ε in proportion to v^(1/5) at small dissipation, to the second order x ~ 1e-2.
         slope = (math.log((1 - curve[1]) / (1 - curve[0])) / math.log(speeds[1] / speeds[0]))
         self.assertAlmostEqual(slope, 0.2, delta=0.2 * (1 - curve[1]))
@@ -281,56 +497,106 @@ class Figures(unittest.TestCase):
             if 1 - curve[k] < 0.1:
                 self.assertAlmostEqual(curve[k], second, delta=(1 - curve[k])**3)
 
-    def test_b1_curve_is_that_of_an_independent_integration(self):
-        caption = ElementTree.parse(self.path / "B1.svg").getroot().findtext(SVG + "desc")
-        time = float(re.search(r"even in v, A = ([0-9.e-]+) s", caption)[1])
-        # B (24) for R_eff = 20 cm against a wall, m_eff the sphere's mass; in L and T with
-        # L = v T, ẍ = −√x (x + (3/2) (A/T) ẋ), T⁻² = (ρ/m) √L.
-        stiffness = 2 * 1e10 * math.sqrt(0.2) / (3 * (1 - 0.3**2)) / (1000 * 4 / 3 * math.pi * 0.2**3)
-        for wanted in (0.05, 1.0, 5.0):
-            speeds = self.table("B1")["v [cm/s]"]
-            k = min(range(len(speeds)), key=lambda n: abs(math.log(speeds[n] / wanted)))
-            v = speeds[k] / 100
-            damping = 1.5 * time * (stiffness * math.sqrt(v))**0.4  # A/T, T = (κ √v)^(-2/5)
+    def test_b1_curves_are_those_of_an_independent_integration(self):
+        speeds = self.table("B1")["v [cm/s]"]
+        for law in ("(25)", "(24)"):
+            compact = law == "(25)"
+            time, pair_time = self.table("B1")[f"A of {law} wall, pair [s]"][:2]
+            curve = self.table("B1")[f"eps^N {law} even in v [-]"]
+            for wanted in (0.05, 1.0, 5.0):
+                k = min(range(len(speeds)), key=lambda n: abs(math.log(speeds[n] / wanted)))
+                found = self.viscous_restitution(self.ice_damping(time, speeds[k]), compact)
+                # One step of 4e-3 at the end, where the force is next to nothing.
+                self.assertAlmostEqual(curve[k], found, delta=1e-3)
+                again = self.viscous_restitution(self.ice_damping(pair_time, speeds[k], True), compact)
+                self.assertAlmostEqual(again, found, delta=1e-3)
 
-            def rate(x, w):
-                root = math.sqrt(max(x, 0.0))
-                return w, -root * (x + damping * w)
+            # No A nearby follows the measurement better, evenly over 0.015 to 5 cm/s.
+            def misses(factor):
+                sum_of_squares = 0
+                for n in range(41):
+                    v = 0.015 + (5 - 0.015) * n / 40
+                    damping = self.ice_damping(factor * time, v)
+                    sum_of_squares += (self.viscous_restitution(damping, compact)
+                                       - 0.32 * v**-0.234)**2
+                return sum_of_squares
 
-            x, w, h = 0.0, 1.0, 1e-3
-            while True:
-                a = rate(x, w)
-                b = rate(x + h / 2 * a[0], w + h / 2 * a[1])
-                c = rate(x + h / 2 * b[0], w + h / 2 * b[1])
-                d = rate(x + h * c[0], w + h * c[1])
-                x += h / 6 * (a[0] + 2 * b[0] + 2 * c[0] + d[0])
-                w += h / 6 * (a[1] + 2 * b[1] + 2 * c[1] + d[1])
-                if x <= 0:
-                    break
-            # A has three digits in the caption; ε changes by less than A's share of it.
-            self.assertAlmostEqual(self.table("B1")["eps^N reference even in v [-]"][k], -w,
-                                   delta=0.006)
+            self.assertLess(misses(1), min(misses(0.95), misses(1.05)))
 
-    def test_b2_slides_at_small_normal_and_reverses_at_small_tangential_speed(self):
+    def test_b1_statements(self):
+        # (25) loses a third at 0.015 cm/s: 1 − ε ∝ v^(1/5) cannot follow v^−0.234 there.
+        self.assertEqual(self.statement("B1", "largest deviation")["agrees"], "no")
+        self.assertEqual(self.statement("B1", "greatest rise")["agrees"], "yes")
+        # 2 ∫ dx/√(1 − x^(5/2)) from 0 to 1, (4/5) B(2/5, 1/2).
+        beta = math.gamma(0.4) * math.gamma(0.5) / math.gamma(0.9)
+        self.assert_stated("B1", "t_c", 0.8 * beta, 1e-6, "yes")
+
+    def test_b2_slides_at_small_normal_speed(self):
         table = self.table("B2")
         points = list(zip(table["g_N [cm/s]"], table["g_T [cm/s]"]))
-        for size in ("0.0002", "2e-05"):
-            printed = dict(zip(points, table[f"eps^T printed {size} R_eff [-]"]))
-            passive = dict(zip(points, table[f"eps^T passive {size} R_eff [-]"]))
-            sliding = dict(zip(points, table[f"eps^T sliding limit {size} R_eff [-]"]))
-            self.assertEqual(len(printed), len(points))
-            slow, fast = min(points)[0], max(points)[0]
-            # Hundreds of asperities break: half of μ F_N to 2 %.
-            friction = math.sqrt(float(size) * 0.5)
-            corner = (slow, fast)
-            lost = 0.5 * friction * 2 * 3.5 * slow / fast
-            self.assertTrue(0.8 * lost < 1 - sliding[corner] < lost)
-            self.assertAlmostEqual(printed[corner], sliding[corner], delta=0.02 * lost)
-            self.assertLess(printed[fast, slow], -0.5)
-            self.assertLess(passive[fast, slow], -0.2)
-            for point in points:
-                self.assertLessEqual(abs(passive[point]), 1 + 1e-6)
-        self.assertGreater(min(table["eps^T printed 0.0002 R_eff [-]"]), -1)
+        corner = min(points, key=lambda point: (point[0], -point[1]))  # slow g_N, fast g_T
+        for size, friction in (("1e-07 R_eff", math.sqrt(5e-4)),
+                               ("1e-07 R_eff in cm", math.sqrt(5e-8))):
+            seen = dict(zip(points, table[f"eps^T {size} [-]"]))
+            sliding = dict(zip(points, table[f"eps^T sliding limit {size} [-]"]))
+            # Hundreds of asperities break: half of μ F_N to 2 %; ε^N of slow ice is 0.5 to 1.
+            most = 0.5 * friction * 2 * 3.5 * corner[0] / corner[1]
+            self.assertTrue(0.7 * most < 1 - sliding[corner] < most)
+            self.assertAlmostEqual(seen[corner], sliding[corner], delta=0.02 * most)
+        for column in table:
+            if "passive" in column:
+                for value in table[column]:
+                    self.assertTrue(value is None or abs(value) <= 1 + 1e-6)
+
+    def test_b2_bend_that_does_not_break_is_that_of_an_independent_integration(self):
+        """B (25), (35), (37) written out in SI by small steps of the fourth order."""
+        table = self.table("B2")
+        time = self.table("B1")["A of (25) wall, pair [s]"][1]
+        mass = 1000 * 4 / 3 * math.pi * 0.01**3 / 2
+        modulus = 2 * 1e10 * math.sqrt(0.005) / (3 * (1 - 0.3**2))
+        points = list(zip(table["g_N [cm/s]"], table["g_T [cm/s]"]))
+        for relative in (2e-4, 1e-3):
+            size = relative * 0.005
+            friction = math.sqrt(size / 1e-6)
+
+            def rate(x, w, bend, slip):
+                normal = modulus * max(x + time * w, 0.0)**1.5
+                return (w, -normal / mass, slip,
+                        -friction * normal * bend / size / (2 / 7 * mass))
+
+            for wanted in ((2, 0.4), (4, 0.4), (10, 0.6)):
+                k = min(range(len(points)), key=lambda n: math.dist(points[n], wanted))
+                self.assertLess(math.dist(points[k], wanted), 1e-9)
+                state, h, deepest = (0.0, wanted[0] / 100, 0.0, wanted[1] / 100), 2e-8, 0
+                while state[1] > 0 or state[0] + time * state[1] > 0:
+                    a = rate(*state)
+                    b = rate(*(y + h / 2 * dy for y, dy in zip(state, a)))
+                    c = rate(*(y + h / 2 * dy for y, dy in zip(state, b)))
+                    d = rate(*(y + h * dy for y, dy in zip(state, c)))
+                    state = tuple(y + h / 6 * (p + 2 * q + 2 * r + t)
+                                  for y, p, q, r, t in zip(state, a, b, c, d))
+                    deepest = max(deepest, abs(state[2]))
+                self.assertLess(deepest, size)
+                self.assertAlmostEqual(table[f"eps^T {relative:g} R_eff [-]"][k],
+                                       state[3] / (wanted[1] / 100), delta=2e-4)
+                # Linear in g^T: the asperity breaks at ζ0. The program looks every 1.5 %.
+                breaks = {g_n: g_t for g_n, g_t in self.rows(
+                    "B2", "g_N of g_T_cr [cm/s]", f"g_T_cr {relative:g} R_eff [cm/s]")}
+                if wanted[0] in breaks:
+                    ratio = breaks[wanted[0]] / (wanted[1] * size / deepest)
+                    self.assertTrue(0.999 < ratio < 1.016, ratio)
+
+    def test_b2_statements(self):
+        for start, agrees in (("(a)-(c)", "yes"), ("(a): least ε^T, μ by cm", "yes"),
+                              ("(b): share", "yes"), ("(c): share", "yes"),
+                              ("(b): power", "yes"), ("(c): power", "yes"),
+                              ("(b), (c): least", "yes"), ("(c): least", "yes")):
+            self.assertEqual(self.statement("B2", start)["agrees"], agrees, start)
+        # μ = 0.022: sliding with half of it, at g^N/g^T = 50 half of 50 · 0.022 · 3.5 · (1 + ε^N)/2.
+        self.assertEqual(self.statement("B2", "(a): least ε^T, μ by µm")["agrees"], "no")
+        # Smooth: what sliding with half of μ = 2.2e-4 takes.
+        self.assert_stated("B2", "ε^T of the smoothest", 1 - 0.5 * math.sqrt(5e-8) * 1.5 * 3.5, 2e-3,
+                           "no")
 
     def test_l2_slides_or_sticks(self):
         # Rounding of the 50 mm coordinates turns the 1 mm line of centres by 1e-14, and more the
