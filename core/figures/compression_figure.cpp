@@ -113,7 +113,7 @@ PaperFigure figure_k5() {
   table.add("x_min reference e_n = 1 [-]", onset);
   table.add("x_min residual e_n = 1 [-]", onset_residual);
   table.add("t_min reference e_n = 1 [s]", onset_time);
-  Panel b{"(b) smallest compression that makes them slide, e_n = 1",
+  Panel b{"(b) compression at the onset of sliding, e_n = 1",
           {"v_{rel} [cm/s]", false, 0, 102},
           {"x_{min} [10^{−7} diameters]", false, 0}};
   b.curves = {{"(33) corrected", {Ink::black, Line::solid}, speeds, scaled(corrected, 1e7)},
