@@ -12,7 +12,7 @@ namespace {
 /// Keeps the last states before two bodies touch.
 class UntilTouch final : public FrameSink {
  public:
-  explicit UntilTouch(const Vector2& periodic) : periodic_(periodic) {}
+  explicit UntilTouch(const Scene& scene) : scene_(&scene) {}
 
   void take(double time, const Frame& frame) override {
     if (found) return;
@@ -24,7 +24,7 @@ class UntilTouch final : public FrameSink {
       meeting.time = time;
       meeting.a = before_[meeting.first];
       meeting.b = before_[meeting.second];
-      meeting.n = to_nearest_image(meeting.b.position - meeting.a.position).normalized();
+      meeting.n = scene_->to_nearest_image(meeting.b.position - meeting.a.position).normalized();
       found = meeting;
       return;
     }
@@ -34,13 +34,7 @@ class UntilTouch final : public FrameSink {
   std::optional<Meeting> found;
 
  private:
-  Vector3 to_nearest_image(Vector3 apart) const {
-    for (int k = 0; k < 2; ++k)
-      if (periodic_[k] > 0) apart[k] -= periodic_[k] * std::round(apart[k] / periodic_[k]);
-    return apart;
-  }
-
-  Vector2 periodic_;
+  const Scene* scene_;
   std::vector<BodyState> before_;
 };
 
@@ -50,7 +44,7 @@ std::optional<Meeting> first_meeting(const ContactScene& scene, double limit) {
   if (scene.hard.bodies.size() < 2 || scene.hard.box) return std::nullopt;
   if (!initial_contacts(scene, scene.hard.initial).empty()) return std::nullopt;
   const ContactScene hard = with_hard_contacts(scene.hard);
-  UntilTouch sink(scene.hard.periodic);
+  UntilTouch sink(scene.hard);
   const auto just_after = [](double time) {
     const double end = time * (1 + 1e-6) + 1e-12;
     return until_time(end);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -67,6 +68,13 @@ struct Scene {
 
   const SubstrateContact& on_substrate(std::size_t body) const { return substrate[material[body]]; }
   const PairContact& between(std::size_t i, std::size_t j) const { return pairs[place_of(i, j)]; }
+  /// The way from one place to the nearest image of another across the plane's edges, if `apart` is
+  /// that to the other itself [m].
+  Vector3 to_nearest_image(Vector3 apart) const {
+    for (int k = 0; k < 2; ++k)
+      if (periodic[k] > 0) apart[k] -= periodic[k] * std::round(apart[k] / periodic[k]);
+    return apart;
+  }
   /// Two bodies of these materials that touch exchange their impulse; states as seen from the
   /// substrate.
   CollisionResult collide(std::size_t i, std::size_t j, const CollisionRule& rule,

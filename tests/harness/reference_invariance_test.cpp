@@ -95,6 +95,25 @@ TEST(ReferenceInvariance, AStrangerDoesNotChangeAPair) {
   expect_agreement(alone, beside, 0);
 }
 
+TEST(ReferenceInvariance, BodiesMeetAcrossAnEdgeAsInsideIt) {
+  // The other one is a cell away, or two: its image is where it was.
+  Scene scene = test::head_on(0.15, -0.05, 0.9);
+  scene.initial[1].position.y() += 0.001;  // oblique: the line of centres counts
+  scene.periodic = {1, 0.5};
+  const ReferenceResult inside = test::run_hard(scene, rolling(10), kPair);
+  EXPECT_NEAR(value(inside, "i-j.restitution"), 0.9, 1e-12);
+  for (const Vector3& cells : {Vector3(1, 0, 0), Vector3(0, -0.5, 0), Vector3(-2, 1, 0)}) {
+    Scene across = scene;
+    across.initial[1].position += cells;
+    const ReferenceResult result = test::run_hard(across, rolling(10), kPair);
+    // ε of 2 m over a gap of millimetres.
+    expect_agreement(inside, result, 1e-11);
+    for (const char* name : {"i-j.restitution", "i-j.effective_restitution",
+                             "i.velocity_after_collision", "j.sliding_time"})
+      EXPECT_NEAR(value(result, name), value(inside, name), 1e-11) << name;
+  }
+}
+
 TEST(ReferenceInvariance, ALaterLimitCostsNothing) {
   Scene scene = test::steel_scene(1);
   scene.motion = SubstrateMotion::oscillation({0.01, 0}, 5, M_PI / 2);

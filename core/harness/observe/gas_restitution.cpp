@@ -56,11 +56,8 @@ void GasRestitution::start(double time, const Frame& frame, const Touch& touch) 
   collision.time = time;
   collision.first = i;
   collision.second = j;
-  Vector3 d = frame.bodies[i].position - frame.bodies[j].position;
-  for (int k = 0; k < 2; ++k)
-    if (scene_->periodic[k] > 0)
-      d[k] -= scene_->periodic[k] * std::round(d[k] / scene_->periodic[k]);
-  collision.n = d.normalized();
+  collision.n =
+      scene_->to_nearest_image(frame.bodies[i].position - frame.bodies[j].position).normalized();
   collision.before = collision.n.dot(before_.bodies[i].velocity - before_.bodies[j].velocity);
   collision.after = collision.n.dot(frame.bodies[i].velocity - frame.bodies[j].velocity);
   const auto left_alone = [&](std::size_t body) {

@@ -16,11 +16,15 @@ Vector3 contact_velocity(const Sphere& a, const BodyState& sa, const Sphere& b, 
          (a.radius * sa.angular_velocity + b.radius * sb.angular_velocity).cross(n);
 }
 
-double overlap(const Sphere& a, const BodyState& sa, const Sphere& b, const BodyState& sb) {
-  return a.radius + b.radius - (sa.position - sb.position).norm();
+}  // namespace
+
+Vector3 Observer::between(const BodyState& a, const BodyState& b) const {
+  return scene_->to_nearest_image(a.position - b.position);
 }
 
-}  // namespace
+double Observer::overlap(std::size_t i, std::size_t j, const std::vector<BodyState>& states) const {
+  return scene_->bodies[i].radius + scene_->bodies[j].radius - between(states[i], states[j]).norm();
+}
 
 std::size_t Observer::pair_of(int first, int second) {
   const std::uint64_t key = (std::uint64_t{index(first)} << 32) | index(second);
@@ -89,7 +93,7 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
   const std::size_t i = index(pair.first), j = index(pair.second);
   const BodyState &si = last_.bodies[i], &sj = last_.bodies[j];
   const Sphere &a = scene_->bodies[i], &b = scene_->bodies[j];
-  const Vector3 n = (si.position - sj.position).normalized();
+  const Vector3 n = between(si, sj).normalized();
   const double approach = -n.dot(si.velocity - sj.velocity);
 
   const double weakest = std::max(kOfPairsFastest * pair.fastest, kOfSceneSpeed * closing_scale_);
@@ -114,7 +118,7 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
   const Vector3 u = contact_velocity(a, si, b, sj, n);
   pair.tangential = u - n.dot(u) * n;
   pair.begin_time = t0;
-  pair.max_overlap = std::max(0.0, overlap(a, si, b, sj));
+  pair.max_overlap = std::max(0.0, overlap(i, j, last_.bodies));
   pair.slid_before = bodies_[i].sliding || bodies_[j].sliding;
   pair.sliding_onset = kNotObserved;
   for (std::size_t k : {i, j}) {
@@ -128,8 +132,7 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
 void Observer::resolve(Pair& pair, double t0, double t1, const Frame& frame) {
   const std::size_t i = index(pair.first), j = index(pair.second);
   pair.contact_time = t1 - pair.begin_time;
-  pair.max_overlap = std::max(pair.max_overlap, overlap(scene_->bodies[i], frame.bodies[i],
-                                                        scene_->bodies[j], frame.bodies[j]));
+  pair.max_overlap = std::max(pair.max_overlap, overlap(i, j, frame.bodies));
   if (pair.slid_before || !std::isnan(pair.sliding_onset)) return;
   for (std::size_t k : {i, j})
     if (touches_substrate(k, frame) && !slips(k, last_.bodies[k], ground0_) &&
@@ -149,7 +152,7 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
   const Vector3 tangential = pair.tangential;
   Vector3 direction = tangential;
   if (step_ == 0 && t1 > pair.begin_time) {
-    pair.n = (after_i.position - after_j.position).normalized();
+    pair.n = between(after_i, after_j).normalized();
     direction -= pair.n.dot(direction) * pair.n;
     if (direction.squaredNorm() > 0) direction *= tangential.norm() / direction.norm();
   }
