@@ -88,9 +88,12 @@ using NormalModel =
 struct NoTangential {};
 /// K (4), (6); also Haff-Werner, B (39). Exactly one of the first two is given.
 struct ViscousTangential {
+  enum class Caps { together, apart };
   std::optional<double> damping_rate;   ///< γ_S [1/s], >= 0
   std::optional<double> damping_ratio;  ///< γ_S/γ_N [-], >= 0
   double friction = 0;                  ///< ν_s [-], >= 0
+  /// Whether |F_T| is capped, or its parts in the plane and across it are, as K has it.
+  Caps caps = Caps::together;
 };
 /// B (35), (37). Exactly one of friction and roughness_factor, exactly one kind of size.
 struct AsperityTangential {

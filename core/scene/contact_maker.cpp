@@ -35,7 +35,9 @@ TangentialForce tangential(const ViscousTangential& model, const NormalForce& no
   const double damping = model.damping_rate
                              ? *model.damping_rate * pair.mass()
                              : *model.damping_ratio * std::get<LinearForce>(normal).damping;
-  return ViscousForce{damping, model.friction};
+  const bool apart = model.caps == ViscousTangential::Caps::apart;
+  return ViscousForce{damping, model.friction,
+                      apart ? ViscousForce::Caps::apart : ViscousForce::Caps::together};
 }
 TangentialForce tangential(const AsperityTangential& model, const NormalForce&,
                            const ClassPair& pair) {

@@ -97,14 +97,14 @@ TEST(Observables, WhatDidNotHappenIsNotWhatCouldNotBeComputed) {
   EXPECT_FALSE(is_not_observed(zero));
 }
 
-TEST(ReferenceRun, SaysWhenEventTakesSoftContactsAsHard) {
+TEST(ReferenceRun, SaysWhenEventTakesSoftContactsAsInstants) {
   const ContactScene scene = test::soft(test::head_on(0.15, -0.15, 0.9));
   const RunEnd end{Run::Until::rolling, 0, 10};
   const ReferenceResult result =
       run_reference(ReferenceSolver(scene, Compare::Reference::event), end, {"i", "j"});
   EXPECT_EQ(result.solver, "event");
   ASSERT_EQ(result.warnings.size(), 1u);
-  EXPECT_NE(result.warnings[0].find("soft contacts as hard"), std::string::npos);
+  EXPECT_NE(result.warnings[0].find("soft contacts as instants"), std::string::npos);
   EXPECT_NEAR(result.observables.at("i-j.effective_restitution").value, (2.5 * 0.9 - 1) / 3.5,
               1e-12);
 }

@@ -253,6 +253,34 @@ TEST(ContactSolver, SpinAboutTheVerticalShearsAnObliqueHit) {
   EXPECT_NEAR(states[1].angular_velocity.z(), turned, 1e-2 * std::abs(turned));
 }
 
+TEST(ContactSolver, K4K6CapsApartTakeSqrtTwoOfOne) {
+  // Both parts of the slip are far above what the contact can stop: F_S and F_R are ν_s F_N each,
+  // or that along the slip. ∫F_N dt = (1 + e) m̄ v, and a spin loses R/I of the impulse.
+  const double v = 0.1, nu = 1e-3, spin = 40;
+  Scene hard = test::free_pair(v / 2, -v / 2, 0.005);
+  hard.gravity = 0;
+  for (BodyState& state : hard.initial) {
+    state.position.z() += 1;
+    state.angular_velocity = Vector3(0, 2 * spin, spin);  // F_R, F_S
+  }
+  const Sphere& ball = hard.bodies[0];
+  const double e = std::get<double>(hard.pairs[0].restitution);
+  const double lost = nu * (1 + e) * 0.5 * ball.mass * v * ball.radius / ball.moment_of_inertia();
+  for (const auto caps : {ViscousForce::Caps::together, ViscousForce::Caps::apart}) {
+    const ContactScene scene = test::soft(hard, 2.55e-5, ContactEnd::zero_force,
+                                          ViscousForce{1e3 * ball.mass / 2.55e-5, nu, caps});
+    ContactSolver solver(scene, scene.hard.initial);
+    const SolvedRun run = solver.run(until_time(0.11), nullptr);
+    EXPECT_LT(std::abs(run.balance->error()), 1e-10);
+    const Vector3 change =
+        scene.hard.initial[0].angular_velocity - solver.states()[0].angular_velocity;
+    const bool apart = caps == ViscousForce::Caps::apart;
+    // The line of centres turns by v t_col/2R of what the impulses do to it: below 1e-5.
+    EXPECT_NEAR(change.y() / lost, apart ? 1 : 2 / std::sqrt(5), 1e-4);
+    EXPECT_NEAR(change.z() / lost, apart ? 1 : 1 / std::sqrt(5), 1e-4);
+  }
+}
+
 TEST(ContactSolver, BallsThatComeToRestAgainstEachOtherEndTheRun) {
   // The struck ball brakes harder than the striker, which leans on it until both rest.
   Scene hard = test::head_on(0.05, 0, 0.05);

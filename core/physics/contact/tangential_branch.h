@@ -15,16 +15,18 @@ namespace slipcheck {
 
 /// On which piece of its law a tangential force is.
 struct TangentialBranch {
-  double force_sign = 1;  ///< of F_N: viscous, and passive asperity
-  bool capped = false;    ///< viscous: at Coulomb's cap
-  bool growing = true;    ///< passive asperity: F_N grows
-  double broken = 0;      ///< printed asperity: ⌊|ζ|/ζ0⌋
+  double force_sign = 1;   ///< of F_N: viscous, and passive asperity
+  bool capped = false;     ///< viscous: at Coulomb's cap; where caps are apart, in the plane
+  bool capped_up = false;  ///< where they are apart: across the plane
+  bool growing = true;     ///< passive asperity: F_N grows
+  double broken = 0;       ///< printed asperity: ⌊|ζ|/ζ0⌋
 };
 
 /// What may end a piece.
 enum class TangentialEdge {
   force_sign,     ///< F_N changes its sign
   cap,            ///< the viscous force reaches Coulomb's cap, or falls below it
+  cap_up,         ///< the same of its part across the plane, where caps are apart
   break_forward,  ///< the asperity breaks
   break_back,     ///< the printed saw-tooth is passed backwards
   growth,         ///< F_N stops to grow, or grows again
@@ -88,6 +90,49 @@ V tangential_force(const TangentialForce& law, const TangentialBranch& branch, d
       law);
 }
 
+// --- caps apart, for solvers in space
+// -------------------------------------------------------------
+
+inline bool caps_apart(const TangentialForce& law) {
+  const auto* viscous = std::get_if<ViscousForce>(&law);
+  return viscous && viscous->caps == ViscousForce::Caps::apart;
+}
+
+/// Of the tangent plane of a contact along n: in the substrate's plane, and across it.
+struct TangentAxes {
+  Vector3 along, up;
+
+  explicit TangentAxes(const Vector3& n) {
+    const Vector3 across(-n.y(), n.x(), 0);  // k̂×n
+    const double size = across.norm();
+    along = size > 0 ? Vector3(across / size) : Vector3(Vector3::UnitX());
+    up = n.cross(along);
+  }
+};
+
+/// F_T [N] of any law, at the contact along n.
+inline Vector3 tangential_force(const TangentialForce& law, const TangentialBranch& branch,
+                                double normal, const Vector3& slip, const Vector3& bend,
+                                const Vector3& n) {
+  if (!caps_apart(law)) return tangential_force(law, branch, normal, slip, bend);
+  const auto& viscous = std::get<ViscousForce>(law);
+  const TangentAxes axes(n);
+  TangentialBranch up = branch;
+  up.capped = branch.capped_up;
+  return tangential_force(viscous, branch, normal, slip.dot(axes.along), 0.0) * axes.along +
+         tangential_force(viscous, up, normal, slip.dot(axes.up), 0.0) * axes.up;
+}
+
+/// How much of the slip decides at an edge [m/s].
+inline double slip_at(TangentialEdge edge, const TangentialForce& law, const Vector3& slip,
+                      const Vector3& n) {
+  if (!caps_apart(law)) return slip.norm();
+  const TangentAxes axes(n);
+  return std::abs(slip.dot(edge == TangentialEdge::cap_up ? axes.up : axes.along));
+}
+
+// --- memory --------------------------------------------------------------------------------------
+
 /// Whether the contact remembers anything.
 inline bool has_memory(const TangentialForce& law) {
   return std::holds_alternative<AsperityForce>(law) ||
@@ -129,6 +174,15 @@ inline void follow(const TangentialForce& law, double normal, double slip,
     branch.capped = viscous->viscous(slip) > viscous->cap(normal);
 }
 
+inline void follow(const TangentialForce& law, double normal, const Vector3& slip, const Vector3& n,
+                   TangentialBranch& branch) {
+  follow(law, normal, slip_at(TangentialEdge::cap, law, slip, n), branch);
+  if (!caps_apart(law)) return;
+  const auto& viscous = std::get<ViscousForce>(law);
+  branch.capped_up =
+      viscous.viscous(slip_at(TangentialEdge::cap_up, law, slip, n)) > viscous.cap(normal);
+}
+
 /// Calls watch(edge, direction) for each edge of this piece; 1 where its edge_value() rises through
 /// zero, −1 where it falls, 0 for either.
 template <class Watch>
@@ -138,6 +192,7 @@ void for_each_edge(const TangentialForce& law, const TangentialBranch& branch, C
   if (std::holds_alternative<ViscousForce>(law)) {
     if (attracts) watch(TangentialEdge::force_sign, 0);
     watch(TangentialEdge::cap, 0);
+    if (caps_apart(law)) watch(TangentialEdge::cap_up, 0);
   } else if (const auto* asperity = std::get_if<AsperityForce>(&law)) {
     const bool passive = asperity->form == AsperityForce::Form::passive;
     const bool acts = !passive || branch.force_sign > 0;
@@ -158,7 +213,8 @@ inline double edge_value(TangentialEdge edge, const TangentialForce& law,
       return normal;
     case TangentialEdge::growth:
       return growth;
-    case TangentialEdge::cap: {
+    case TangentialEdge::cap:
+    case TangentialEdge::cap_up: {
       const auto& viscous = std::get<ViscousForce>(law);
       return viscous.viscous(slip) - viscous.cap(normal);
     }
@@ -188,6 +244,9 @@ void cross(TangentialEdge edge, bool rises, const TangentialForce& law, double n
       break;
     case TangentialEdge::cap:
       branch.capped = rises;
+      break;
+    case TangentialEdge::cap_up:
+      branch.capped_up = rises;
       break;
     case TangentialEdge::break_forward:
       if (std::get<AsperityForce>(law).form == AsperityForce::Form::printed)

@@ -16,9 +16,15 @@ struct NoTangentialForce {};
 
 /// K (4), (6) and Haff-Werner, B (39) with its sign mended: F_T = −min(c |u|, ν_s |F_N|) û,
 /// c = γ_S m̄.
+///
+/// caps together: the vector F_T is capped, whichever way it points, as friction is that knows no
+/// directions. apart: K's F_S in the plane and F_R across it have ν_s |F_N| each, and their sum up
+/// to √2 of it.
 struct ViscousForce {
+  enum class Caps { together, apart };
   double damping = 0;   ///< c = γ_S m̄ [N s/m], >= 0
   double friction = 0;  ///< ν_s [-], >= 0
+  Caps caps = Caps::together;
 
   /// |F_T| [N] at the slip speed |u| [m/s] below Coulomb's cap.
   double viscous(double slip) const { return damping * slip; }

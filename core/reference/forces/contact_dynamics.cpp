@@ -81,8 +81,8 @@ void ContactDynamics::add_contact(const ContactMode& contact, const Vector3& sub
     return;
   }
   const Vector3 zeta = vector_at(slot + 1);
-  forces.tangential =
-      tangential_force(contact.law->tangential, contact.branch, forces.normal, forces.slip, zeta);
+  forces.tangential = tangential_force(contact.law->tangential, contact.branch, forces.normal,
+                                       forces.slip, zeta, n);
   out.dissipation +=
       (forces.normal - elastic) * forces.closing - forces.tangential.dot(forces.slip);
   const Vector3 force = forces.normal * n + forces.tangential;

@@ -132,7 +132,7 @@ void ContactState::begin_contact(std::size_t i, std::size_t j, double overlap) {
   evaluate();
   ContactMode& made = dynamics_.contacts.back();
   const auto& forces = evaluation_.contacts.back();
-  follow(law->tangential, forces.normal, forces.slip.norm(), made.branch);
+  follow(law->tangential, forces.normal, forces.slip, forces.n, made.branch);
   const Vector3 bend = first_bend(law->tangential, forces.closing, forces.slip);
   for (int k = 0; k < 3; ++k)
     y[dynamics_.slot_at(made.slot) + 1 + static_cast<std::size_t>(k)] = bend[k];
@@ -177,10 +177,16 @@ bool ContactState::reach_caps() {
   for (std::size_t c = 0; c < dynamics_.contacts.size(); ++c) {
     ContactMode& contact = dynamics_.contacts[c];
     const auto* viscous = std::get_if<ViscousForce>(&contact.law->tangential);
-    if (!viscous || contact.clamped || contact.branch.capped) continue;
+    if (!viscous || contact.clamped) continue;
     const auto& forces = evaluation_.contacts[c];
-    if (viscous->viscous(forces.slip.norm()) <= kBeyond * viscous->cap(forces.normal)) continue;
-    contact.branch.capped = reached = true;
+    const auto reach = [&](TangentialEdge edge, bool& capped) {
+      const double slip = slip_at(edge, contact.law->tangential, forces.slip, forces.n);
+      if (capped || viscous->viscous(slip) <= kBeyond * viscous->cap(forces.normal)) return;
+      capped = reached = true;
+    };
+    reach(TangentialEdge::cap, contact.branch.capped);
+    if (caps_apart(contact.law->tangential))
+      reach(TangentialEdge::cap_up, contact.branch.capped_up);
   }
   return reached;
 }

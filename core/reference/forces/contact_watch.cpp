@@ -163,8 +163,9 @@ void ContactWatch::values(const ContactState& state, double t, const double* y,
         const double growth =
             item.edge == TangentialEdge::growth ? dynamics.growth(contact, forces, y) : 0;
         const double bend = Vector3(slot()[1], slot()[2], slot()[3]).norm();
-        value[k] = edge_value(item.edge, contact.law->tangential, contact.branch, forces.normal,
-                              growth, forces.slip.norm(), bend);
+        value[k] =
+            edge_value(item.edge, contact.law->tangential, contact.branch, forces.normal, growth,
+                       slip_at(item.edge, contact.law->tangential, forces.slip, forces.n), bend);
         break;
       }
     }

@@ -15,7 +15,7 @@ namespace {
 /// Part of the time in which a body goes by its own radius.
 constexpr double kShortest = 1e-9;
 /// What the weight changes of the approach meanwhile: it only keeps on the plane what lies there.
-constexpr double kWeight = 1e-12;
+constexpr double kWeight = 1e-9;
 /// A contact that lasts so many of its own times stays.
 constexpr double kLongest = 1e3;
 

@@ -120,6 +120,9 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
         throw Unsupported(
             "steps of fixed length know no tangential model hard; compare.reference may be "
             "contact");
+      if (caps_apart(contact->tangential))
+        throw Unsupported(
+            "steps of fixed length know no caps apart; compare.reference may be contact");
       mixed |= some && (some->normal.index() != contact->normal.index() ||
                         tangential_of(*some).index() != tangential_of(*contact).index());
       some = &*contact;

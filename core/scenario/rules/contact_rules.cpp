@@ -151,6 +151,10 @@ Rule<TangentialModel> tangential_rule() {
       .key("damping_ratio", &ViscousTangential::damping_ratio, number(kPureNumber, kNotNegative),
            optional, "γ_S over the normal γ_N")
       .key("friction", &ViscousTangential::friction, friction, required, kFrictionDoc)
+      .key("caps", &ViscousTangential::caps,
+           choice<ViscousTangential::Caps>({{"together", ViscousTangential::Caps::together},
+                                            {"apart", ViscousTangential::Caps::apart}}),
+           optional, "Coulomb's on the force, or as in K (4), (6) on its part in the plane and up")
       .exactly_one_of({"damping_rate", "damping_ratio"});
 
   using Form = AsperityTangential::Form;
