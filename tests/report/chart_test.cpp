@@ -25,7 +25,7 @@ Panel one_curve(std::vector<double> x, std::vector<double> y) {
 
 /// The first block of a chart's data.
 std::string first_block(const Chart& chart) {
-  const std::string data = gnuplot_script(chart).data;
+  const std::string data = gnuplot_script(chart).data + "\n";
   return data.substr(0, data.find("\n\n"));
 }
 

@@ -152,9 +152,16 @@ class Finisher : public pugi::xml_tree_walker {
     return true;
   }
   void take_away() {
-    // What is inside first.
-    for (auto node = spare_.rbegin(); node != spare_.rend(); ++node)
-      node->parent().remove_child(*node);
+    // What is inside first, and groups that are then empty.
+    for (auto node = spare_.rbegin(); node != spare_.rend(); ++node) {
+      pugi::xml_node parent = node->parent();
+      parent.remove_child(*node);
+      while (std::string_view(parent.name()) == "g" && !parent.first_child()) {
+        const pugi::xml_node empty = parent;
+        parent = parent.parent();
+        parent.remove_child(empty);
+      }
+    }
   }
 
  private:

@@ -1,5 +1,6 @@
 #include "report/html/page_chart.h"
 
+#include <algorithm>
 #include <array>
 
 #include "base/text.h"
@@ -46,8 +47,9 @@ Json list_of(const Values& values, const ToJson& to_json) {
   return list;
 }
 
-Json numbers_of(const std::vector<double>& values) {
-  if (values.size() > kLongCurve) return page_channel(values);
+/// Points are told exactly, long lines as channels.
+Json numbers_of(const std::vector<double>& values, const Look& look) {
+  if (values.size() > kLongCurve && look.marker == Marker::none) return page_channel(values);
   return list_of(values, [](double value) { return page_number(value); });
 }
 
@@ -66,8 +68,8 @@ Json curve_of(const Curve& curve) {
                {"look", page_look(curve.look)},
                {"halo", curve.look.halo},
                {"edge", curve.at_edge},
-               {"x", numbers_of(curve.x)},
-               {"y", numbers_of(curve.y)}};
+               {"x", numbers_of(curve.x, curve.look)},
+               {"y", numbers_of(curve.y, curve.look)}};
   if (!curve.notes.empty()) json["notes"] = list_of(curve.notes, note_of);
   return json;
 }

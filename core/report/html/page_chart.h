@@ -8,7 +8,7 @@
 namespace slipcheck {
 
 /// A chart for the page's script, without formulas; numbers are rounded to six digits, and long
-/// curves are channels (page_channel.h). Colours of quantities are left out: cells tell them.
+/// lines are channels (page_channel.h). Colours of quantities are left out: cells tell them.
 nlohmann::json page_chart(const Chart& chart);
 nlohmann::json page_charts(const std::vector<Chart>& charts);
 
