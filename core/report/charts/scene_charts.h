@@ -26,6 +26,9 @@ std::vector<Chart> phase_charts(const SceneRecord& scene, ChartExtent extent,
 /// the phase in the middle, of at most four bodies; none where no motion was recorded.
 std::optional<Chart> motion_chart(const SceneRecord& scene, std::set<std::string>& taken);
 
+/// Whether a motion has frames, and all bodies in each: what was read may not.
+bool fits_scene(const Scene& scene, const RecordedMotion& motion);
+
 /// "series-<scene>": what a box showed at each sample, with the mean and its 95 % interval.
 std::optional<Chart> series_chart(const SceneRecord& scene, std::set<std::string>& taken);
 

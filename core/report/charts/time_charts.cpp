@@ -147,16 +147,24 @@ Panel strip_of(const SceneRecord& scene, const char* observable, const std::stri
 
 }  // namespace
 
+bool fits_scene(const Scene& scene, const RecordedMotion& motion) {
+  return !motion.frames.empty() && std::ranges::all_of(motion.frames, [&](const auto& frame) {
+    return frame.bodies.size() == scene.bodies.size();
+  });
+}
+
 std::optional<Chart> motion_chart(const SceneRecord& scene, std::set<std::string>& taken) {
-  const std::vector<DrawnMotion> motions = drawn_motions(scene);
-  if (motions.empty() || !scene.scene) return std::nullopt;
+  if (!scene.scene) return std::nullopt;
   const Scene& hard = scene.scene->hard;
+  std::vector<DrawnMotion> motions = drawn_motions(scene);
+  std::erase_if(motions,
+                [&](const DrawnMotion& drawn) { return !fits_scene(hard, *drawn.motion); });
+  if (motions.empty()) return std::nullopt;
   std::vector<Seen> slip, speed, energy;
   double end = 0;
   for (const DrawnMotion& drawn : motions) {
     const MotionQuantities seen = motion_quantities(hard, *drawn.motion);
     const std::size_t frames = drawn.motion->frames.size();
-    if (frames == 0) continue;
     end = std::max(end, drawn.motion->frames.back().time);
     for (std::size_t body = 0; body < std::min(hard.bodies.size(), kMostBodies); ++body) {
       std::vector<double> slips, speeds;

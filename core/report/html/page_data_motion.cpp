@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "harness/observe/motion_quantities.h"
+#include "report/charts/scene_charts.h"
 #include "report/html/page_channel.h"
 #include "report/html/page_data_parts.h"
 #include "report/terminal/text.h"
@@ -153,12 +154,6 @@ Json run_motion(const Scene& scene, const RecordedMotion& recorded, int run,
           {"touches", std::move(touches)}};
 }
 
-bool fits(const Scene& scene, const RecordedMotion& motion) {
-  return !motion.frames.empty() && std::ranges::all_of(motion.frames, [&](const auto& frame) {
-    return frame.bodies.size() == scene.bodies.size();
-  });
-}
-
 }  // namespace
 
 MotionDetail motion_detail(const std::vector<SceneRecord>& scenes) {
@@ -186,11 +181,11 @@ Json motion_page_data(const SceneRecord& scene, const MotionDetail& detail) {
     return nullptr;
   const Scene& hard = scene.scene->hard;
   Json runs = Json::array();
-  if (scene.reference.motion && fits(hard, *scene.reference.motion))
+  if (scene.reference.motion && fits_scene(hard, *scene.reference.motion))
     runs.push_back(run_motion(hard, *scene.reference.motion, -1, {}));
   for (std::size_t k = 0; k < scene.runs.size(); ++k)
     for (const RecordedMotion& motion : scene.runs[k].motions)
-      if (is_shown(motion, detail) && fits(hard, motion))
+      if (is_shown(motion, detail) && fits_scene(hard, motion))
         runs.push_back(run_motion(hard, motion, static_cast<int>(k), detail));
   if (runs.empty()) return nullptr;
 
