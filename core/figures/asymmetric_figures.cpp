@@ -20,14 +20,14 @@ constexpr double kWeak = 0.2, kStrong = 1;
 constexpr double kPrintedShare = 0.13;  // C as the captions have it
 
 /// A quantity of sphere i over the plane of v_m and v_p.
-struct Quantity {
+struct SlideQuantity {
   std::string name, unit;  ///< "t^s", "s"
   double unit_in_si;
   double AsymmetricSlide::*of;
   bool size = false;  ///< its size is drawn
 };
 
-double drawn(const Quantity& quantity, const AsymmetricSlide& slide) {
+double drawn(const SlideQuantity& quantity, const AsymmetricSlide& slide) {
   const double value = slide.*quantity.of / quantity.unit_in_si;
   return quantity.size ? std::abs(value) : value;
 }
@@ -48,7 +48,7 @@ Curve zero_line(const std::string& what) {
 
 /// (a) the closed form over the plane; (b) over v_m for a few v_p, and the integrated points.
 PaperFigure asymmetric_figure(const std::string& name, const std::string& title,
-                              const Quantity& quantity) {
+                              const SlideQuantity& quantity) {
   PaperFigure figure;
   figure.name = name;
   figure.title = title;

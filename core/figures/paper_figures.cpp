@@ -46,8 +46,8 @@ const char* const kPaperFiguresIntroduction =
     "Brilliantov et al., Phys. Rev. E 53, 5382 (1996), L is S. Luding, Phys. Rev. E 52, 4442 "
     "(1995). A figure named after a paper's has its quantities and its parameters; ranges are the "
     "project's where the text does not give them. What has a name in words is the project's own. "
-    "Beneath each stands what the paper says of it, beside what the run gives: a claim agrees "
-    "where the measured value, with its error, lies within what the paper's digits or words allow. "
-    "Nothing is tuned; where a claim fails, the remark says why.";
+    "stated.csv and figures.md hold what the papers say of each against what the run gives: a "
+    "claim agrees where the measured value, with its error, lies within what the paper's digits or "
+    "words allow. Nothing is tuned; where a claim fails, the remark says why.";
 
 }  // namespace slipcheck

@@ -199,7 +199,7 @@ class Observer final : public FrameSink {
   double vertical_noise() const;
   std::size_t pair_of(int first, int second);  ///< an index of pairs_
   /// From b's nearest image to a.
-  Vector3 between(const BodyState& a, const BodyState& b) const;
+  Vector3 apart(const BodyState& a, const BodyState& b) const;
   double overlap(std::size_t i, std::size_t j, const std::vector<BodyState>& states) const;
 
   const Scene* scene_;

@@ -18,12 +18,12 @@ Vector3 contact_velocity(const Sphere& a, const BodyState& sa, const Sphere& b, 
 
 }  // namespace
 
-Vector3 Observer::between(const BodyState& a, const BodyState& b) const {
+Vector3 Observer::apart(const BodyState& a, const BodyState& b) const {
   return scene_->to_nearest_image(a.position - b.position);
 }
 
 double Observer::overlap(std::size_t i, std::size_t j, const std::vector<BodyState>& states) const {
-  return scene_->bodies[i].radius + scene_->bodies[j].radius - between(states[i], states[j]).norm();
+  return scene_->bodies[i].radius + scene_->bodies[j].radius - apart(states[i], states[j]).norm();
 }
 
 std::size_t Observer::pair_of(int first, int second) {
@@ -93,7 +93,7 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
   const std::size_t i = index(pair.first), j = index(pair.second);
   const BodyState &si = last_.bodies[i], &sj = last_.bodies[j];
   const Sphere &a = scene_->bodies[i], &b = scene_->bodies[j];
-  const Vector3 n = between(si, sj).normalized();
+  const Vector3 n = apart(si, sj).normalized();
   const double approach = -n.dot(si.velocity - sj.velocity);
 
   const double weakest = std::max(kOfPairsFastest * pair.fastest, kOfSceneSpeed * closing_scale_);
@@ -152,7 +152,7 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
   const Vector3 tangential = pair.tangential;
   Vector3 direction = tangential;
   if (step_ == 0 && t1 > pair.begin_time) {
-    pair.n = between(after_i, after_j).normalized();
+    pair.n = apart(after_i, after_j).normalized();
     direction -= pair.n.dot(direction) * pair.n;
     if (direction.squaredNorm() > 0) direction *= tangential.norm() / direction.norm();
   }

@@ -16,10 +16,10 @@ namespace slipcheck {
 /// On which piece of its law a tangential force is.
 struct TangentialBranch {
   double force_sign = 1;   ///< of F_N: viscous, and passive asperity
-  bool capped = false;     ///< viscous: at Coulomb's cap; where caps are apart, in the plane
-  bool capped_up = false;  ///< where they are apart: across the plane
+  bool capped = false;     ///< viscous: at Coulomb's cap; with caps apart: in the plane
   bool growing = true;     ///< passive asperity: F_N grows
   double broken = 0;       ///< printed asperity: ⌊|ζ|/ζ0⌋
+  bool capped_up = false;  ///< viscous with caps apart: across the plane
 };
 
 /// What may end a piece.
