@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 struct FiguresArguments {
   std::string directory;
   std::vector<std::string> only;
+  bool full = false;
   bool quiet = false;
 };
 
@@ -64,7 +65,7 @@ int draw(const FiguresArguments& arguments) {
       bar.set(figures.size(), makers.size());
       PaperFigure figure;
       try {
-        figure = maker.make();
+        figure = maker.make(arguments.full ? Effort::full : Effort::brief);
       } catch (const Interrupted&) {
         break;
       }
@@ -85,7 +86,8 @@ int draw(const FiguresArguments& arguments) {
                         figures_markdown(figures, kPaperFiguresIntroduction));
   const fs::path index = directory / "index.html";
   write_file_atomically(index, figure_page(page, drawn, kPaperFiguresIntroduction,
-                                           "slipcheck figures " + arguments.directory));
+                                           "slipcheck figures " + arguments.directory +
+                                               (arguments.full ? " --full" : "")));
   if (!arguments.quiet) fmt::print("{}\n", index.string());
   return kWithinTolerance;
 }
@@ -103,6 +105,9 @@ void add_figures_command(CLI::App& app, int& exit_code) {
                    fmt::format("Only these, of {}; index.html is then left alone",
                                fmt::join(known_names(), ", ")))
       ->delimiter(',');
+  command->add_flag(
+      "--full", arguments->full,
+      "Long runs of the vibrated boxes: more points, errors a third as large, minutes");
   command->add_flag("-q,--quiet", arguments->quiet, "No progress; the exit code tells");
   command->footer(
       "Examples:\n"

@@ -54,6 +54,7 @@ ContactScene softened(const Scene& hard, double collision_time, double slowing) 
 Scene few_spheres(double friction) {
   VibratedBox box;
   box.count = 6;
+  box.spread = 0;
   box.width = 8;
   box.speed = 0.3;
   box.set_contacts(kConvergenceRestitution, friction, 0);
@@ -100,6 +101,7 @@ TrajectoriesApart trajectories_apart(double friction, const std::vector<double>&
 VibratedBox dilute_box() {
   VibratedBox box;
   box.count = 20;
+  box.spread = 0;
   box.set_contacts(kConvergenceRestitution, kConvergenceFriction, 0);
   return box;
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "figures/effort.h"
 #include "figures/statement.h"
 #include "report/charts/chart.h"
 #include "report/files/csv.h"
@@ -16,7 +17,7 @@ struct PaperFigure : Chart {
   Table table;        ///< every number that is drawn, and the residuals
 };
 
-// One for each figure; K are Kondic's, B those of Brilliantov et al., L Luding's.
+// One for each figure; K are Kondic's, B those of Brilliantov et al.
 PaperFigure figure_k5();   ///< compression in a symmetric collision over its speed
 PaperFigure figure_k6();   ///< sliding time and distance over the speed
 PaperFigure figure_k7();   ///< losses over e_n
@@ -26,15 +27,24 @@ PaperFigure figure_k10();  ///< energy lost while sliding
 PaperFigure figure_k11();  ///< momentum lost while sliding
 PaperFigure figure_b1();   ///< normal restitution of ice
 PaperFigure figure_b2();   ///< tangential restitution of rough ice
-PaperFigure figure_l2();   ///< tangential velocity after a collision over that before
-PaperFigure figure_l7();   ///< energies of translation and rotation over the friction
-PaperFigure figure_l8();   ///< over β0
-PaperFigure figure_l9();   ///< over the shape factor
-PaperFigure figure_l10();  ///< height over the floor's speed, elastic smooth walls
-PaperFigure figure_l11();  ///< dissipative smooth walls
-PaperFigure figure_l12();  ///< rough moving walls
-PaperFigure figure_l13();  ///< over the floor's speed and the number of spheres
-PaperFigure figure_lb();   ///< event driven against contacts that last, App. B
+
+// Luding's; those of many spheres cost what one likes.
+PaperFigure figure_l2();                ///< tangential restitution of one collision
+PaperFigure figure_l3();                ///< a sphere hits a wall, for some μ
+PaperFigure figure_l4();                ///< for some β0
+PaperFigure figure_l5();                ///< two spheres meet, for some μ
+PaperFigure figure_l6();                ///< for some e
+PaperFigure figure_l7(Effort effort);   ///< a vibrated box over the friction
+PaperFigure figure_l8(Effort effort);   ///< over β0
+PaperFigure figure_l9(Effort effort);   ///< over the shape factor
+PaperFigure figure_l10(Effort effort);  ///< over the floor's speed, for some numbers of spheres
+PaperFigure figure_l11(Effort effort);  ///< for some walls
+PaperFigure figure_l12(Effort effort);  ///< for rough walls that move
+PaperFigure figure_l13(Effort effort);  ///< beside an experiment
+
+// This project's own, about the same boxes.
+PaperFigure figure_box_energy_ratio(Effort effort);  ///< K/R beside molecular chaos
+PaperFigure figure_soft_box_convergence();           ///< event driven against contacts that last
 
 // The project's own, on K's spheres.
 PaperFigure figure_collision_course();     ///< one symmetric collision over time

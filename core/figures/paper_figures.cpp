@@ -1,11 +1,9 @@
 #include "figures/paper_figures.h"
 
-#include <array>
-
 namespace slipcheck {
 
 std::span<const PaperFigureMaker> paper_figures() {
-  static constexpr std::array<PaperFigureMaker, 23> kFigures = {{
+  static constexpr PaperFigureMaker kFigures[] = {
       {"K5", figure_k5},
       {"K6", figure_k6},
       {"K7", figure_k7},
@@ -21,6 +19,10 @@ std::span<const PaperFigureMaker> paper_figures() {
       {"B1", figure_b1},
       {"B2", figure_b2},
       {"L2", figure_l2},
+      {"L3", figure_l3},
+      {"L4", figure_l4},
+      {"L5", figure_l5},
+      {"L6", figure_l6},
       {"L7", figure_l7},
       {"L8", figure_l8},
       {"L9", figure_l9},
@@ -28,8 +30,9 @@ std::span<const PaperFigureMaker> paper_figures() {
       {"L11", figure_l11},
       {"L12", figure_l12},
       {"L13", figure_l13},
-      {"LB", figure_lb},
-  }};
+      {"box-energy-ratio", figure_box_energy_ratio},
+      {"soft-box-convergence", figure_soft_box_convergence},
+  };
   return kFigures;
 }
 

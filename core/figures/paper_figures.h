@@ -7,9 +7,21 @@
 
 namespace slipcheck {
 
-struct PaperFigureMaker {
+class PaperFigureMaker {
+ public:
+  constexpr PaperFigureMaker(std::string_view of, PaperFigure (*figure)())
+      : name(of), figure_(figure) {}
+  /// One whose cost is a choice.
+  constexpr PaperFigureMaker(std::string_view of, PaperFigure (*figure)(Effort))
+      : name(of), long_figure_(figure) {}
+
+  PaperFigure make(Effort effort) const { return figure_ ? figure_() : long_figure_(effort); }
+
   std::string_view name;
-  PaperFigure (*make)();
+
+ private:
+  PaperFigure (*figure_)() = nullptr;
+  PaperFigure (*long_figure_)(Effort) = nullptr;
 };
 
 /// All figures in the papers' order.

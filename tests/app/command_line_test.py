@@ -470,13 +470,22 @@ class CommandLine(unittest.TestCase):
         self.assertIn("install gnuplot", result.stderr)
         self.assertEqual([file.name for file in folder.iterdir()], ["K7.csv"])
 
+    def test_figures_of_single_collisions_are_no_longer_in_full(self):
+        texts = []
+        for name, options in (("brief", []), ("full", ["--full"])):
+            folder = self.path / name / "figures"
+            self.assertEqual(run("figures", folder, "--only", "L3", *options).returncode, 0)
+            texts.append((folder / "L3.csv").read_bytes())
+        self.assertEqual(texts[0], texts[1])
+
     def test_figures_refuses_names_that_no_figure_has(self):
         folder = self.path / "figures"
         result = run("figures", folder, "--only", "K7,K4")
         self.assertEqual(result.returncode, 2)
         self.assertEqual(result.stderr, "slipcheck: --only: must be of K5, K6, K7, K8, K9, K10, K11, "
                          "collision-course, slide-course, spin-exchange, rolling-restitution, "
-                         "rolling-gas, B1, B2, L2, L7, L8, L9, L10, L11, L12, L13, LB, got K4\n")
+                         "rolling-gas, B1, B2, L2, L3, L4, L5, L6, L7, L8, L9, L10, L11, L12, L13, "
+                         "box-energy-ratio, soft-box-convergence, got K4\n")
         self.assertFalse(folder.exists())
         folder.write_text("a file")
         result = run("figures", folder, "--only", "K7")

@@ -17,7 +17,8 @@ from random import Random
 SLIPCHECK = sys.argv[1]
 NAMES = ["K5", "K6", "K7", "K8", "K9", "K10", "K11", "collision-course", "slide-course",
          "spin-exchange", "rolling-restitution", "rolling-gas", "B1", "B2",
-         "L2", "L7", "L8", "L9", "L10", "L11", "L12", "L13", "LB"]
+         "L2", "L3", "L4", "L5", "L6", "L7", "L8", "L9", "L10", "L11", "L12", "L13",
+         "box-energy-ratio", "soft-box-convergence"]
 SVG = "{http://www.w3.org/2000/svg}"
 
 # Kondic's spheres, in SI: A = m R²/I, friction, gravity, restitution, radius, duration of the
@@ -612,93 +613,222 @@ class Figures(unittest.TestCase):
         self.assert_stated("B2", "ε^T of the smoothest", 1 - 0.5 * math.sqrt(5e-8) * 1.5 * 3.5, 2e-3,
                            "no")
 
+    def stated(self, figure):
+        """What the paper says of a figure, by claim; None for what is not finite."""
+        with open(self.path / "stated.csv", newline="", encoding="utf-8") as file:
+            rows = [row for row in csv.DictReader(file) if row["figure"] == figure]
+        for row in rows:
+            for key in ("low", "high", "measured", "error"):
+                row[key] = float(row[key]) if row[key] else None
+        self.assertEqual(len({row["claim"] for row in rows}), len(rows))
+        return {row["claim"]: row for row in rows}
+
+    def test_l_statements_agree_but_where_the_paper_contradicts_itself_or_the_run(self):
+        # Figs. 4 and 5: digits that contradict the paper's own formula. Fig. 7: the factor 2 is of
+        # both V in the text, where an independent program has 3.2 ± 0.1 at 1.57 m/s; what it says
+        # of 40 Hz, K/R as with the others and K/H above 2g, no run shows.
+        no = {
+            "L4": {"how many of the 24 slide"},
+            "L5": {"−tan γ0 with μ = 0.5"},
+            "L7": {"H at μ = 0 over that at μ = 20, V = 1.57 m/s, f = 100 Hz [-]",
+                   "K/R over (15), mean over the runs with V = 0.314 m/s, f = 40 Hz [-]",
+                   "largest K/R over smallest at one μ, for all V and f [-]",
+                   "largest K/H over 2g, V = 0.314 m/s, f = 40 Hz [-]"}}
+        for number in range(2, 14):
+            rows = self.stated(f"L{number}")
+            self.assertGreater(len(rows), 0)
+            self.assertEqual({claim for claim, row in rows.items() if row["agrees"] == "no"},
+                             no.get(f"L{number}", set()))
+
     def test_l2_slides_or_sticks(self):
         # Rounding of the 50 mm coordinates turns the 1 mm line of centres by 1e-14, and more the
         # more grazing the spheres meet.
         for mu, beta in ((0.1, 0.4), (0.25, 0.4), (0.25, 0)):
             of = f"mu = {mu:g}, beta0 = {beta:g}"
-            for before, after in self.rows("L2", "Psi_1 [-]", f"Psi_2 event driven {of} [-]"):
+            for before, angle, after, restitution in self.rows(
+                    "L2", "Psi_1 [-]", "gamma [rad]", f"Psi_2 event driven {of} [-]",
+                    f"beta event driven {of} [-]"):
                 sliding = before - 3.5 * 1.9 * mu
                 self.assertAlmostEqual(after, max(sliding, -beta * before), delta=1e-11)
+                if before > 0:
+                    self.assertAlmostEqual(math.tan(angle), -before, delta=1e-9)
+                    coulomb = -1 - 3.5 * mu * 1.9 / math.tan(angle)
+                    self.assertAlmostEqual(restitution, min(beta, coulomb), delta=1e-9)
 
-    def energies(self, name, column, value):
-        """(15) and, with all pairs sticking, molecular chaos for one row of L7 to L9."""
-        mu, beta, q = 0.5, 0.0, 0.4
-        if column == "mu [-]":
-            mu = value
-        elif column == "beta0 [-]":
-            beta = value
-        else:
-            q = value
-        return (2 / q + 1 / mu) / (1 + beta), 2 / q * (1 + 2 * q - beta) / (1 + beta)
+    def test_l3_l4_wall(self):
+        # Of a solid sphere, R = 0.5 mm, per mass: P_n = (1+e) v_n; sticking wants
+        # P_t = (1+β0) v_t/(1 + 1/q), which Coulomb caps; ω = P_t/(q R).
+        radius, q, v_n = 0.5e-3, 0.4, 0.5
+        for name, sets in (("L3", [(f"mu = {mu:g}", mu, 0.5) for mu in (0.2, 0.5, 10000)]),
+                           ("L4", [(f"beta0 = {beta:g}", 0.5, beta) for beta in (-0.5, 0, 0.5)])):
+            for of, mu, beta in sets:
+                for v_t, psi, slip, spin in self.rows(
+                        name, "v_t [m/s]", "Psi_1 [-]", f"Psi_2 {of} [-]", f"omega {of} [rad/s]"):
+                    impulse = min((1 + beta) * v_t / (1 + 1 / q), mu * 1.9 * v_n)
+                    self.assertAlmostEqual(psi, v_t / v_n, delta=1e-12)
+                    self.assertAlmostEqual(spin, impulse / (q * radius), delta=1e-8)
+                    after = (v_t - impulse - radius * spin) / v_n
+                    self.assertAlmostEqual(slip, after, delta=1e-9)
+        self.assertAlmostEqual(max(self.table("L3")["omega mu = 0.2 [rad/s]"]), 950, delta=1e-8)
+        for claim, printed in (("−0.5", 6.65), ("0", 3.325), ("0.5", 2.2167)):
+            row = self.stated("L4")[f"−tan γ0 with β0 = {claim.replace('−', '-')}"]
+            self.assertAlmostEqual(row["measured"], printed, delta=5e-5)
 
-    def test_l7_l8_l9_ratio_of_energies(self):
-        for name, column in (("L7", "mu [-]"), ("L8", "beta0 [-]"), ("L9", "q [-]")):
-            for value, smooth, error, rough, by_15, chaos, sticking in self.rows(
-                    name, column, "K/R smooth walls [-]",
-                    "standard error of K/R smooth walls [-]", "K/R rough walls [-]",
-                    "K/R (15) [-]", "K/R molecular chaos [-]",
-                    "K/R molecular chaos, all stick [-]"):
-                printed, limit = self.energies(name, column, value)
-                self.assertAlmostEqual(by_15, printed, delta=1e-9 * printed)
-                self.assertAlmostEqual(sticking, limit, delta=1e-9 * limit)
-                # Slip at β0 = 0 only lengthens the way to equal energies: with sticking it is
-                # shortest, to the quadrature's 1e-3.
-                if column != "beta0 [-]":
-                    self.assertGreater(chaos, limit * 0.999)
-                # Correlations and unequal temperatures of both directions, which the mean field
-                # leaves out, are of the order 1 − e = 0.1.
-                self.assertAlmostEqual(smooth, chaos, delta=0.1 * chaos + 3 * error)
-                # The paper finds (15) low by 1.3 ± 0.2; over these wider ranges 0.92 to 1.62.
-                self.assertTrue(0.85 < smooth / by_15 < 1.75, (name, value))
-                self.assertTrue(0.85 < rough / by_15 < 1.75, (name, value))
+    def test_l5_l6_pairs(self):
+        # As above with the reduced mass ½: each sphere gets P_t, and both spins count.
+        radius, q = 0.5e-3, 0.4
+        for name, sets in (("L5", [(f"mu = {mu:g}", 0.9, mu) for mu in (0, 0.2, 0.5)]),
+                           ("L6", [(f"e = {e:g}", e, 0.2) for e in (0.2, 0.6, 0.99)])):
+            for of, e, mu in sets:
+                for offset, psi, slip, spin, away in self.rows(
+                        name, "b_0/d [-]", "Psi_1 [-]", f"Psi_2 {of} [-]", f"omega {of} [rad/s]",
+                        f"speed of separation {of} [m/s]"):
+                    u_n, u_t = math.sqrt(1 - offset**2), offset
+                    impulse = min(0.5 * 1.5 * u_t / (1 + 1 / q), mu * 0.5 * (1 + e) * u_n)
+                    self.assertAlmostEqual(psi, u_t / u_n, delta=1e-11)
+                    self.assertAlmostEqual(spin, impulse / (q * radius), delta=1e-8)
+                    after = (u_t - 2 * impulse - 2 * radius * spin) / u_n
+                    self.assertAlmostEqual(slip, after, delta=1e-9)
+                    self.assertAlmostEqual(away, e * u_n, delta=1e-11)
+        self.assertAlmostEqual(self.stated("L5")["−tan γ0 with μ = 0.5"]["measured"], 2.2167,
+                               delta=5e-5)
+
+    def test_l7_l8_l9_energies(self):
+        for name, column, law in (
+                ("L7", "mu [-]", lambda mu: (5 + 1 / mu) / 1.5 if mu > 0 else None),
+                ("L8", "beta0 [-]", lambda beta: 10 / (1 + beta) if beta > -1 else None),
+                ("L9", "q [-]", lambda q: 2 / q + 4)):
+            for value, by_15 in self.rows(name, column, "K/R (15) [-]"):
+                expected = law(value)
+                if expected is None:
+                    self.assertIsNone(by_15)
+                else:
+                    self.assertAlmostEqual(by_15, expected, delta=1e-9 * expected)
+            for title, values in self.table(name).items():
+                if title.startswith("K/R V"):
+                    for by_15, ratio, error in self.rows(name, "K/R (15) [-]", title,
+                                                         f"standard error of {title}"):
+                        if by_15 is None:
+                            self.assertIsNone(ratio)
+                        else:  # the paper: low by 1.3 ± 0.2 in the mean; single ones 0.9 to 2
+                            self.assertTrue(0.85 < (ratio + 3 * error) / by_15, (title, by_15))
+                            self.assertTrue((ratio - 3 * error) / by_15 < 2.2, (title, by_15))
+                if title.startswith("H V"):
+                    self.assertTrue(all(value > 0 for value in values))
+
+    def test_l7_is_that_of_an_independent_program(self):
+        """A program written apart from this one, of 50 spheres with the same parameters, gave
+        139.7 ± 4.9 mm without friction and 43.9 ± 1.1 mm with μ = 20, V = 1.57 m/s."""
+        rows = {mu: (height, error) for mu, height, error in self.rows(
+            "L7", "mu [-]", "H V = 1.57 f = 100 [mm]", "standard error of H V = 1.57 f = 100 [mm]")}
+        for mu, height, error in ((0, 139.7, 4.9), (20, 43.9, 1.1)):
+            self.assertAlmostEqual(rows[mu][0], height, delta=4 * math.hypot(error, rows[mu][1]))
+
+    def test_box_energy_ratio(self):
+        for mu, beta, q, smooth, error, rough, by_15, chaos, sticking in self.rows(
+                "box-energy-ratio", "mu [-]", "beta0 [-]", "q [-]", "K/R smooth walls [-]",
+                "standard error of K/R smooth walls [-]", "K/R rough walls [-]", "K/R (15) [-]",
+                "K/R molecular chaos [-]", "K/R molecular chaos, all stick [-]"):
+            printed = (2 / q + 1 / mu) / (1 + beta)
+            limit = 2 / q * (1 + 2 * q - beta) / (1 + beta)
+            self.assertAlmostEqual(by_15, printed, delta=1e-9 * printed)
+            self.assertAlmostEqual(sticking, limit, delta=1e-9 * limit)
+            # Slip at β0 = 0 only lengthens the way to equal energies: with sticking it is
+            # shortest, to the quadrature's 1e-3.
+            if beta == 0:
+                self.assertGreater(chaos, limit * 0.999)
+            # Correlations and unequal temperatures of both directions, which the mean field
+            # leaves out, are of the order 1 − e = 0.1.
+            self.assertAlmostEqual(smooth, chaos, delta=0.1 * chaos + 3 * error)
+            # The paper finds (15) low by 1.3 ± 0.2; over these wider ranges 0.92 to 1.62.
+            self.assertTrue(0.85 < smooth / by_15 < 1.75, (mu, beta, q))
+            self.assertTrue(0.85 < rough / by_15 < 1.75, (mu, beta, q))
 
     def test_molecular_chaos_keeps_the_spins(self):
         """Two spheres with Maxwellian velocities and spins at the K/R of the table, in proportion
         to their approach: L (5)-(12) written out for both leaves the sum of their spins' squares
         where it is, to four standard errors of the sampling."""
         random = Random(1995)
-        e, q = 0.9, 0.4
-        for mu, ratio in self.rows("L7", "mu [-]", "K/R molecular chaos [-]"):
+        e = 0.9
+        for mu, beta, q, ratio in self.rows("box-energy-ratio", "mu [-]", "beta0 [-]", "q [-]",
+                                            "K/R molecular chaos [-]"):
             spin = math.sqrt(2 / (q * ratio))  # R ω, where each component of v has deviation 1
             gains, weights = [], []
-            for _ in range(20000):
+            for _ in range(10000):
                 approach = random.gauss(0, 1) - random.gauss(0, 1)
                 first, second = random.gauss(0, spin), random.gauss(0, spin)
                 slip = random.gauss(0, 1) - random.gauss(0, 1) - first - second
                 normal = 0.5 * (1 + e) * abs(approach)
-                most = 0.5 * q / (1 + q) * abs(slip)
+                most = 0.5 * q / (1 + q) * (1 + beta) * abs(slip)
                 impulse = -math.copysign(min(most, mu * normal), slip)  # per mass
                 turn = -impulse / q
                 gains.append((first + turn)**2 + (second + turn)**2 - first**2 - second**2)
                 weights.append(abs(approach))
             total = sum(w * g for w, g in zip(weights, gains))
             error = math.sqrt(sum((w * g)**2 for w, g in zip(weights, gains)))
-            self.assertLess(abs(total), 4 * error, mu)
+            self.assertLess(abs(total), 4 * error, (mu, beta, q))
+
+    @staticmethod
+    def slope(x, y):
+        """Of ln y over ln x by least squares, with its error from the scatter."""
+        x, y = [math.log(v) for v in x], [math.log(v) for v in y]
+        x_mean, y_mean = sum(x) / len(x), sum(y) / len(y)
+        squares = sum((a - x_mean)**2 for a in x)
+        slope = sum((a - x_mean) * (b - y_mean) for a, b in zip(x, y)) / squares
+        rest = sum((b - y_mean - slope * (a - x_mean))**2 for a, b in zip(x, y))
+        return slope, math.sqrt(rest / (len(x) - 2) / squares)
 
     def test_l10_l11_l12_exponents(self):
-        for name, column, expected in (
-                ("L10", "delta from 1 m/s [-]", 2),
-                ("L11", "delta from 1 m/s floor and walls 0.9 [-]", 1.5),
-                ("L11", "delta from 1 m/s walls 0.9 floor 1 [-]", 1.5),
-                ("L12", "delta from 1 m/s [-]", 1.33),
-                ("L12", "delta from 0.3 m/s [-]", 1.33)):
-            self.assertAlmostEqual(self.table(name)[column][0], expected, delta=0.1)
-        # The exponent in the table is the slope: the ends give it to their errors and the bend.
-        speed, height = (self.table("L10")[column] for column in ("V [m/s]", "H [mm]"))
-        fast = speed.index(min(speed, key=lambda v: abs(v - 1)))
-        slope = math.log(height[-1] / height[fast]) / math.log(speed[-1] / speed[fast])
-        self.assertAlmostEqual(slope, self.table("L10")["delta from 1 m/s [-]"][0], delta=0.1)
+        """Least squares of ln H, all alike, as L's: those of the table are found again, and are
+        the paper's to the 0.10 by which its own δ of one kind scatter."""
+        for name, curve, least, most, column, printed in (
+                ("L10", "(1) mu = 0 N = 50", 1, 10, "delta from 1 m/s", 2),
+                ("L10", "(2) mu = 0.2 N = 50", 1, 10, "delta from 1 m/s", 2),
+                ("L10", "(3) mu = 0.2 N = 150", 1, 10, "delta from 1 m/s", 2),
+                ("L10", "(4) mu = 0.2 N = 250", 1, 10, "delta from 1 m/s", 2),
+                ("L11", "(1) e_w = 1 mu_w = 0", 1, 10, "delta from 1 m/s", 2),
+                ("L11", "(1) e_w = 1 mu_w = 0", 0.12, 1, "delta to 1 m/s", 1.5),
+                ("L11", "(2) e_w = 0.9 mu_w = 0", 0.12, 10, "delta", 1.5),
+                ("L12", "(1) moving mu_w = 0.2", 0.12, 10, "delta", 1.33),
+                ("L12", "(2) moving mu_w = 0.5", 0.12, 10, "delta", 1.33)):
+            table = self.table(name)
+            points = [(v, h) for v, h in zip(table["V [m/s]"], table[f"H {curve} [mm]"])
+                      if 0.999 * least < v < 1.001 * most]
+            slope, error = self.slope(*zip(*points))
+            self.assertAlmostEqual(table[f"{column} {curve} [-]"][0], slope, delta=1e-9)
+            self.assertAlmostEqual(table[f"standard error of {column} {curve} [-]"][0], error,
+                                   delta=1e-9)
+            self.assertAlmostEqual(slope, printed, delta=0.1 + error, msg=f"{name} {curve}")
+        table = self.table("L12")
+        self.assertAlmostEqual(table["delta of both [-]"][0], 1.33,
+                               delta=0.005 + 2 * table["standard error of delta of both [-]"][0])
+        # Curve (1) of L11 is (2) of L10, and (3) of L12 that of L11: the same boxes.
+        self.assertEqual(self.table("L11")["H (1) e_w = 1 mu_w = 0 [mm]"],
+                         self.table("L10")["H (2) mu = 0.2 N = 50 [mm]"])
+        self.assertEqual(table["H (3) at rest mu_w = 0.2 [mm]"],
+                         self.table("L11")["H (3) e_w = 0.9 mu_w = 0.2 [mm]"])
 
     def test_l13_both_tables_of_exponents(self):
-        for count, delta, papers in self.rows("L13", "N [-]", "delta [-]", "delta of the paper [-]"):
-            self.assertAlmostEqual(papers, {27: 1.72, 40: 1.66, 60: 1.57, 90: 1.45}[count])
-            self.assertAlmostEqual(delta, papers, delta=0.1, msg=count)
-        for nu, papers in self.rows("L13", "nu [-]", "nu of the paper [-]"):
-            self.assertAlmostEqual(nu, papers, delta=0.1)
+        table = self.table("L13")
+        self.assertEqual(table["delta of L [-]"], [1.72, 1.66, 1.57, 1.45])
+        self.assertEqual(table["nu of L [-]"], [0.60, 0.71, 0.81, 0.91])
+        self.assertEqual(table["delta of the experiment [-]"], [1.239, 1.310, 1.326, 1.022])
+        self.assertEqual(table["nu of the experiment [-]"], [0.140, 0.172, 0.396, 0.350])
+        for speed, amplitude in zip(table["V [m/s]"], table["A0 [mm]"]):
+            self.assertAlmostEqual(speed, 2 * math.pi * 50 * amplitude * 1e-3, delta=1e-9)
+        heights = [table[f"H at A0 = {a:g} mm [mm]"] for a in table["A0 [mm]"]]  # by A0, N
+        for n, (delta, printed) in enumerate(zip(table["delta [-]"], table["delta of L [-]"])):
+            slope, error = self.slope(table["V [m/s]"], [column[n] for column in heights])
+            self.assertAlmostEqual(delta, slope, delta=1e-9)
+            self.assertAlmostEqual(table["standard error of delta [-]"][n], error, delta=1e-9)
+            self.assertAlmostEqual(delta, printed, delta=0.10 + error)  # the paper's 1.60 ± 0.10
+        for k, (nu, printed) in enumerate(zip(table["nu [-]"], table["nu of L [-]"])):
+            slope, error = self.slope([1 / n for n in table["N [-]"]], heights[k])
+            self.assertAlmostEqual(nu, slope, delta=1e-9)
+            self.assertAlmostEqual(nu, printed, delta=0.11 + error)  # 0.76 ± 0.11
 
-    def test_lb_contacts_come_near_collisions(self):
-        table = self.table("LB")
+    def test_contacts_come_near_collisions(self):
+        table = self.table("soft-box-convergence")
         # The next order is Δv beside speeds of 0.35 m/s: 1 to 2 % over the first decade.
         times = table["t_col of trajectories [s]"]
         for column, values in table.items():
@@ -708,7 +838,7 @@ class Figures(unittest.TestCase):
         # Means of chaotic runs: 4 standard errors of their difference.
         for name, unit in (("H", "mm"), ("K", "µJ"), ("R", "nJ")):
             for time, *seen in self.rows(
-                    "LB", "t_col of averages [s]", f"{name} contact [{unit}]",
+                    "soft-box-convergence", "t_col of averages [s]", f"{name} contact [{unit}]",
                     f"standard error of {name} contact [{unit}]", f"{name} event driven [{unit}]",
                     f"standard error of {name} event driven [{unit}]"):
                 if time is None:
