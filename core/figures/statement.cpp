@@ -21,6 +21,17 @@ std::string measured_text(const Statement& statement) {
   return text;
 }
 
+constexpr const char* kHowTheyAreMade = R"(```sh
+slipcheck figures results/figures                  # under a minute on two cores; writes this file too, figures.md
+slipcheck figures results/figures --only K7,B1     # some of them
+slipcheck figures results/figures --full           # L's boxes run twelve times as long: minutes
+```
+
+Each figure is an image `NAME.svg`, which gnuplot draws, and its numbers `NAME.csv` (a header with units, a row a point,
+nothing where a number does not exist); `index.html` shows all of them with their captions, and `stated.csv` has what the
+papers say of them. Columns named `residual` are the reference less the closed form.
+)";
+
 TextTable table_of(std::span<const Statement> statements) {
   TextTable table{{{"stated"}, {"paper", true}, {"measured", true}, {"agrees"}, {"remark"}}};
   for (const Statement& each : statements)
@@ -59,7 +70,9 @@ std::string stated_csv(std::span<const PaperFigure> figures) {
 
 std::string figures_markdown(std::span<const PaperFigure> figures,
                              const std::string& introduction) {
-  std::string text = "# The papers' figures\n\n" + introduction + "\n";
+  std::string text = "# The papers' figures\n\n";
+  text += kHowTheyAreMade;
+  text += "\n" + introduction + "\n";
   for (const PaperFigure& figure : figures) {
     text += fmt::format("\n## {}: {}\n\n{}\n", figure.name,
                         markdown_escaped(plain_plot_text(figure.title)),

@@ -37,7 +37,8 @@ struct PaperFigure;
 /// RFC 4180: figure, claim, stated, low, high, measured, error, agrees (yes or no), remark.
 std::string stated_csv(std::span<const PaperFigure> figures);
 
-/// All figures for a reader of Markdown: title, caption, notes, and the table of their statements.
+/// All figures for a reader of Markdown: how they are made, what a page with them says first, and
+/// of each title, caption, notes, and the table of its statements.
 std::string figures_markdown(std::span<const PaperFigure> figures, const std::string& introduction);
 
 }  // namespace slipcheck
