@@ -19,8 +19,8 @@ struct SolverAccuracy {
   double step = 1;           ///< factor on the step of `steps`
   /// Factor on the collision time of hard contacts that last, and of soft ones taken as instants.
   double softness = 1;
-  bool reversed = false;     ///< bodies in reverse order: so are collisions at one instant
-  bool other_rule = false;   ///< for collapse, where it has a contact time
+  bool reversed = false;    ///< bodies in reverse order: so are collisions at one instant
+  bool other_rule = false;  ///< for collapse, where it has a contact time
 };
 
 /// The solver that is the truth for a scene, chosen once.

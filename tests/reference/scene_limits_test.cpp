@@ -110,16 +110,14 @@ TEST_P(StiffeningCollision, DifferenceHalvesWithTheCollisionTime) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scene, StiffeningCollision,
-                         testing::Values("clamp-on-damping", "clamped-contact",
-                                         "collision-on-shaker", "collision-on-slope",
-                                         "friction-in-collision", "jump-resolved",
-                                         "oblique-resolved", "onset-of-sliding",
-                                         "rolling-two-kinds", "rubber-collision", "rubbing-capped",
-                                         "rubbing-uncapped", "shell-against-solid",
-                                         "spin-before-central-hit", "spin-before-oblique-hit",
-                                         "symmetric-steel", "unlike-masses", "unlike-radii",
-                                         "zero-sliding-distance-rubbed"));
+INSTANTIATE_TEST_SUITE_P(
+    Scene, StiffeningCollision,
+    testing::Values("clamp-on-damping", "clamped-contact", "collision-on-shaker",
+                    "collision-on-slope", "friction-in-collision", "jump-resolved",
+                    "oblique-resolved", "onset-of-sliding", "rolling-two-kinds", "rubber-collision",
+                    "rubbing-capped", "rubbing-uncapped", "shell-against-solid",
+                    "spin-before-central-hit", "spin-before-oblique-hit", "symmetric-steel",
+                    "unlike-masses", "unlike-radii", "zero-sliding-distance-rubbed"));
 
 TEST(SceneLimit, BelowSlidingTakesAStiffContactToSlide) {
   // At 0.02 cm/s and 2.55e-5 s no sphere slides, with hard contacts both do: v_rel must be far

@@ -109,8 +109,8 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
 /// large.
 std::vector<double> uncertainty_of(const std::vector<double>& values, const ReferenceSolver& solver,
                                    SolvedRuns& runs) {
-  // An error of first order is as large as the difference to twice the step or the contact; scattered
-  // ones were found up to 2.6 times as large.
+  // An error of first order is as large as the difference to twice the step or the contact;
+  // scattered ones were found up to 2.6 times as large.
   const bool is_of_first_order =
       solver.is_stepped() || solver.softened_to() > 0 || solver.hardens();
   const double safety = is_of_first_order ? 3 : 1;
@@ -190,7 +190,8 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
                     solver.softened_to()));
   if (solver.hardens())
     result.warnings.emplace_back(
-        "event takes soft contacts as instants, in the limit of stiff ones with the same law; contact "
+        "event takes soft contacts as instants, in the limit of stiff ones with the same law; "
+        "contact "
         "resolves them as they are");
   for (const std::string& warning : solver.scene().warnings) result.warnings.push_back(warning);
   if (!result.run.reached) result.warnings.push_back("the run did not end: " + result.run.reason);
