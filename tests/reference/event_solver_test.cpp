@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "../scenes.h"
 #include "../support/runge_kutta.h"
 #include "physics/closed_forms.h"
 #include "physics/numbers.h"
+#include "scene/ode.h"
 
 namespace slipcheck {
 namespace {
@@ -264,6 +266,23 @@ TEST(EventSolver, AZeroFeatureChangesNoBit) {
     EXPECT_EQ(a.states()[i].velocity, b.states()[i].velocity);
     EXPECT_EQ(a.states()[i].angular_velocity, b.states()[i].angular_velocity);
   }
+}
+
+/// One whose integration gives up.
+struct FailingLaw final : CollisionLaw {
+  CollisionResult collide(const CollisionRule&, CollidingBody, CollidingBody) const override {
+    throw IntegrationFailure("too much work");
+  }
+};
+
+TEST(EventSolver, ACollisionThatCannotBeIntegratedEndsTheRunWithItsReason) {
+  Scene scene = test::head_on(0.15, -0.15, 0.9);
+  scene.laws.assign(scene.pairs.size(), std::make_shared<FailingLaw>());
+  EventSolver solver(scene, scene.initial);
+  const SolvedRun run = solver.run({Run::Until::rolling, 0, 10}, nullptr);
+  EXPECT_TRUE(run.failed);
+  EXPECT_FALSE(run.reached);
+  EXPECT_EQ(run.reason, "too much work");
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "reference/events/scan_queue.h"
 #include "reference/events/substrate_world.h"
 #include "reference/lasting_contacts.h"
+#include "scene/ode.h"
 
 namespace slipcheck {
 namespace {
@@ -242,7 +243,17 @@ bool EventSolver::can_solve(const Scene& scene) {
   });
 }
 
-SolvedRun EventSolver::run(const RunEnd& end, FrameSink* sink) { return engine_->run(end, sink); }
+SolvedRun EventSolver::run(const RunEnd& end, FrameSink* sink) {
+  try {
+    return engine_->run(end, sink);
+  } catch (const IntegrationFailure& failure) {  // of a collision that is integrated
+    SolvedRun failed;
+    failed.end_time = now();
+    failed.failed = true;
+    failed.reason = failure.what();
+    return failed;
+  }
+}
 double EventSolver::first_contact(double limit) { return engine_->first_contact(limit); }
 double EventSolver::next_collision(double limit, double slowest) {
   return engine_->next_collision(limit, slowest);

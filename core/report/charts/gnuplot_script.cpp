@@ -7,7 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "base/text.h"
+#include "report/charts/gnuplot_parts.h"
 #include "report/charts/heat_colours.h"
 #include "report/charts/plot_text.h"
 
@@ -15,136 +15,12 @@ namespace slipcheck {
 namespace {
 
 // All in px at an image width of 760.
-constexpr double kWidth = 760, kFont = 12;
-constexpr double kLeft = 70, kRight = 14, kTop = 12, kTitle = 22;  // around a panel's frame
-constexpr double kBottom = 28, kAxisLabel = 22, kColourBar = 66;
 constexpr double kSample = 34, kLegendLine = 20;  // of the legend
-constexpr double kSlant = 0.87;                   // sine of the angle of names on top, 60°
 constexpr double kTitleShare = 1.25;              // of the frame, for titles and labels
-constexpr std::size_t kLongestName = 44;          // columns
 constexpr double kLeastCell = 9;                  // that has room for a letter
 
 constexpr const char* kFrame = "#5c5c5c";
 constexpr const char* kTint = "fillcolor rgb '#009e73' fillstyle transparent solid 0.18 noborder";
-
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "NaN"; }
-
-const char* dash_of(Line line) {
-  switch (line) {
-    case Line::dashed:
-      return "(7,4)";
-    case Line::dotted:
-      return "(1.5,3.5)";
-    case Line::dash_dot:
-      return "(9,3,2,3)";
-    case Line::none:
-    case Line::solid:
-      break;
-  }
-  return "1";
-}
-
-const char* point_of(Marker marker) {
-  switch (marker) {
-    case Marker::square:
-      return "pt 5 ps 0.5";
-    case Marker::triangle:
-      return "pt 9 ps 0.6";
-    case Marker::diamond:
-      return "pt 13 ps 0.6";
-    case Marker::ring:
-      return "pt 6 ps 1.2 lw 1.5";
-    case Marker::circle:
-    case Marker::none:
-      break;
-  }
-  return "pt 7 ps 0.5";
-}
-
-std::string shown_name(const std::string& name) {
-  return plot_literal(shortened(plain_plot_text(name), kLongestName));
-}
-
-double text_width(std::string_view text) { return kFont * plot_text_width(text); }
-
-/// A title or a label, cut where it would leave its room [px].
-std::string fitted(const std::string& text, double room) {
-  const double size = 13.0 / kFont;  // these are larger
-  if (size * text_width(text) <= room) return text;
-  return plot_literal(
-      shortened(plain_plot_text(text), static_cast<std::size_t>(room / (size * text_width("x")))));
-}
-
-double widest_of(const std::vector<std::string>& names) {
-  double widest = 0;
-  for (const std::string& name : names) widest = std::max(widest, text_width(shown_name(name)));
-  return widest;
-}
-
-/// Where something lies in the image [px], from its left upper corner.
-struct Place {
-  double left, top, width, height;
-};
-
-/// What a panel takes beside its frame.
-struct Margins {
-  double left = kLeft, right = kRight, top = kTop, bottom = kBottom;
-};
-
-Margins margins_of(const Panel& panel) {
-  Margins margins;
-  if (!panel.y.names.empty()) margins.left = 20 + widest_of(panel.y.names);
-  if (!panel.title.empty()) margins.top += kTitle;
-  if (!panel.x.label.empty()) margins.bottom += kAxisLabel;
-  if (panel.colours) margins.right = kColourBar;
-  if (!panel.x.names.empty()) {
-    const double widest = widest_of(panel.x.names);
-    margins.top += kSlant * widest;
-    margins.right += 0.5 * widest;  // the last leans beyond its column
-    margins.bottom = 8;
-  }
-  return margins;
-}
-
-/// Powers of ten, between them 2 and 5 where few decades leave room, and minor ticks.
-std::string logarithmic_ticks(const AxisRange& range) {
-  constexpr double kSlack = 1e-9;
-  const int first = static_cast<int>(std::floor(std::log10(range.low) + kSlack));
-  const int last = static_cast<int>(std::ceil(std::log10(range.high) - kSlack));
-  const double decades = std::log10(range.high / range.low);
-  const int every = decades > 14 ? 4 : decades > 7 ? 2 : 1;
-  std::string ticks;
-  for (int n = first; n <= last; ++n)
-    for (int digit = 1; digit <= 9; ++digit) {
-      const double value = digit * std::pow(10.0, n);
-      if (value < range.low * (1 - kSlack) || value > range.high * (1 + kSlack)) continue;
-      const bool is_power = digit == 1 && n % every == 0;
-      const bool is_between = decades <= 1.7 && (digit == 2 || digit == 5);
-      if (!is_power && !is_between && every > 1) continue;
-      std::string label;
-      if (is_power)
-        label = n >= -2 && n <= 3 ? fmt::format("{:g}", value) : fmt::format("10^{{{}}}", n);
-      else if (is_between)
-        label = fmt::format("{:g}", value);
-      ticks += fmt::format("{}'{}' {}{}", ticks.empty() ? "" : ", ", label, number(value),
-                           label.empty() ? " 1" : "");
-    }
-  return ticks;
-}
-
-/// A tick's text, in which gnuplot expands formats of numbers.
-std::string tick_text(const std::string& name) {
-  std::string text;
-  for (const char c : gnuplot_text(shown_name(name))) text += c == '%' ? "%%" : std::string(1, c);
-  return text;
-}
-
-std::string named_ticks(const std::vector<std::string>& names) {
-  std::string ticks;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    ticks += fmt::format("{}{} {}", k > 0 ? ", " : "", tick_text(names[k]), k);
-  return ticks;
-}
 
 /// Both files of one chart, as they grow.
 class ScriptWriter {
@@ -162,13 +38,13 @@ class ScriptWriter {
   void add_plot(const std::string& plot) { plots_.push_back(plot); }
   void finish_plot();
 
-  void place(const Place& frame);
+  void place(const ChartPlace& frame);
   void set_axis(char name, const AxisSpec& axis, const AxisRange& range, double room);
-  void add_colours(const ColourMap& map, const Panel& panel, const Place& frame);
-  void add_cells(const Panel& panel, const Place& frame);
+  void add_colours(const ColourMap& map, const Panel& panel, const ChartPlace& frame);
+  void add_cells(const Panel& panel, const ChartPlace& frame);
   void add_curve(const Curve& curve);
-  void draw_panel(const Panel& panel, const Place& frame);
-  void draw_legend(const Place& frame);
+  void draw_panel(const Panel& panel, const ChartPlace& frame);
+  void draw_legend(const ChartPlace& frame);
 
   const Chart* chart_;
   double height_ = 0;
@@ -191,34 +67,34 @@ void ScriptWriter::finish_plot() {
   plots_.clear();
 }
 
-void ScriptWriter::place(const Place& frame) {
-  line("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}", frame.left / kWidth,
-       (frame.left + frame.width) / kWidth);
+void ScriptWriter::place(const ChartPlace& frame) {
+  line("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}", frame.left / kChartWidth,
+       (frame.left + frame.width) / kChartWidth);
   line("set tmargin at screen {:.5f}\nset bmargin at screen {:.5f}", 1 - frame.top / height_,
        1 - (frame.top + frame.height) / height_);
   line("unset logscale\nunset label\nunset arrow\nunset object\nunset colorbox\nunset x2tics");
 }
 
 void ScriptWriter::set_axis(char name, const AxisSpec& axis, const AxisRange& range, double room) {
-  line("set {}label {} font ',13' offset {}", name, gnuplot_text(fitted(axis.label, room)),
+  line("set {}label {} font ',13' offset {}", name, gnuplot_text(fitted_text(axis.label, room)),
        name == 'x' ? "0, 0.5" : "0.8, 0");
   const bool is_reversed = name == 'y' && !axis.names.empty();
-  line("set {}range [{}:{}]", name, number(is_reversed ? range.high : range.low),
-       number(is_reversed ? range.low : range.high));
+  line("set {}range [{}:{}]", name, gnuplot_number(is_reversed ? range.high : range.low),
+       gnuplot_number(is_reversed ? range.low : range.high));
   line("unset {}tics", name);
   if (axis.logarithmic) {
-    line("set logscale {0}\nset {0}tics nomirror in ({1})", name, logarithmic_ticks(range));
+    line("set logscale {0}\nset {0}tics nomirror in ({1})", name, gnuplot_logarithmic_ticks(range));
   } else if (axis.names.empty()) {
     line("set {0}tics nomirror in autofreq\nset format {0} '%g'", name);
   } else if (name == 'y') {
-    line("set ytics nomirror scale 0 ({})", named_ticks(axis.names));
+    line("set ytics nomirror scale 0 ({})", gnuplot_named_ticks(axis.names));
   } else {
     line("set x2range [{}:{}]\nset x2tics nomirror scale 0 rotate by 60 left ({})",
-         number(range.low), number(range.high), named_ticks(axis.names));
+         gnuplot_number(range.low), gnuplot_number(range.high), gnuplot_named_ticks(axis.names));
   }
 }
 
-void ScriptWriter::add_colours(const ColourMap& map, const Panel& panel, const Place& frame) {
+void ScriptWriter::add_colours(const ColourMap& map, const Panel& panel, const ChartPlace& frame) {
   const std::vector<double> x = cell_borders(map.x_values, panel.x.logarithmic);
   const std::vector<double> y = cell_borders(map.y_values, panel.y.logarithmic);
   const std::size_t columns = map.x_values.size();
@@ -244,10 +120,11 @@ void ScriptWriter::add_colours(const ColourMap& map, const Panel& panel, const P
   line(
       "set cbrange [{}:{}]\nset colorbox user origin screen {:.5f}, screen {:.5f} size screen "
       "{:.5f}, screen {:.5f}",
-      number(map.low), number(map.high), (frame.left + frame.width + 12) / kWidth,
-      1 - (frame.top + frame.height) / height_, 12 / kWidth, frame.height / height_);
+      gnuplot_number(map.low), gnuplot_number(map.high),
+      (frame.left + frame.width + 12) / kChartWidth, 1 - (frame.top + frame.height) / height_,
+      12 / kChartWidth, frame.height / height_);
   line("set label {} at screen {:.5f}, screen {:.5f} center", gnuplot_text(map.label),
-       (frame.left + frame.width + 24) / kWidth, 1 - (frame.top - 9) / height_);
+       (frame.left + frame.width + 24) / kChartWidth, 1 - (frame.top - 9) / height_);
   add_plot(block(map.label, rows) +
            " using 1:2:3:4:5:6:7 with boxxyerror fs solid 1 noborder lc "
            "palette");
@@ -255,7 +132,7 @@ void ScriptWriter::add_colours(const ColourMap& map, const Panel& panel, const P
     add_plot(block("missing", missing) + " using 1:2:3 with labels tc rgb '#7a7a7a' font ',10'");
 }
 
-void ScriptWriter::add_cells(const Panel& panel, const Place& frame) {
+void ScriptWriter::add_cells(const Panel& panel, const ChartPlace& frame) {
   std::vector<std::string> rows(panel.looks.size()), letters(panel.looks.size());
   for (const MapCell& cell : panel.cells) {
     const double x0 = x_.fraction(cell.x_low, panel.x.logarithmic);
@@ -293,7 +170,7 @@ void ScriptWriter::add_curve(const Curve& curve) {
       x = std::clamp(x, x_.low, x_.high);
       y = std::clamp(y, y_.low, y_.high);
     }
-    return number(x) + " " + number(y) + "\n";
+    return gnuplot_number(x) + " " + gnuplot_number(y) + "\n";
   };
   const char* colour = colour_of(curve.look.ink);
   if (curve.look.line != Line::none) {
@@ -305,7 +182,7 @@ void ScriptWriter::add_curve(const Curve& curve) {
                          curve.look.halo                   ? 2.0
                          : curve.look.line == Line::dotted ? 1.9
                                                            : 1.6,
-                         dash_of(curve.look.line), colour));
+                         gnuplot_dash(curve.look.line), colour));
   }
   if (curve.look.marker != Marker::none) {
     std::string rows;
@@ -313,17 +190,17 @@ void ScriptWriter::add_curve(const Curve& curve) {
     for (std::size_t k = curve.marker_first; k < curve.x.size(); k += every)
       if (std::isfinite(curve.x[k]) && std::isfinite(curve.y[k])) rows += row(k);
     add_plot(fmt::format("{} using 1:2 with points {} lc rgb '{}'",
-                         block(plain_plot_text(curve.label), rows), point_of(curve.look.marker),
-                         colour));
+                         block(plain_plot_text(curve.label), rows),
+                         gnuplot_point(curve.look.marker), colour));
   }
 }
 
-void ScriptWriter::draw_panel(const Panel& panel, const Place& frame) {
+void ScriptWriter::draw_panel(const Panel& panel, const ChartPlace& frame) {
   x_ = x_range(panel);
   y_ = y_range(panel);
   place(frame);
   line("set title {} font ',13' offset 0, {}",
-       gnuplot_text(fitted(panel.title, kTitleShare * frame.width)),
+       gnuplot_text(fitted_text(panel.title, kTitleShare * frame.width)),
        panel.x.names.empty() ? "-0.4" : "0");
   line("set border {} lc rgb '{}'", panel.y.names.empty() || !panel.x.names.empty() ? 15 : 1,
        kFrame);
@@ -333,7 +210,7 @@ void ScriptWriter::draw_panel(const Panel& panel, const Place& frame) {
                                                            : "set xzeroaxis lt 1 lc rgb '#d5d5d0'");
   for (const Band& band : panel.bands) {
     const auto at = [](double value, const AxisRange& range) {
-      return number(std::clamp(value, range.low, range.high));
+      return gnuplot_number(std::clamp(value, range.low, range.high));
     };
     line("set object rectangle from {}, {} to {}, {} behind {}", at(band.x_low, x_),
          at(band.y_low, y_), at(band.x_high, x_), at(band.y_high, y_), kTint);
@@ -342,10 +219,10 @@ void ScriptWriter::draw_panel(const Panel& panel, const Place& frame) {
   for (const ChartMark& mark : panel.marks) {
     const double at = x_.fraction(mark.x, panel.x.logarithmic);
     if (!(at >= 0 && at <= 1)) continue;
-    line("set arrow from {0}, graph 0 to {0}, graph 1 nohead dt (2,2) lc rgb '{1}'", number(mark.x),
-         kFrame);
-    line("set label {} at {}, graph {:.4f} offset 0.5, 0", gnuplot_text(mark.label), number(mark.x),
-         mark.is_low ? 10 / frame.height : 1 - down / frame.height);
+    line("set arrow from {0}, graph 0 to {0}, graph 1 nohead dt (2,2) lc rgb '{1}'",
+         gnuplot_number(mark.x), kFrame);
+    line("set label {} at {}, graph {:.4f} offset 0.5, 0", gnuplot_text(mark.label),
+         gnuplot_number(mark.x), mark.is_low ? 10 / frame.height : 1 - down / frame.height);
     if (!mark.is_low) down += 16;
   }
   if (panel.colours) add_colours(*panel.colours, panel, frame);
@@ -382,18 +259,18 @@ double legend_height(const Panel& legend, std::size_t& columns) {
   double widest = 1;
   const auto measure = [&](const auto& entries) {
     for (const auto& entry : entries)
-      widest = std::max(widest, kSample + 28 + text_width(entry.label));
+      widest = std::max(widest, kSample + 28 + text_pixels(entry.label));
   };
   measure(legend.curves);
   measure(legend.bands);
   measure(legend.looks);
-  columns = std::clamp<std::size_t>(static_cast<std::size_t>((kWidth - 20) / widest), 1,
+  columns = std::clamp<std::size_t>(static_cast<std::size_t>((kChartWidth - 20) / widest), 1,
                                     std::max<std::size_t>(1, count));
   return kLegendLine * static_cast<double>((count + columns - 1) / columns);
 }
 
 /// Samples and names in equal columns, drawn over axes in px.
-void ScriptWriter::draw_legend(const Place& frame) {
+void ScriptWriter::draw_legend(const ChartPlace& frame) {
   Panel legend = legend_of(*chart_);
   std::size_t columns = 1;
   const double height = legend_height(legend, columns);
@@ -436,18 +313,18 @@ void ScriptWriter::draw_legend(const Place& frame) {
 GnuplotScript ScriptWriter::write() {
   const std::vector<Panel>& panels = chart_->panels;
   const auto columns = static_cast<std::size_t>(std::max(1, chart_->columns));
-  const double panel_width = kWidth / static_cast<double>(columns);
-  std::vector<Place> frames;
+  const double panel_width = kChartWidth / static_cast<double>(columns);
+  std::vector<ChartPlace> frames;
   for (std::size_t k = 0; k < panels.size(); k += columns) {
-    Margins most{0, 0, 0, 0};
+    PanelMargins most{0, 0, 0, 0};
     const std::span row(panels.data() + k, std::min(columns, panels.size() - k));
     for (const Panel& panel : row) {
-      const Margins margins = margins_of(panel);
+      const PanelMargins margins = panel_margins(panel);
       most.top = std::max(most.top, margins.top);
       most.bottom = std::max(most.bottom, margins.bottom);
     }
     for (std::size_t c = 0; c < row.size(); ++c) {
-      const Margins margins = margins_of(row[c]);
+      const PanelMargins margins = panel_margins(row[c]);
       frames.push_back({static_cast<double>(c) * panel_width + margins.left, height_ + most.top,
                         std::max(40.0, panel_width - margins.left - margins.right),
                         chart_->plot_height});
@@ -460,15 +337,15 @@ GnuplotScript ScriptWriter::write() {
   height_ = std::ceil(height_ + legend + 10);
 
   line("# gnuplot {0}.gp draws {0}.svg of {0}.dat\nreset\nset encoding utf8", chart_->name);
-  line("set terminal svg enhanced size {},{} font 'Helvetica,{}' background '#ffffff'", kWidth,
-       height_, kFont);
+  line("set terminal svg enhanced size {},{} font 'Helvetica,{}' background '#ffffff'", kChartWidth,
+       height_, kChartFont);
   line(
       "set output '{0}.svg'\ndata = '{0}.dat'\nset key off\nset tics front\nset style fill "
       "noborder\nset "
       "multiplot",
       chart_->name);
   for (std::size_t k = 0; k < panels.size(); ++k) draw_panel(panels[k], frames[k]);
-  draw_legend({10, legend_top, kWidth - 20, std::max(1.0, legend)});
+  draw_legend({10, legend_top, kChartWidth - 20, std::max(1.0, legend)});
   line("unset multiplot\nunset output");
   return {std::move(script_), std::move(data_)};
 }

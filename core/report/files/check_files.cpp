@@ -8,6 +8,7 @@
 
 #include "report/files/markdown.h"
 #include "report/json/common_fields.h"
+#include "report/rows/quantity.h"
 
 namespace slipcheck {
 namespace {
