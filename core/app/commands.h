@@ -31,6 +31,7 @@ class BadOption : public std::runtime_error {
 // Each adds its command to the program. The command's callback leaves its exit code in `exit_code`.
 void add_run_command(CLI::App& app, int& exit_code);
 void add_check_command(CLI::App& app, int& exit_code);
+void add_engines_command(CLI::App& app, int& exit_code);
 void add_explain_command(CLI::App& app, int& exit_code);
 void add_figures_command(CLI::App& app, int& exit_code);
 void add_gas_command(CLI::App& app, int& exit_code);

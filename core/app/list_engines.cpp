@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/engine_registry.h"
+#include "engine/npm_engines.h"
 #include "engine/profile.h"
 #include "engine/remote_engine.h"
 
@@ -69,7 +70,7 @@ Json list_engines() {
   for (const EngineExecutable& executable : found) {
     Json entry{{"engine", executable.engine}, {"precision", executable.precision}};
     try {
-      entry["version"] = RemoteEngine(executable.path).info().version;
+      entry["version"] = RemoteEngine(executable.command).info().version;
       entry["profiles"] = profile_names(executable);
       entry["status"] = "ok";
     } catch (const WorkerFailure& failure) {
@@ -78,10 +79,14 @@ Json list_engines() {
     }
     list.push_back(std::move(entry));
   }
-  for (const std::string& engine : known_engines())
-    if (std::none_of(found.begin(), found.end(),
-                     [&](const EngineExecutable& e) { return e.engine == engine; }))
-      list.push_back(Json{{"engine", engine}, {"status", "skipped"}, {"reason", "not installed"}});
+  const auto note_missing = [&](const std::string& engine, const std::string& reason) {
+    if (std::ranges::none_of(
+            found, [&](const EngineExecutable& e) { return engine_family(e.engine) == engine; }))
+      list.push_back(Json{{"engine", engine}, {"status", "skipped"}, {"reason", reason}});
+  };
+  for (const std::string& engine : known_engines()) note_missing(engine, "not installed");
+  for (const NpmEngine& engine : npm_engines())
+    note_missing(engine.name, fmt::format("not installed: slipcheck engines add {}", engine.name));
   return list;
 }
 
@@ -109,7 +114,7 @@ Json list_settings() {
   Json list = Json::array();
   for (const EngineExecutable& executable : find_engines()) {
     try {
-      const EngineInfo engine = RemoteEngine(executable.path).info();
+      const EngineInfo engine = RemoteEngine(executable.command).info();
       for (const SettingInfo& info : engine.settings) {
         const Json setting = json_of(info);
         const auto same = std::find_if(list.begin(), list.end(), [&](Json other) {
@@ -128,7 +133,7 @@ Json list_settings() {
         list.push_back(std::move(entry));
       }
     } catch (const WorkerFailure& failure) {
-      fmt::print(stderr, "{}: {}\n", executable.path.string(), failure.what());
+      fmt::print(stderr, "{}: {}\n", executable.command.program.string(), failure.what());
     }
   }
   return list;

@@ -105,15 +105,18 @@ void add_shipped_profiles(TuningSpace& space, const TuneArguments& arguments,
 }
 
 /// A program built otherwise may answer otherwise.
-std::string fingerprint(const fs::path& program) {
-  std::ifstream in(program, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+std::string fingerprint(const std::vector<fs::path>& files) {
+  std::string bytes;
+  for (const fs::path& file : files) {
+    std::ifstream in(file, std::ios::binary);
+    bytes.append(std::istreambuf_iterator<char>(in), {});
+  }
   return sha256_hex(bytes).substr(0, 16);
 }
 
 std::string identity_of(const EngineExecutable& executable, const EngineInfo& info) {
-  return fmt::format("slipcheck {}, {} {} {} {}, protocol {}", fingerprint("/proc/self/exe"),
-                     info.engine, info.version, info.precision, fingerprint(executable.path),
+  return fmt::format("slipcheck {}, {} {} {} {}, protocol {}", fingerprint({"/proc/self/exe"}),
+                     info.engine, info.version, info.precision, fingerprint(executable.made_of),
                      protocol::kVersion);
 }
 
@@ -139,8 +142,8 @@ TuneSetup prepare_tuning(const TuneArguments& arguments) {
   std::vector<Scenario> scenarios = load_files(files);
 
   const EngineExecutable executable = executable_of(arguments);
-  const EngineInfo info = RemoteEngine(executable.path).info();
-  record.engine = info.engine;
+  const EngineInfo info = RemoteEngine(executable.command).info();
+  record.engine = arguments.engine;
   record.version = info.version;
   record.precision = info.precision;
   record.space = space_of(arguments, info, start_settings(arguments, executable, info));

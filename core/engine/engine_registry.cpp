@@ -2,12 +2,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include "engine/npm_engines.h"
 
 namespace slipcheck {
 
@@ -26,6 +29,22 @@ std::optional<std::pair<std::string, std::string>> parse_name(const std::string&
   const std::string precision = name.substr(hyphen + 1);
   if (precision != "single" && precision != "double") return std::nullopt;
   return std::pair(name.substr(kPrefix.size(), hyphen - kPrefix.size()), precision);
+}
+
+/// "0.8.0-alpha.2": numbers, and what follows a hyphen.
+struct VersionParts {
+  std::vector<unsigned long> numbers;
+  std::string_view suffix;
+};
+
+VersionParts parts_of(std::string_view version) {
+  VersionParts parts;
+  const std::size_t hyphen = version.find('-');
+  if (hyphen != std::string_view::npos) parts.suffix = version.substr(hyphen + 1);
+  std::istringstream numbers{std::string(version.substr(0, hyphen))};
+  for (std::string number; std::getline(numbers, number, '.');)
+    parts.numbers.push_back(std::strtoul(number.c_str(), nullptr, 10));
+  return parts;
 }
 
 bool is_executable(const fs::path& path) {
@@ -59,6 +78,22 @@ std::vector<fs::path> engine_directories() {
   return directories;
 }
 
+std::string engine_family(std::string_view engine) {
+  return std::string(engine.substr(0, engine.find('@')));
+}
+
+std::string engine_version(std::string_view engine) {
+  const std::size_t at = engine.find('@');
+  return at == std::string_view::npos ? "" : std::string(engine.substr(at + 1));
+}
+
+bool is_older_version(std::string_view one, std::string_view other) {
+  const VersionParts a = parts_of(one), b = parts_of(other);
+  if (a.numbers != b.numbers) return a.numbers < b.numbers;
+  if (a.suffix.empty() != b.suffix.empty()) return b.suffix.empty();
+  return a.suffix < b.suffix;
+}
+
 std::vector<EngineExecutable> find_engines(const std::vector<fs::path>& directories) {
   std::map<std::pair<std::string, std::string>, fs::path> found;
   for (const fs::path& directory : directories) {
@@ -69,16 +104,48 @@ std::vector<EngineExecutable> find_engines(const std::vector<fs::path>& director
     }
   }
   std::vector<EngineExecutable> engines;
-  for (const auto& [name, path] : found) engines.push_back({name.first, name.second, path});
+  for (const auto& [name, path] : found) {
+    const auto& [engine, precision] = name;
+    const fs::path profiles = path.parent_path() / "profiles" / engine_family(engine);
+    engines.push_back({engine, precision, path, profiles, {path}});
+  }
+  return engines;
+}
+
+std::vector<EngineExecutable> find_engines() {
+  std::vector<EngineExecutable> engines = find_engines(engine_directories());
+  const auto name_of = [](const EngineExecutable& each) {
+    return std::pair(each.engine, each.precision);
+  };
+  for (EngineExecutable& brought : installed_npm_engines())
+    if (std::ranges::find(engines, name_of(brought), name_of) == engines.end())
+      engines.push_back(std::move(brought));
+  std::ranges::sort(engines, [&](const EngineExecutable& one, const EngineExecutable& other) {
+    const std::string family = engine_family(one.engine), of_other = engine_family(other.engine);
+    if (family != of_other) return family < of_other;
+    if (one.engine != other.engine)
+      return is_older_version(engine_version(one.engine), engine_version(other.engine));
+    return one.precision < other.precision;
+  });
   return engines;
 }
 
 std::optional<EngineExecutable> find_engine(const std::string& engine, const std::string& precision,
-                                            const std::vector<fs::path>& directories) {
-  for (EngineExecutable& each : find_engines(directories)) {
-    if (each.engine == engine && each.precision == precision) return std::move(each);
+                                            std::span<const EngineExecutable> installed) {
+  const EngineExecutable* found = nullptr;
+  for (const EngineExecutable& each : installed) {
+    if (each.precision != precision) continue;
+    if (each.engine == engine) return each;
+    if (engine_family(each.engine) == engine &&
+        (!found || is_older_version(engine_version(found->engine), engine_version(each.engine))))
+      found = &each;
   }
-  return std::nullopt;
+  return found ? std::optional(*found) : std::nullopt;
+}
+
+std::optional<EngineExecutable> find_engine(const std::string& engine,
+                                            const std::string& precision) {
+  return find_engine(engine, precision, find_engines());
 }
 
 }  // namespace slipcheck

@@ -20,10 +20,6 @@ bool is_profile_name(const std::string& text) {
   });
 }
 
-fs::path shipped_directory(const EngineExecutable& executable) {
-  return executable.path.parent_path() / "profiles" / executable.engine;
-}
-
 /// Whether a word, written without quotes, reads back as itself wherever YAML is read.
 bool stands_plain(const std::string& word) {
   const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
@@ -59,7 +55,7 @@ std::optional<fs::path> find_profile(const EngineExecutable& executable, const s
                                      const fs::path& directory) {
   if (is_profile_path(profile)) return directory / profile;
   if (!is_profile_name(profile)) return std::nullopt;
-  const fs::path file = shipped_directory(executable) / (profile + ".yaml");
+  const fs::path file = executable.profiles / (profile + ".yaml");
   std::error_code ignored;
   return fs::exists(file, ignored) ? std::optional(file) : std::nullopt;
 }
@@ -67,7 +63,7 @@ std::optional<fs::path> find_profile(const EngineExecutable& executable, const s
 std::vector<std::string> profile_names(const EngineExecutable& executable) {
   std::vector<std::string> names;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(shipped_directory(executable), error)) {
+  for (const auto& entry : fs::directory_iterator(executable.profiles, error)) {
     const std::string stem = entry.path().stem().string();
     if (entry.path().extension() == ".yaml" && is_profile_name(stem)) names.push_back(stem);
   }

@@ -27,9 +27,9 @@ std::size_t steps_at_once(std::size_t bodies) {
 
 }  // namespace
 
-RemoteEngine::RemoteEngine(const std::filesystem::path& executable, const WorkerLimits& limits,
+RemoteEngine::RemoteEngine(const WorkerCommand& command, const WorkerLimits& limits,
                            const std::atomic<bool>* stop)
-    : process_(executable, limits, stop), run_limit_(std::numeric_limits<double>::infinity()) {
+    : process_(command, limits, stop), run_limit_(std::numeric_limits<double>::infinity()) {
   auto welcome = ask<protocol::Welcome>(protocol::Hello{});
   if (welcome.version != protocol::kVersion) {
     process_.fail(Status::crashed,

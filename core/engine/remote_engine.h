@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -18,8 +17,8 @@ namespace slipcheck {
 /// stop flag is set; afterwards the worker is gone and alive() is false.
 class RemoteEngine {
  public:
-  /// Starts the executable and asks who it is.
-  explicit RemoteEngine(const std::filesystem::path& executable, const WorkerLimits& limits = {},
+  /// Starts the worker and asks who it is.
+  explicit RemoteEngine(const WorkerCommand& command, const WorkerLimits& limits = {},
                         const std::atomic<bool>* stop = nullptr);
 
   const EngineInfo& info() const { return info_; }

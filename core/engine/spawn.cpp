@@ -11,6 +11,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace slipcheck {
 namespace {
@@ -104,22 +105,26 @@ class StandardStreams {
 
 }  // namespace
 
-Child spawn(const std::filesystem::path& executable, std::size_t address_space) {
+Child spawn(const WorkerCommand& command, std::size_t memory) {
   Ends in = make_input(), out = make_output(), err = make_output();
   fcntl(out.ours.get(), F_SETPIPE_SZ, 1 << 20);  // fewer switches on long replies; may be denied
 
   const Attributes attributes;
   const StandardStreams streams(in.theirs.get(), out.theirs.get(), err.theirs.get());
-  std::string name = executable.string();
-  char* const argv[] = {name.data(), nullptr};
+  std::vector<std::string> words = {command.program.string()};
+  words.insert(words.end(), command.arguments.begin(), command.arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
   Child child;
   const int error =
-      posix_spawn(&child.pid, name.c_str(), streams.get(), attributes.get(), argv, environ);
+      posix_spawnp(&child.pid, argv[0], streams.get(), attributes.get(), argv.data(), environ);
   if (error != 0) fail(error, "cannot start");
 
-  if (address_space > 0) {
-    const rlimit limit = {address_space, address_space};
-    prlimit(child.pid, RLIMIT_AS, &limit, nullptr);
+  if (memory > 0) {
+    // Not the address space, of which WebAssembly reserves gigabytes for a page.
+    const rlimit limit = {memory, memory};
+    prlimit(child.pid, RLIMIT_DATA, &limit, nullptr);
   }
   child.in = in.ours.release();
   child.out = out.ours.release();

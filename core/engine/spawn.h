@@ -3,7 +3,8 @@
 #include <sys/types.h>
 
 #include <cstddef>
-#include <filesystem>
+
+#include "engine/worker_command.h"
 
 namespace slipcheck {
 
@@ -16,9 +17,8 @@ struct Child {
   int err = -1;  ///< a pipe
 };
 
-/// Starts an executable without arguments in a process group of its own, with no signal blocked or
-/// ignored. `address_space` limits its virtual memory [bytes]; 0 does not. Throws
-/// std::system_error.
-Child spawn(const std::filesystem::path& executable, std::size_t address_space);
+/// Starts a worker in a process group of its own, with no signal blocked or ignored. `memory`
+/// limits what it may write to, not what it reserves [bytes]; 0 does not. Throws std::system_error.
+Child spawn(const WorkerCommand& command, std::size_t memory);
 
 }  // namespace slipcheck

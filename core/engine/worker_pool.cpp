@@ -17,7 +17,7 @@ JobStatus status_of(const WorkerFailure& failure) {
                                                               : JobStatus::crashed;
 }
 
-/// One thread's workers, at most one for each executable.
+/// One thread's workers, at most one for each command.
 class Workers {
  public:
   Workers(const WorkerLimits& limits, const std::atomic<bool>* stop)
@@ -26,7 +26,7 @@ class Workers {
   JobResult run(const EngineJob& job) {
     if (stop_ != nullptr && *stop_) return {JobStatus::skipped, "interrupted", nullptr};
     try {
-      job.work(engine_for(job.executable));
+      job.work(engine_for(job.command));
       return {JobStatus::ok, "", nullptr};
     } catch (const WorkerFailure& failure) {
       return {status_of(failure), failure.what(), std::current_exception()};
@@ -44,11 +44,11 @@ class Workers {
   }
 
  private:
-  RemoteEngine& engine_for(const std::filesystem::path& executable) {
-    std::unique_ptr<RemoteEngine>& engine = engines_[executable];
+  RemoteEngine& engine_for(const WorkerCommand& command) {
+    std::unique_ptr<RemoteEngine>& engine = engines_[command];
     if (!engine || !engine->alive()) {
       engine.reset();
-      engine = std::make_unique<RemoteEngine>(executable, limits_, stop_);
+      engine = std::make_unique<RemoteEngine>(command, limits_, stop_);
     }
     engine->limit_run(std::numeric_limits<double>::infinity());  // an earlier job's is void
     return *engine;
@@ -56,7 +56,7 @@ class Workers {
 
   WorkerLimits limits_;
   const std::atomic<bool>* stop_;
-  std::map<std::filesystem::path, std::unique_ptr<RemoteEngine>> engines_;
+  std::map<WorkerCommand, std::unique_ptr<RemoteEngine>> engines_;
 };
 
 }  // namespace

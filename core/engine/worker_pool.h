@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <exception>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,7 +12,7 @@ namespace slipcheck {
 
 /// A piece of work that needs one engine to itself.
 struct EngineJob {
-  std::filesystem::path executable;
+  WorkerCommand command;
   std::function<void(RemoteEngine&)> work;
 };
 
@@ -32,7 +31,7 @@ struct JobResult {
   std::exception_ptr error;  ///< what `work` threw, if anything
 };
 
-/// Runs jobs on several threads, each with a worker process of its own for each executable. A
+/// Runs jobs on several threads, each with a worker process of its own for each command. A
 /// worker is reused from job to job and replaced after a failure, so that whatever one engine does,
 /// the other jobs go on.
 class WorkerPool {

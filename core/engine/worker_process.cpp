@@ -37,9 +37,9 @@ constexpr std::size_t kErrorTail = 4096;
 constexpr double kForever = 1e8;  // [s]; an infinite limit has no Clock::duration
 
 #ifdef SLIPCHECK_SANITIZE
-constexpr bool kLimitAddressSpace = false;  // the address sanitizer reserves terabytes
+constexpr bool kLimitsData = false;  // the shadow memory of a sanitizer counts
 #else
-constexpr bool kLimitAddressSpace = true;
+constexpr bool kLimitsData = true;
 #endif
 
 /// Resident memory [bytes]; 0 where it cannot be read.
@@ -86,19 +86,20 @@ struct WorkerProcess::Exchange {
   }
 };
 
-WorkerProcess::WorkerProcess(std::filesystem::path executable, const WorkerLimits& limits,
+WorkerProcess::WorkerProcess(WorkerCommand command, const WorkerLimits& limits,
                              const std::atomic<bool>* stop)
-    : executable_(std::move(executable)), limits_(limits), stop_(stop) {
+    : command_(std::move(command)), limits_(limits), stop_(stop) {
   try {
     // The limit proper is on resident memory. This one only stops what grows by more than the
     // limit between two looks.
-    const Child child = spawn(executable_, kLimitAddressSpace ? 2 * limits_.memory : 0);
+    const Child child = spawn(command_, kLimitsData ? 2 * limits_.memory : 0);
     pid_ = child.pid;
     in_ = child.in;
     out_ = child.out;
     err_ = child.err;
   } catch (const std::system_error& error) {
-    throw WorkerFailure(Status::crashed, fmt::format("{}: {}", executable_.string(), error.what()));
+    throw WorkerFailure(Status::crashed,
+                        fmt::format("{}: {}", command_.program.string(), error.what()));
   }
 }
 

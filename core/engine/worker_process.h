@@ -5,12 +5,12 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 
 #include "base/stop_scope.h"
 #include "engine/cbor.h"
+#include "engine/worker_command.h"
 
 namespace slipcheck {
 
@@ -41,7 +41,7 @@ class WorkerProcess {
   using Clock = std::chrono::steady_clock;
 
   /// Throws WorkerFailure if it cannot be started. `stop`, where given, is looked at while waiting.
-  WorkerProcess(std::filesystem::path executable, const WorkerLimits& limits,
+  WorkerProcess(WorkerCommand command, const WorkerLimits& limits,
                 const std::atomic<bool>* stop = nullptr);
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;
@@ -73,7 +73,7 @@ class WorkerProcess {
   int kill_and_reap();
   std::string last_words() const;
 
-  std::filesystem::path executable_;
+  WorkerCommand command_;
   WorkerLimits limits_;
   const std::atomic<bool>* stop_;
   pid_t pid_ = -1;  // -1: gone and reaped

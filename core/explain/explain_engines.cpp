@@ -33,7 +33,7 @@ void ask(ExplainSection& section, const EngineRecord& run, const Scene& scene,
   for (const auto& [name, setting] : run.settings)
     section.add(fmt::format("the profile sets {:<32} {}", name, text_of(setting)));
   try {
-    RemoteEngine engine(executable->path, {}, stop);
+    RemoteEngine engine(executable->command, {}, stop);
     const Applied applied = engine.configure(scene, run.settings, 1 / run.rate);
     for (const Lack& lack : applied.not_represented) section.add("not represented: " + lack.text);
     for (const std::string& text : applied.left_out) section.add("left out: " + text);

@@ -44,10 +44,10 @@ TEST_F(EngineRegistryTest, FindsWhatIsNamedLikeAnEngineSortedAndFirstDirectoryFi
   ASSERT_EQ(engines.size(), 3u);
   EXPECT_EQ(engines[0].engine, "bullet");
   EXPECT_EQ(engines[0].precision, "single");
-  EXPECT_EQ(engines[0].path, bullet);
+  EXPECT_EQ(engines[0].command.program, bullet);
   EXPECT_EQ(engines[1].engine, "my-own");
-  EXPECT_EQ(engines[1].path, hyphens);
-  EXPECT_EQ(engines[2].path, ode);
+  EXPECT_EQ(engines[1].command.program, hyphens);
+  EXPECT_EQ(engines[2].command.program, ode);
   EXPECT_TRUE(find_engine("ode", "double", {folder_ / "a"}).has_value());
   EXPECT_FALSE(find_engine("ode", "single", {folder_ / "a"}).has_value());
 }

@@ -59,12 +59,12 @@ class Profiles {
       return;
     }
     const auto executable = find_engine(record.engine, record.precision);
-    over_.engine = record.engine;
+    over_.engine = engine_family(record.engine);
     check(over_, record, executable);
     choose_profile(scenario, key, of_grid, executable, record);
     // Of both the setting that is given by hand holds.
     Settings settings = over_.settings;
-    if (general_ && executable && takes_leaves_out(executable->path))
+    if (general_ && executable && takes_leaves_out(executable->command))
       settings.try_emplace("leaves_out", false);
     settings.merge(record.settings);
     record.settings = std::move(settings);
@@ -168,9 +168,9 @@ class Profiles {
 
   void check(const Profile& profile, const EngineRecord& record,
              const std::optional<EngineExecutable>& executable) {
-    EngineInfo info{record.engine, "", record.precision, {}};
+    EngineInfo info{engine_family(record.engine), "", record.precision, {}};
     if (!profile.settings.empty()) {
-      const EngineInfo* known = executable ? ask(executable->path) : nullptr;
+      const EngineInfo* known = executable ? ask(executable->command) : nullptr;
       if (known == nullptr) return;  // the run will tell why
       info.settings = known->settings;
     }
@@ -180,17 +180,17 @@ class Profiles {
     }
   }
 
-  bool takes_leaves_out(const fs::path& executable) {
-    const EngineInfo* info = ask(executable);
+  bool takes_leaves_out(const WorkerCommand& command) {
+    const EngineInfo* info = ask(command);
     return info && std::ranges::any_of(info->settings, [](const SettingInfo& setting) {
              return setting.name == "leaves_out";
            });
   }
 
-  const EngineInfo* ask(const fs::path& executable) {
-    const auto [found, is_new] = infos_.try_emplace(executable);
+  const EngineInfo* ask(const WorkerCommand& command) {
+    const auto [found, is_new] = infos_.try_emplace(command);
     try {
-      if (is_new) found->second = RemoteEngine(executable, limits_, stop_).info();
+      if (is_new) found->second = RemoteEngine(command, limits_, stop_).info();
     } catch (const WorkerFailure&) {
     } catch (const Interrupted&) {
     }
@@ -203,7 +203,7 @@ class Profiles {
   Profile over_;  // over every other; its engine is that of the record at hand
   std::vector<std::string> engines_ = engine_names();
   std::map<fs::path, std::optional<Profile>> profiles_;
-  std::map<fs::path, std::optional<EngineInfo>> infos_;  // by executable; none: it has failed
+  std::map<WorkerCommand, std::optional<EngineInfo>> infos_;  // none: it has failed
   std::vector<Fault> faults_;
   std::set<std::string> noted_;
 };

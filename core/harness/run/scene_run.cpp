@@ -122,10 +122,8 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
   std::vector<EngineJob> jobs;
   for (const EngineTask& task : tasks) {
     EngineRecord& record = *task.record;
-    const auto executable = std::ranges::find_if(installed, [&](const EngineExecutable& each) {
-      return each.engine == record.engine && each.precision == record.precision;
-    });
-    if (executable == installed.end()) {
+    const auto executable = find_engine(record.engine, record.precision, installed);
+    if (!executable) {
       record.reason =
           fmt::format("slipcheck-engine-{}-{} is not installed", record.engine, record.precision);
       continue;
@@ -133,7 +131,7 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
     EngineWork& work = works.emplace_back(task, options, workers);
     for (std::size_t part = 0; part < work.parts(); ++part)
       jobs.push_back(
-          {executable->path, [&work, part](RemoteEngine& engine) { work.run(engine, part); }});
+          {executable->command, [&work, part](RemoteEngine& engine) { work.run(engine, part); }});
   }
 
   const std::vector<JobResult> results = pool.run_all(jobs, options.progress, options.stop);

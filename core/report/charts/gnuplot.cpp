@@ -1,14 +1,8 @@
 #include "report/charts/gnuplot.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
 #include <fstream>
 #include <pugixml.hpp>
 #include <sstream>
@@ -16,6 +10,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/run_program.h"
 #include "base/text.h"
 #include "report/charts/gnuplot_script.h"
 #include "report/charts/plot_text.h"
@@ -25,58 +20,6 @@ namespace slipcheck {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that goes away with all that is in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "slipcheck-charts-XXXXXX").string();
-    if (!::mkdtemp(name.data()))
-      throw std::system_error(errno, std::generic_category(), "cannot make a folder for charts");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-/// A child's standard streams and folder: nothing to read, all that it says into a pipe.
-class FileActions {
- public:
-  FileActions(const fs::path& folder, int output) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, output, STDERR_FILENO);
-  }
-  ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
-  FileActions(const FileActions&) = delete;
-  FileActions& operator=(const FileActions&) = delete;
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  posix_spawn_file_actions_t actions_;
-};
-
-std::string read_all(int descriptor) {
-  std::string text;
-  char buffer[4096];
-  for (ssize_t got; (got = ::read(descriptor, buffer, sizeof buffer)) != 0;) {
-    if (got > 0)
-      text.append(buffer, static_cast<std::size_t>(got));
-    else if (errno != EINTR)
-      break;
-  }
-  return text;
-}
 
 /// Without the blank lines about it.
 std::string trimmed(const std::string& text) {
@@ -90,31 +33,18 @@ std::string trimmed(const std::string& text) {
 void run_gnuplot(const fs::path& folder, const std::vector<Chart>& charts) {
   std::vector<std::string> words = {"gnuplot", "--default-settings"};
   for (const Chart& chart : charts) words.push_back(chart.name + ".gp");
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-
-  int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0)
-    throw std::system_error(errno, std::generic_category(), "cannot make a pipe for gnuplot");
-  pid_t child = -1;
-  const int error = ::posix_spawnp(&child, "gnuplot", FileActions(folder, ends[1]).get(), nullptr,
-                                   arguments.data(), environ);
-  ::close(ends[1]);
-  const std::string said = error == 0 ? read_all(ends[0]) : "";
-  ::close(ends[0]);
-  if (error == ENOENT)
-    throw std::runtime_error(
-        "charts as SVG are drawn by gnuplot, which is not there: install gnuplot-nox (Debian) or "
-        "gnuplot");
-  if (error != 0)
-    throw std::runtime_error(
-        fmt::format("cannot start gnuplot: {}", std::generic_category().message(error)));
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  ProgramEnd end;
+  try {
+    end = run_program(words, folder);
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::no_such_file_or_directory)
+      throw std::runtime_error(
+          "charts as SVG are drawn by gnuplot, which is not there: install gnuplot-nox (Debian) or "
+          "gnuplot");
+    throw;
   }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw std::runtime_error(fmt::format("gnuplot failed: {}", trimmed(said)));
+  if (end.exit_code != 0)
+    throw std::runtime_error(fmt::format("gnuplot failed: {}", trimmed(end.said)));
 }
 
 void write_new(const fs::path& path, const std::string& text) {
@@ -192,7 +122,7 @@ ChartDrawings draw_charts(const std::vector<Chart>& charts) {
   drawings.svgs.resize(charts.size());
   if (charts.empty()) return drawings;
   try {
-    const TemporaryFolder work;
+    const TemporaryFolder work("slipcheck-charts");
     for (const Chart& chart : charts) {
       const GnuplotScript made = gnuplot_script(chart);
       write_new(work.path() / (chart.name + ".gp"), made.script);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "engine/engine_registry.h"
 #include "report/rows/context.h"
 #include "report/rows/quantity.h"
 #include "report/terminal/text.h"
@@ -84,7 +85,7 @@ std::vector<std::string> provenance(const TuningRecord& tuning) {
 
 Profile tuned_profile(const TuningRecord& tuning) {
   Profile profile;
-  profile.engine = tuning.engine;
+  profile.engine = engine_family(tuning.engine);
   profile.name = tuning.profile;
   profile.about = fmt::format("Fitted by slipcheck tune: {}", goal_text(tuning));
   profile.settings = tuning.result.best().settings;

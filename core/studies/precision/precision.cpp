@@ -55,7 +55,7 @@ class OwnIterations {
     const auto executable = find_engine(engine, precision);
     if (!is_new || !executable) return found->second;
     try {
-      const RemoteEngine worker(executable->path, options_.limits, options_.stop);
+      const RemoteEngine worker(executable->command, options_.limits, options_.stop);
       for (const SettingInfo& setting : worker.info().settings)
         if (setting.name == kIterations)
           if (const auto* number = std::get_if<double>(&setting.shipped)) found->second = *number;

@@ -78,16 +78,14 @@ TimedWork timed_run(const PreparedScene& scene, MethodCurve::Kind kind, WorkPrec
 }  // namespace
 
 RemoteEngine& TimingWorkers::worker(const std::string& engine, const std::string& precision) {
-  const auto found = std::ranges::find_if(installed_, [&](const EngineExecutable& each) {
-    return each.engine == engine && each.precision == precision;
-  });
-  if (found == installed_.end())
+  const auto found = find_engine(engine, precision, installed_);
+  if (!found)
     throw std::runtime_error(
         fmt::format("slipcheck-engine-{}-{} is not installed", engine, precision));
-  std::unique_ptr<RemoteEngine>& worker = workers_[found->path.string()];
+  std::unique_ptr<RemoteEngine>& worker = workers_[found->command];
   if (!worker || !worker->alive()) {
     worker.reset();
-    worker = std::make_unique<RemoteEngine>(found->path, limits_, stop_);
+    worker = std::make_unique<RemoteEngine>(found->command, limits_, stop_);
   }
   return *worker;
 }

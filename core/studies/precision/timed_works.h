@@ -14,7 +14,7 @@
 
 namespace slipcheck {
 
-/// Workers that are there for timing alone, one for each executable, all in the thread that uses
+/// Workers that are there for timing alone, one for each command, all in the thread that uses
 /// them. One that failed is replaced when it is asked for again.
 class TimingWorkers {
  public:
@@ -28,7 +28,7 @@ class TimingWorkers {
   WorkerLimits limits_;
   const std::atomic<bool>* stop_;
   std::vector<EngineExecutable> installed_ = find_engines();
-  std::map<std::string, std::unique_ptr<RemoteEngine>> workers_;  // by path
+  std::map<WorkerCommand, std::unique_ptr<RemoteEngine>> workers_;
 };
 
 /// A stretch of a scene's run that is representative and short: what is timed of it.
