@@ -80,7 +80,7 @@ void BM_AtRest(benchmark::State& state, const std::string& precision, double rat
                                         0.1 + 0.01 * static_cast<double>(i), 0, kRadius);
   }
   scene.substrate[0].rolling = RollingFriction(0.02);
-  RemoteEngine engine(find_engine("bullet", precision)->path);
+  RemoteEngine engine(find_engine("bullet", precision)->command);
   Settings chosen[2] = {settings_of("physical"), settings_of("physical")};
   const auto settled = static_cast<std::size_t>(20 * rate);
   double step[2] = {kInfinity, kInfinity};

@@ -41,5 +41,6 @@ void add_report_command(CLI::App& app, int& exit_code);
 void add_schema_command(CLI::App& app, int& exit_code);
 void add_stability_command(CLI::App& app, int& exit_code);
 void add_tune_command(CLI::App& app, int& exit_code);
+void add_versions_command(CLI::App& app, int& exit_code);
 
 }  // namespace slipcheck

@@ -8,11 +8,12 @@
 
 namespace slipcheck {
 
-void add_grid_options(CLI::App& command, GridArguments& arguments) {
-  command
-      .add_option("--engines", arguments.engines.engines,
-                  "Engines, separated by commas; else all that are installed")
-      ->delimiter(',');
+void add_grid_options(CLI::App& command, GridArguments& arguments, GridEngines engines) {
+  if (engines == GridEngines::option)
+    command
+        .add_option("--engines", arguments.engines.engines,
+                    "Engines, separated by commas; else all that are installed")
+        ->delimiter(',');
   command
       .add_option("--precisions", arguments.engines.precisions,
                   "single, double, or both with a comma; else what is installed")

@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   add_schema_command(app, exit_code);
   add_stability_command(app, exit_code);
   add_tune_command(app, exit_code);
+  add_versions_command(app, exit_code);
   try {
     const StopScope scope(&interrupted());
     app.parse(argc, argv);

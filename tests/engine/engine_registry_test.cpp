@@ -48,8 +48,8 @@ TEST_F(EngineRegistryTest, FindsWhatIsNamedLikeAnEngineSortedAndFirstDirectoryFi
   EXPECT_EQ(engines[1].engine, "my-own");
   EXPECT_EQ(engines[1].command.program, hyphens);
   EXPECT_EQ(engines[2].command.program, ode);
-  EXPECT_TRUE(find_engine("ode", "double", {folder_ / "a"}).has_value());
-  EXPECT_FALSE(find_engine("ode", "single", {folder_ / "a"}).has_value());
+  EXPECT_TRUE(find_engine("ode", "double", find_engines({folder_ / "a"})).has_value());
+  EXPECT_FALSE(find_engine("ode", "single", find_engines({folder_ / "a"})).has_value());
 }
 
 TEST_F(EngineRegistryTest, TheEnvironmentComesBeforeTheProgramsOwnFolder) {

@@ -62,6 +62,15 @@ std::string scenes_part(const std::vector<SceneRecord>& scenes, const ReportChar
   return html;
 }
 
+/// What has moved, before all that is.
+std::string moved_part(const std::optional<Moved>& moved) {
+  if (!moved) return {};
+  std::string html = "<section id=\"moved\">\n<h2>What has moved</h2>\n";
+  html += html_paragraph("", "", moved->finding);
+  if (!moved->table.rows.empty()) html += html_table(moved->table);
+  return html + "</section>\n";
+}
+
 std::string escaped_lines(std::string_view text) {
   std::string html;
   while (!text.empty()) {
@@ -117,8 +126,8 @@ std::string report_page(const ReportContent& content, PageScript script) {
   html += html_summary(content.scenes) +
           html_context(content.context, content.commands, engines_of(content)) +
           parts_nav(!content.scenes.empty(), !precision.empty(), !stability.empty());
-  html += "</header>\n<main>\n" + scenes_part(content.scenes, charts, standing) + precision +
-          stability + "</main>\n";
+  html += "</header>\n<main>\n" + moved_part(content.moved) +
+          scenes_part(content.scenes, charts, standing) + precision + stability + "</main>\n";
   if (has_script) html += script_part(content, charts);
   return html + kHtmlEnd;
 }
