@@ -1,0 +1,20 @@
+/// Normal impulses of one step, summed over the contact points of each pair.
+export class Touches {
+  #sums = new Map();
+
+  /// Two bodies, in any order, or a body and something < 0.
+  add(first, second, impulse) {
+    if (!(impulse > 0)) return;
+    const [low, high] = second >= 0 && second < first ? [second, first] : [first, second];
+    const key = `${low} ${high}`;
+    const sum = this.#sums.get(key);
+    if (sum) sum[2] += impulse;
+    else this.#sums.set(key, [low, high, impulse]);
+  }
+
+  /// [first, second, impulse] of each pair, by `scale`.
+  pushTo(touches, scale) {
+    for (const [first, second, impulse] of this.#sums.values())
+      touches.push([first, second, impulse * scale]);
+  }
+}
