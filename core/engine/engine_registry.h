@@ -16,8 +16,8 @@ struct EngineExecutable {
   std::string engine;     ///< "bullet"; of one that is there in versions with it, "rapier@0.19.3"
   std::string precision;  ///< "single" or "double"
   WorkerCommand command;
-  std::filesystem::path profiles;              ///< the folder of those shipped with it
-  std::vector<std::filesystem::path> made_of;  ///< files whose bytes tell it from another
+  std::filesystem::path profiles = {};              ///< the folder of those shipped with it
+  std::vector<std::filesystem::path> made_of = {};  ///< files whose bytes tell it from another
 };
 
 /// The engines that the project has an adapter for, sorted, whether built here or not.

@@ -24,15 +24,17 @@ NpmEngine npm_engine(const std::string& name, const JsonNode& node) {
   engine.precision = node["precision"].text();
   if (engine.precision != "single" && engine.precision != "double")
     node["precision"].fault("must be single or double");
-  for (const JsonNode& package : node["also"].items()) engine.also.push_back(package.text());
+  for (const auto& [package, version] : node["also"].members())
+    engine.also.emplace_back(package, version.text());
   engine.node = node["node"].count();
   engine.about = node["about"].text();
   return engine;
 }
 
-fs::path folder_of_environment(const char* variable, const fs::path& below) {
+fs::path folder_of_environment(const char* variable, const char* below) {
   const char* path = std::getenv(variable);
-  return path != nullptr && *path != '\0' ? fs::path(path) / below : fs::path();
+  if (path == nullptr || *path == '\0') return {};
+  return *below == '\0' ? fs::path(path) : fs::path(path) / below;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/engine_registry.h"
@@ -11,14 +12,15 @@ namespace slipcheck {
 /// An engine that npm brings, in any of several versions: its worker is a program for Node.js
 /// beside ours, and each version's packages have a folder of their own.
 struct NpmEngine {
-  std::string name;               ///< "rapier"
-  std::string package;            ///< "@dimforge/rapier3d-compat"
-  std::string versions;           ///< on which its adapter was tried, ">=0.11.0 <0.22.0"
-  std::string usual_version;      ///< where none is named
-  std::string precision;          ///< "single" or "double"
-  std::vector<std::string> also;  ///< packages that its worker needs besides, "cbor-x@1.6.0"
-  std::size_t node = 0;           ///< the lowest major version of Node.js that starts it
-  std::string about;              ///< one line
+  std::string name;           ///< "rapier"
+  std::string package;        ///< "@dimforge/rapier3d-compat"
+  std::string versions;       ///< on which its adapter was tried, ">=0.11.0 <0.22.0"
+  std::string usual_version;  ///< where none is named
+  std::string precision;      ///< "single" or "double"
+  /// Packages that its worker needs besides, with their versions.
+  std::vector<std::pair<std::string, std::string>> also;
+  std::size_t node = 0;  ///< the lowest major version of Node.js that starts it
+  std::string about;     ///< one line
 };
 
 /// Those of catalog.json in npm_worker_folder(), sorted by name; none where there is no such file.

@@ -39,14 +39,18 @@ ProgramEnd run_npm(const std::vector<std::string>& arguments, const fs::path& fo
   }
 }
 
-/// The versions of a package that there are, oldest first; none where npm cannot tell.
+/// The versions of a package that were released, oldest first; none where npm cannot tell.
 std::vector<std::string> published_versions(const std::string& package) {
   try {
     const ProgramEnd end =
         run_npm({"view", package, "versions", "--json"}, fs::temp_directory_path());
     const json versions = json::parse(end.said, nullptr, false);
     if (end.exit_code != 0 || !versions.is_array()) return {};
-    return versions.get<std::vector<std::string>>();
+    auto released = versions.get<std::vector<std::string>>();
+    std::erase_if(released, [](const std::string& version) {
+      return version.find('-') != std::string::npos;
+    });
+    return released;
   } catch (const std::exception&) {
     return {};
   }
@@ -85,10 +89,7 @@ std::string failure_of(const NpmChoice& choice, const std::string& said) {
 /// What the folder is to hold: exact versions and nothing else.
 void write_package_json(const NpmChoice& choice, const fs::path& folder) {
   json dependencies = {{choice.engine.package, choice.version}};
-  for (const std::string& also : choice.engine.also) {
-    const std::size_t at = also.rfind('@');
-    dependencies[also.substr(0, at)] = also.substr(at + 1);
-  }
+  for (const auto& [package, version] : choice.engine.also) dependencies[package] = version;
   const json package = {{"name", "slipcheck-engine"},
                         {"private", true},
                         {"description", "an engine for slipcheck: " + choice.name()},
@@ -129,14 +130,14 @@ NpmChoice npm_choice(const std::string& name) {
   if (engine == engines.end()) {
     std::vector<std::string> names;
     for (const NpmEngine& each : engines) names.push_back(each.name);
-    throw NotInstalled(fmt::format("must be one of the engines that npm brings, {}{}, got {}",
-                                   fmt::join(names, ", "), did_you_mean(family, names), name));
+    throw NotInstalled(fmt::format("{} is none of the engines that npm brings, {}{}", family,
+                                   fmt::join(names, ", "), did_you_mean(family, names)));
   }
   std::string version = engine_version(name);
   if (name.find('@') == std::string::npos) version = engine->usual_version;
   static const std::regex kVersion(R"(\d+\.\d+\.\d+(-[0-9A-Za-z.-]+)?)");
   if (!std::regex_match(version, kVersion))
-    throw NotInstalled(fmt::format("must be an engine and a version as in {}@{}, got {}", family,
+    throw NotInstalled(fmt::format("a version must be three numbers as in {}@{}, got {}", family,
                                    engine->usual_version, name));
   return {*engine, version};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <compare>
+#include <concepts>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -12,8 +13,9 @@ namespace slipcheck {
 struct WorkerCommand {
   WorkerCommand() = default;
   /// A worker that is a program of its own needs no arguments.
-  WorkerCommand(std::filesystem::path to_start, std::vector<std::string> with = {})
-      : program(std::move(to_start)), arguments(std::move(with)) {}
+  template <std::convertible_to<std::filesystem::path> Path>
+  WorkerCommand(const Path& to_start, std::vector<std::string> with = {})
+      : program(to_start), arguments(std::move(with)) {}
   auto operator<=>(const WorkerCommand&) const = default;
 
   std::filesystem::path program;  ///< found by PATH where it is a name alone

@@ -64,6 +64,33 @@ TEST_F(EngineRegistryTest, TheEnvironmentComesBeforeTheProgramsOwnFolder) {
   EXPECT_EQ(directories[3], directories[2].parent_path() / "libexec" / "slipcheck");
 }
 
+TEST(EngineRegistry, VersionsCompareNumberByNumber) {
+  for (const auto& [older, newer] : {std::pair{"0.9.0", "0.11.0"},
+                                     {"0.19.3", "0.21.0"},
+                                     {"1.0", "1.0.1"},
+                                     {"0.8.0-alpha.2", "0.8.0"},
+                                     {"0.8.0-alpha.0", "0.8.0-alpha.2"}}) {
+    EXPECT_TRUE(is_older_version(older, newer)) << older << ' ' << newer;
+    EXPECT_FALSE(is_older_version(newer, older)) << older << ' ' << newer;
+    EXPECT_FALSE(is_older_version(older, older)) << older;
+  }
+  EXPECT_EQ(engine_family("rapier@0.19.3"), "rapier");
+  EXPECT_EQ(engine_version("rapier@0.19.3"), "0.19.3");
+  EXPECT_EQ(engine_family("bullet"), "bullet");
+  EXPECT_EQ(engine_version("bullet"), "");
+}
+
+TEST(EngineRegistry, AnEngineWithoutAVersionIsTheNewest) {
+  const auto engine = [](const char* name) { return EngineExecutable{name, "single", {}, {}, {}}; };
+  const std::vector<EngineExecutable> all = {engine("ode"), engine("rapier@0.9.0"),
+                                             engine("rapier@0.11.0")};
+  EXPECT_EQ(find_engine("rapier", "single", all).value().engine, "rapier@0.11.0");
+  EXPECT_EQ(find_engine("rapier@0.9.0", "single", all).value().engine, "rapier@0.9.0");
+  EXPECT_EQ(find_engine("ode", "single", all).value().engine, "ode");
+  EXPECT_FALSE(find_engine("rapier", "double", all));
+  EXPECT_FALSE(find_engine("rapier@0.10.0", "single", all));
+}
+
 TEST(EngineRegistry, KnownEnginesAreSorted) {
   EXPECT_TRUE(std::is_sorted(known_engines().begin(), known_engines().end()));
   EXPECT_NE(std::find(known_engines().begin(), known_engines().end(), "bullet"),

@@ -140,7 +140,8 @@ class ProfileFilesTest : public test::InFolder {
   void put(const std::string& name) { std::ofstream(folder_ / "profiles" / name) << kHead; }
 
   EngineExecutable executable() const {
-    return {"bullet", "double", folder_ / "slipcheck-engine-bullet-double"};
+    return {"bullet", "double", folder_ / "slipcheck-engine-bullet-double",
+            folder_ / "profiles" / "bullet"};
   }
 };
 
