@@ -33,6 +33,7 @@ Json json_of(const VersionChange& change) {
              {"profile", change.after->profile},
              {"rate", change.after->rate}};
   if (!change.observable.empty()) entry["observable"] = change.observable;
+  if (!change.twins.empty()) entry["twins"] = change.twins;
   entry["moved_in_tolerances"] = number(change.moved);
   const auto reference = change.scene->reference.observables.find(change.observable);
   if (reference != change.scene->reference.observables.end())

@@ -1,6 +1,7 @@
 #include "report/rows/version_rows.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,17 +77,39 @@ VersionChange change_in(const SceneRecord& scene, const RunPair& pair, const Pha
   return change;
 }
 
+/// What has a tolerance, and what looks just the same, as two bodies do that mirror each other.
+struct Told {
+  PhaseSpread spread;
+  std::vector<std::string> twins;
+};
+
+std::vector<Told> told_spreads(const SceneRecord& scene) {
+  std::vector<Told> told;
+  for (const std::string& name : shown_observables(scene, false)) {
+    auto spread = phase_spread(scene, name);
+    if (!spread) continue;
+    const auto twin = std::ranges::find_if(
+        told, [&](const Told& other) { return look_alike(other.spread, *spread); });
+    if (twin == told.end())
+      told.push_back({std::move(*spread), {}});
+    else
+      twin->twins.push_back(name);
+  }
+  return told;
+}
+
 /// Every value that has a tolerance, moved or not.
 std::vector<VersionChange> all_changes(const VersionComparison& comparison) {
   std::vector<VersionChange> changes;
   for (const SceneRecord& scene : comparison.scenes) {
-    std::vector<PhaseSpread> spreads;
-    for (const std::string& name : shown_observables(scene, false))
-      if (auto spread = phase_spread(scene, name)) spreads.push_back(std::move(*spread));
+    const std::vector<Told> spreads = told_spreads(scene);
     for (const RunPair& pair : run_pairs(scene)) {
       if (are_skipped(pair)) continue;
       if (is_ok(*pair.first) && is_ok(*pair.second)) {
-        for (const PhaseSpread& spread : spreads) changes.push_back(change_in(scene, pair, spread));
+        for (const auto& [spread, twins] : spreads) {
+          changes.push_back(change_in(scene, pair, spread));
+          changes.back().twins = twins;
+        }
       } else if (pair.first->status != pair.second->status) {
         VersionChange change{&scene, pair.first, pair.second, ""};
         change.moved = INFINITY;
@@ -137,7 +160,9 @@ std::vector<Cell> cells_of(const VersionChange& change) {
   const auto shown = run.observables.find(change.observable);
   const QuantityFormat format = format_for(
       *change.scene, change.observable, shown == run.observables.end() ? nullptr : &shown->second);
-  cells.push_back({change.observable});
+  cells.push_back({change.twins.empty() ? change.observable
+                                        : fmt::format("{} (and {})", change.observable,
+                                                      fmt::join(change.twins, ", "))});
   cells.push_back(reference_cell(*change.scene, change.observable, format));
   cells.push_back({distribution_text(*change.before, change.observable, format)});
   cells.push_back({distribution_text(run, change.observable, format)});

@@ -25,6 +25,7 @@ struct VersionChange {
   const EngineRecord* before = nullptr;
   const EngineRecord* after = nullptr;
   std::string observable;  ///< with a tolerance; empty: only one of them came to its end
+  std::vector<std::string> twins = {};  ///< others that could not be told apart from it
   /// The worst phase's error [tolerances]; NaN where there is none.
   double error_before = std::numeric_limits<double>::quiet_NaN();
   double error_after = std::numeric_limits<double>::quiet_NaN();
