@@ -71,7 +71,7 @@ async function loads() {
 }
 
 async function charts() {
-  let expected = data.precision.filter(({ charts: all }) => all.length).length + (data.stability?.maps.length ?? 0) + (data.stability?.limits.length ?? 0);
+  let expected = (data.engines?.length ? 1 : 0) + data.precision.filter(({ charts: all }) => all.length).length + (data.stability?.maps.length ?? 0) + (data.stability?.limits.length ?? 0);
   for (const scene of data.scenes) {
     expected += scene.charts.length + (scene.motion?.runs.length ? 1 : 0);
   }

@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 
+#include "report/charts/engine_charts.h"
 #include "report/charts/precision_charts.h"
 #include "report/charts/stability_charts.h"
 
@@ -11,6 +12,8 @@ namespace slipcheck {
 ReportCharts report_charts(const ReportContent& content, ChartExtent extent) {
   ReportCharts charts;
   std::set<std::string> taken;
+  if (auto engines = engine_chart(engine_matrix(content.scenes), taken))
+    charts.engines.push_back(std::move(*engines));
   for (const SceneRecord& scene : content.scenes) {
     std::vector<Chart>& motions = charts.motions.emplace_back();
     if (auto motion = motion_chart(scene, taken)) motions.push_back(std::move(*motion));
@@ -35,6 +38,7 @@ std::vector<Chart> ReportCharts::all() const {
   const auto add = [&](const std::vector<Chart>& charts) {
     all.insert(all.end(), charts.begin(), charts.end());
   };
+  add(engines);
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     add(motions[k]);
     add(scenes[k]);

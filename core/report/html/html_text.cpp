@@ -18,10 +18,12 @@ std::string html_cell(const char* tag, const Cell& cell) {
   const std::string symbol = cell.symbol.empty() ? "" : cell.symbol + " ";
   // Six digits: what agrees in them keeps its order.
   const std::string value = std::isfinite(cell.value) ? fmt::format("{:.6g}", cell.value) : "";
+  std::string text = escaped(symbol + cell.text);
+  if (!cell.link.empty()) text = fmt::format("<a{}>{}</a>", attribute("href", cell.link), text);
   return fmt::format(
       "<{0}{1}{2}>{3}</{0}>", tag,
       attribute("class", cell.css_class.empty() ? class_of(cell.tone) : cell.css_class),
-      attribute("data-value", value), escaped(symbol + cell.text));
+      attribute("data-value", value), text);
 }
 
 }  // namespace

@@ -51,11 +51,9 @@ Json page_data(const ReportContent& content, const ReportCharts& charts) {
   Json stability;
   if (!charts.limits.empty() || !charts.maps.empty())
     stability = {{"maps", page_charts(charts.maps)}, {"limits", page_charts(charts.limits)}};
-  return {{"schema", "slipcheck-page/2"},
-          {"palette", page_palette()},
-          {"scenes", std::move(scenes)},
-          {"precision", std::move(precision)},
-          {"stability", std::move(stability)}};
+  return {{"schema", "slipcheck-page/2"},           {"palette", page_palette()},
+          {"engines", page_charts(charts.engines)}, {"scenes", std::move(scenes)},
+          {"precision", std::move(precision)},      {"stability", std::move(stability)}};
 }
 
 std::string packed_page_data(const ReportContent& content, const ReportCharts& charts) {

@@ -6,9 +6,11 @@
 #include <set>
 #include <string_view>
 
+#include "engine/engine_registry.h"
 #include "report/charts/report_charts.h"
 #include "report/html/html_charts.h"
 #include "report/html/html_engines.h"
+#include "report/html/html_matrix.h"
 #include "report/html/html_page.h"
 #include "report/html/html_precision.h"
 #include "report/html/html_scene.h"
@@ -26,7 +28,7 @@ namespace {
 std::vector<std::string> engines_of(const ReportContent& content) {
   std::set<std::string> engines;
   const auto add = [&](const std::string& engine, const std::string& version) {
-    if (!version.empty()) engines.insert(fmt::format("{} {}", engine, version));
+    if (!version.empty()) engines.insert(fmt::format("{} {}", engine_family(engine), version));
   };
   for (const SceneRecord& scene : content.scenes)
     for (const EngineRecord& run : scene.runs) add(run.engine, run.version);
@@ -127,6 +129,7 @@ std::string report_page(const ReportContent& content, PageScript script) {
           html_context(content.context, content.commands, engines_of(content)) +
           parts_nav(!content.scenes.empty(), !precision.empty(), !stability.empty());
   html += "</header>\n<main>\n" + moved_part(content.moved) +
+          html_matrix(content.scenes, charts, standing) +
           scenes_part(content.scenes, charts, standing) + precision + stability + "</main>\n";
   if (has_script) html += script_part(content, charts);
   return html + kHtmlEnd;

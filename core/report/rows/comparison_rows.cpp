@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/engine_registry.h"
 #include "report/rows/selection.h"
 #include "report/rows/verdict_look.h"
 #include "report/terminal/text.h"
@@ -201,8 +202,8 @@ TextTable reference_table(const SceneRecord& scene, const std::vector<std::strin
 
 std::string run_name(const EngineRecord& run) {
   const std::string version = run.version.empty() ? "" : " " + run.version;
-  return printable(fmt::format("{}{} {}, profile {}, {:g} Hz", run.engine, version, run.precision,
-                               run.profile, run.rate));
+  return printable(fmt::format("{}{} {}, profile {}, {:g} Hz", engine_family(run.engine), version,
+                               run.precision, run.profile, run.rate));
 }
 
 std::string reference_summary(const ReferenceResult& reference) {

@@ -23,6 +23,7 @@ struct Cell {
   double value = std::numeric_limits<double>::quiet_NaN();
   std::string symbol = {};     ///< of a verdict, before its word
   std::string css_class = {};  ///< on the page, where the tone does not say it
+  std::string link = {};       ///< on the page, where it leads to; empty: nowhere
 };
 
 /// What is said of a row beneath its table; of no row where there is no name.

@@ -63,6 +63,7 @@ async function start() {
   if (data.schema !== kSchema) throw new Error(`data of the schema ${data.schema}, not ${kSchema}`);
   set_palette(data.palette);
   plots('scene', (parent, k) => fill_scene(parent, scenes[k], (run) => passes(run)));
+  plots('engines', (parent) => add_figure(parent, data.engines));
   plots('precision', (parent, k) => { if (data.precision[k].charts.length) add_figure(parent, data.precision[k].charts); });
   plots('map', (parent, k) => add_figure(parent, [data.stability.maps[k]]));
   plots('limits', (parent, k) => add_figure(parent, [data.stability.limits[k]]));
