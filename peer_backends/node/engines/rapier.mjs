@@ -27,7 +27,7 @@ const PARAMETERS = {
   erp: (shipped) => number('erp', '', shipped, 'part of an overlap that a step pushes out',
     { high: 1, candidates: [0, 0.1, 0.2, 0.6, 0.8] }),
   contact_natural_frequency: () => number('contact_natural_frequency', '1/s', NATURAL_FREQUENCY,
-    'of the spring that pushes an overlap out', { ...search(0.1, 1000, true) }),
+    'of the spring that pushes an overlap out', { high: 1e9, ...search(0.1, 1000, true) }),
   lengthUnit: (shipped) => number('length_unit', '', shipped,
     'lengths in a metre as Rapier sees it: a factor on all its thresholds that are lengths or speeds',
     { low: 1e-9, high: 1e9, ...search(1e-4, 100, true) }),
@@ -61,6 +61,12 @@ const OWN_SETTINGS = [
     'pair by pair, through combine rules and collision groups'),
   flag('sleeping', true, 'a body that is slow for two seconds stops'),
   flag('ccd', false, 'bodies are swept'),
+  flag('rigid_contacts', false,
+    'each small step pushes overlaps out whole: contact_natural_frequency 1e6, or erp 1 where there ' +
+    'is none; from 0.20 on not at what is fixed, whose softness cannot be set'),
+  flag('contact_recycling', true,
+    'a contact of bodies that have hardly moved, by 5 cm times length_unit, is not looked at again ' +
+    '(from 0.20 on); off: the colliders have a hook, for which Rapier leaves this out'),
   number('linear_damping', '1/s', 0, 'of each body', { candidates: [] }),
   number('angular_damping', '1/s', 0, 'of each body', { candidates: [] }),
   word('surface_velocity', ['this_step', 'step_end'], 'this_step',
@@ -68,6 +74,18 @@ const OWN_SETTINGS = [
     '(kinematicPositionBased), or that at its end (kinematicVelocityBased)'),
   ...unitSettings,
 ];
+
+/// Whether this version keeps contacts over steps.
+const recycles = (version) => {
+  const [major, minor] = version.split('.').map(Number);
+  return major > 0 || minor >= 20;
+};
+
+/// The settings with what rigid_contacts stands for.
+function withRigidContacts(settings) {
+  if (!settings.rigid_contacts) return settings;
+  return 'erp' in settings ? { ...settings, erp: 1 } : { ...settings, contact_natural_frequency: 1e6 };
+}
 
 /// The properties of IntegrationParameters that this version has, each with its row.
 function parametersOf(rapier) {
@@ -104,8 +122,9 @@ class RapierEngine {
     this.version = version;
     this.precision = 'single';
     this.parameters = parametersOf(rapier);
-    this.settings = [...OWN_SETTINGS.slice(0, 1), ...this.parameters.map(({ row }) => row),
-      ...OWN_SETTINGS.slice(1)];
+    const own = OWN_SETTINGS.map((row) => (row.name === 'contact_recycling' && !recycles(version)
+      ? { ...row, shipped: false, candidates: [] } : row));
+    this.settings = [own[0], ...this.parameters.map(({ row }) => row), ...own.slice(1)];
     this.world = undefined;
   }
 
@@ -113,9 +132,12 @@ class RapierEngine {
     if (scene.periodic.some((length) => length > 0))
       throw new Refused(
         'rapier: the substrate repeats itself, and a Rapier world has no periodic boundaries');
+    if (settings.contact_recycling && !recycles(this.version))
+      throw new Refused(`rapier: contact_recycling is there from 0.20 on, and this is ${this.version}`);
     this.#leave();
     this.units = new Units(scene, settings);
-    this.chosen = settings;
+    this.chosen = withRigidContacts(settings);
+    this.hooks = recycles(this.version) && !settings.contact_recycling ? this.#hooks() : undefined;
     this.scene = this.units.scene(scene);
     this.timeStep = timeStep * this.units.time;
     this.contacts = settings.coefficients === 'fields' ? asTyped(scene) : byPair(scene);
@@ -135,6 +157,7 @@ class RapierEngine {
     const { rapier, scene, chosen, units } = this;
     const world = new rapier.World(vector(gravityOf(scene)));
     this.world = world;
+    this.events = new rapier.EventQueue(true); // each step begins with an empty one
     world.timestep = this.timeStep;
     for (const { property, row } of this.parameters)
       world.integrationParameters[property] = chosen[row.name];
@@ -149,13 +172,13 @@ class RapierEngine {
 
   step() {
     this.#moveSurfaces();
-    this.world.step();
+    this.world.step(this.events, this.hooks);
     ++this.steps;
   }
 
   read(states, touches) {
     const factors = this.units.ofState;
-    this.balls.forEach(({ body }, i) => {
+    this.balls.forEach((body, i) => {
       const parts = [body.translation(), body.linvel(), body.angvel()];
       parts.forEach(({ x, y, z }, p) => {
         const at = 9 * i + 3 * p;
@@ -165,15 +188,26 @@ class RapierEngine {
       });
     });
     const found = new Touches();
-    this.balls.forEach(({ colliders }, i) => {
-      for (const collider of colliders) this.#findTouches(collider, i, found);
+    // Contacts cannot be asked: before 0.18 a step looks for those of the next step at its end.
+    this.events.drainContactForceEvents((event) => {
+      const [i, j] = [event.collider1(), event.collider2()].map((handle) => this.bodyOf.get(handle));
+      const impulse = event.totalForceMagnitude() * this.timeStep;
+      if (i >= 0) found.add(i, j, impulse);
+      else found.add(j, i, impulse);
     });
     found.pushTo(touches, 1 / this.units.impulse);
   }
 
+  /// Every contact is solved.
+  #hooks() {
+    const flags = this.rapier.SolverFlags.COMPUTE_IMPULSE;
+    return { filterContactPair: () => flags, filterIntersectionPair: () => true };
+  }
+
   #leave() {
     this.world?.free();
-    this.world = undefined;
+    this.events?.free();
+    this.world = this.events = undefined;
   }
 
   #addBall(i, [x, y, z, vx, vy, vz, wx, wy, wz]) {
@@ -189,7 +223,7 @@ class RapierEngine {
       .setAngularDamping(chosen.angular_damping);
     if (scene.box) desc.enabledTranslations(true, false, true).enabledRotations(false, true, false);
     const body = world.createRigidBody(desc);
-    const colliders = contacts.balls(i, material).map((contact, k) => {
+    contacts.balls(i, material).forEach((contact, k) => {
       const shape = this.#withContact(rapier.ColliderDesc.ball(radius), contact);
       if (k > 0) shape.setMass(0);
       else if (shape_factor === 0.4) shape.setMass(mass);
@@ -197,11 +231,10 @@ class RapierEngine {
         const inertia = shape_factor * mass * radius * radius;
         shape.setMassProperties(mass, vector([0, 0, 0]), vector([inertia, inertia, inertia]), NO_TURN);
       }
-      const collider = world.createCollider(shape, body);
-      this.bodyOf.set(collider.handle, i);
-      return collider;
+      shape.setActiveEvents(rapier.ActiveEvents.CONTACT_FORCE_EVENTS).setContactForceEventThreshold(0);
+      this.bodyOf.set(world.createCollider(shape, body).handle, i);
     });
-    return { body, colliders };
+    return body;
   }
 
   #addSurfaces() {
@@ -240,6 +273,7 @@ class RapierEngine {
     if (frictionRule) desc.setFrictionCombineRule(rules[frictionRule]);
     if (restitutionRule) desc.setRestitutionCombineRule(rules[restitutionRule]);
     if (groups !== undefined) desc.setCollisionGroups(groups);
+    if (this.hooks) desc.setActiveHooks(this.rapier.ActiveHooks.FILTER_CONTACT_PAIRS);
     return desc;
   }
 
@@ -254,21 +288,6 @@ class RapierEngine {
         body.setTranslation(vector(added(place, this.motion.position(now))), true);
         body.setLinvel(vector(this.motion.velocity(then)), true);
       }
-    }
-  }
-
-  #findTouches(collider, i, found) {
-    const { narrowPhase, colliders, bodies } = this.world;
-    const others = [];
-    const remember = (other) => others.push(other);
-    if (narrowPhase.contactPairsWith) narrowPhase.contactPairsWith(collider.handle, remember);
-    else narrowPhase.contactsWith(collider.handle, remember); // before 0.12
-    for (const other of others) {
-      const j = this.bodyOf.get(other?.handle ?? other);
-      if (j >= 0 && j < i) continue; // seen from the other one
-      this.world.contactPair(collider, colliders.get(other?.handle ?? other), (manifold) => {
-        for (let k = 0; k < manifold.numContacts(); ++k) found.add(i, j, manifold.contactImpulse(k));
-      });
     }
   }
 
