@@ -1,0 +1,299 @@
+// cannon-es: double precision, no rolling or drilling friction. Coefficients belong to pairs of
+// materials; the limit of friction is an impulse of μ m g in each step, whatever its length.
+
+import {
+  FLOOR, LID, WALL, contactOf, dependsOnSpeed, frictionOf, groundOf, materialPairs, naiveBall,
+  naiveSurface, pairRestitution, restitutionAt, surfaceRestitution,
+} from '../kit/contacts.mjs';
+import { Refused } from '../kit/faults.mjs';
+import { Gathered } from '../kit/gathered.mjs';
+import { lacks } from '../kit/lacks.mjs';
+import { surfaceMotion } from '../kit/motion.mjs';
+import { load, versionOf } from '../kit/packages.mjs';
+import { count, flag, number, search, word } from '../kit/settings.mjs';
+import { Touches } from '../kit/touches.mjs';
+import { Units, gravityOf, unitSettings } from '../kit/units.mjs';
+
+const PACKAGE = 'cannon-es';
+
+const SETTINGS = [
+  word('coefficients', ['fields', 'pair'], 'pair',
+    "the scene's coefficients straight in the bodies' materials, which cannon multiplies, and the " +
+    "inertia that it takes a sphere to have; or the scene's inertia and a contact material for each " +
+    'pair, friction times the length of a step'),
+  count('solver_iterations', 10, 'sweeps over the contacts, at most', { low: 1, high: 10000, candidates: [10, 50] }),
+  number('solver_tolerance', '', 1e-7, 'sum of changes at which they end',
+    { candidates: [0, 1e-7], ...search(1e-12, 1e-3, true) }),
+  number('contact_stiffness', 'N/m', 1e7, 'of contacts', { low: 1e-9, high: 1e30, ...search(1e4, 1e12, true) }),
+  number('contact_relaxation', '', 3, 'steps in which an overlap is pushed out',
+    { high: 1e12, ...search(1, 1e9, true) }),
+  number('friction_stiffness', 'N/m', 1e7, 'of friction', { low: 1e-9, high: 1e30, ...search(1e4, 1e12, true) }),
+  number('friction_relaxation', '', 3, 'steps in which a slip is stopped', { high: 1e12, ...search(1, 1e9, true) }),
+  flag('sleeping', false, 'a body that is slow for a second stops'),
+  number('linear_damping', '', 0.01, 'part of the velocity lost in a unit of time', { high: 1, candidates: [0, 0.01] }),
+  number('angular_damping', '', 0.01, 'part of the angular velocity lost in a unit of time',
+    { high: 1, candidates: [0, 0.01] }),
+  word('broadphase', ['naive', 'sap'], 'naive', 'NaiveBroadphase or SAPBroadphase'),
+  word('surface_velocity', ['this_step', 'step_end'], 'this_step',
+    'velocity of a moving substrate, floor or wall as contacts feel it: the mean over the step, or ' +
+    'that at its end'),
+  ...unitSettings,
+];
+
+export async function open(folder) {
+  return new CannonEngine(await load(folder, PACKAGE), versionOf(folder, PACKAGE));
+}
+
+class CannonEngine {
+  constructor(cannon, version) {
+    this.cannon = cannon;
+    this.version = version;
+    this.precision = 'double';
+    this.settings = SETTINGS;
+  }
+
+  configure(scene, settings, timeStep) {
+    if (scene.periodic.some((length) => length > 0))
+      throw new Refused(
+        'cannon-es: the substrate repeats itself, and a cannon-es world has no periodic boundaries');
+    this.units = new Units(scene, settings);
+    this.chosen = settings;
+    this.asTyped = settings.coefficients === 'fields';
+    this.original = scene;
+    this.scene = this.units.scene(scene);
+    this.timeStep = timeStep * this.units.time;
+    this.start(scene.initial, 0);
+    return {
+      settings: this.#applied(scene, timeStep),
+      not_represented: [
+        ...lacks(scene, timeStep, {
+          bounceLaw: !this.asTyped,
+          surfaceVelocity: settings.surface_velocity === 'step_end',
+        }),
+        ...this.#ownLacks(scene),
+      ],
+      left_out: [],
+    };
+  }
+
+  start(states, time) {
+    const { cannon, scene, chosen, units } = this;
+    const world = new cannon.World();
+    this.world = world;
+    world.gravity.set(...gravityOf(scene));
+    // The limit of friction is by the weight on the plane, not by all of gravity.
+    if (!this.asTyped) world.frictionGravity = new cannon.Vec3(0, 0, -scene.gravity);
+    world.allowSleep = chosen.sleeping;
+    if (chosen.broadphase === 'sap') world.broadphase = new cannon.SAPBroadphase(world);
+    world.solver.iterations = chosen.solver_iterations;
+    world.solver.tolerance = chosen.solver_tolerance;
+    this.#setSprings(world.defaultContactMaterial);
+    this.startTime = time * units.time;
+    this.steps = 0;
+    this.indexOf = new Map(); // by a body: its index, or a surface
+    this.materialOf = new Map(); // by a name
+    this.#addSurfaces();
+    const factors = units.ofState;
+    this.balls = scene.bodies.map((_, i) =>
+      this.#addBall(i, Array.from(states.subarray(9 * i, 9 * i + 9), (value, k) => value * factors[k])));
+    if (!this.asTyped) this.#addContactMaterials();
+  }
+
+  step() {
+    this.#moveSurfaces();
+    this.world.step(this.timeStep);
+    ++this.steps;
+  }
+
+  read(states, touches) {
+    const factors = this.units.ofState;
+    this.balls.forEach(({ position, velocity, angularVelocity }, i) => {
+      [position, velocity, angularVelocity].forEach(({ x, y, z }, p) => {
+        const at = 9 * i + 3 * p;
+        states[at] = x / factors[3 * p];
+        states[at + 1] = y / factors[3 * p];
+        states[at + 2] = z / factors[3 * p];
+      });
+    });
+    const found = new Touches();
+    for (const contact of this.world.contacts) {
+      const [i, j] = [contact.bi, contact.bj].map((body) => this.indexOf.get(body));
+      const impulse = contact.multiplier * this.timeStep;
+      if (i >= 0) found.add(i, j, impulse);
+      else found.add(j, i, impulse);
+    }
+    found.pushTo(touches, 1 / this.units.impulse);
+  }
+
+  #material(name, options) {
+    if (!this.materialOf.has(name)) this.materialOf.set(name, new this.cannon.Material(options));
+    return this.materialOf.get(name);
+  }
+
+  #addBall(i, [x, y, z, vx, vy, vz, wx, wy, wz]) {
+    const { cannon, scene, chosen } = this;
+    const { radius, mass, shape_factor, material } = scene.bodies[i];
+    const body = new cannon.Body({
+      mass,
+      shape: new cannon.Sphere(radius),
+      position: new cannon.Vec3(x, y, z),
+      velocity: new cannon.Vec3(vx, vy, vz),
+      angularVelocity: new cannon.Vec3(wx, wy, wz),
+      linearDamping: chosen.linear_damping,
+      angularDamping: chosen.angular_damping,
+      material: this.asTyped ? this.#typed(naiveBall(this.original, i)) : this.#material(material),
+    });
+    if (!this.asTyped) setInertia(body, shape_factor * mass * radius * radius);
+    if (scene.box) {
+      body.linearFactor.set(1, 0, 1);
+      body.angularFactor.set(0, 1, 0);
+    }
+    this.world.addBody(body);
+    this.indexOf.set(body, i);
+    if (scene.bodies.length > 0 && !this.asTyped) this.#followLaws(body, i);
+    return body;
+  }
+
+  #typed({ friction, restitution }) {
+    return new this.cannon.Material({ friction, restitution });
+  }
+
+  /// At the beginning of a contact a body is told of it before it is solved: where restitution
+  /// depends on the approach, this is where it is known.
+  #followLaws(body, i) {
+    const { scene } = this;
+    const laws = [...scene.pairs, ...(scene.box ? [...scene.box.on_floor, ...scene.box.on_wall, ...scene.box.on_lid] : [])];
+    if (!laws.some(dependsOnSpeed)) return;
+    body.addEventListener('collide', ({ body: other, contact }) => {
+      const j = this.indexOf.get(other);
+      if (j < 0 && !scene.box) return;
+      const law = contactOf(scene, i, j);
+      if (!dependsOnSpeed(law)) return;
+      contact.restitution = restitutionAt(law.restitution, Math.abs(contact.getImpactVelocityAlongNormal()));
+    });
+  }
+
+  #addSurfaces() {
+    const { box } = this.scene;
+    this.motion = surfaceMotion(this.scene);
+    this.moving = [];
+    const moves = !this.motion.isStill;
+    this.#addSurface(FLOOR, [0, 0, 1], [0, 0, 0], moves);
+    if (!box) return;
+    this.#addSurface(WALL, [1, 0, 0], [0, 0, 0], moves && box.moving_walls);
+    this.#addSurface(WALL, [-1, 0, 0], [box.width, 0, 0], moves && box.moving_walls);
+    if (box.lid) this.#addSurface(LID, [0, 0, -1], [0, 0, box.lid], moves && box.moving_walls);
+  }
+
+  #addSurface(surface, normal, place, moves) {
+    const { cannon } = this;
+    const body = new cannon.Body({
+      mass: 0,
+      type: moves ? cannon.Body.KINEMATIC : cannon.Body.STATIC,
+      shape: new cannon.Plane(),
+      material: this.asTyped ? this.#typed(naiveSurface(this.original, surface)) : this.#material(surface),
+    });
+    const centre = moves ? added(place, this.motion.position(this.startTime)) : place;
+    body.position.set(...centre);
+    if (normal[2] !== 1) // a plane's own normal is z
+      body.quaternion.setFromVectors(new cannon.Vec3(0, 0, 1), new cannon.Vec3(...normal));
+    this.world.addBody(body);
+    this.indexOf.set(body, surface);
+    if (moves) this.moving.push({ body, place });
+  }
+
+  #setSprings(material) {
+    const { chosen } = this;
+    material.contactEquationStiffness = chosen.contact_stiffness;
+    material.contactEquationRelaxation = chosen.contact_relaxation;
+    material.frictionEquationStiffness = chosen.friction_stiffness;
+    material.frictionEquationRelaxation = chosen.friction_relaxation;
+    return material;
+  }
+
+  #addContactMaterials() {
+    const { cannon, original } = this;
+    const pair = (a, b, friction, restitution) =>
+      this.world.addContactMaterial(this.#setSprings(new cannon.ContactMaterial(
+        this.#material(a), this.#material(b), { friction: friction * this.timeStep, restitution })));
+    for (const [i, j] of materialPairs(original))
+      pair(original.bodies[i].material, original.bodies[j].material,
+        frictionOf(contactOf(original, i, j)), pairRestitution(original, i, j));
+    const surfaces = original.box ? [FLOOR, WALL, LID].slice(0, original.box.lid ? 3 : 2) : [FLOOR];
+    original.substrate.forEach((_, material) => {
+      const body = original.bodies.findIndex((each) => each.material === material);
+      if (body < 0) return;
+      for (const surface of surfaces) pair(material, surface, ...onSurface(original, body, surface));
+    });
+  }
+
+  #moveSurfaces() {
+    if (this.moving.length === 0) return;
+    const now = this.startTime + this.steps * this.timeStep;
+    const then = now + this.timeStep;
+    const [from, to] = [this.motion.position(now), this.motion.position(then)];
+    const velocity = this.chosen.surface_velocity === 'step_end'
+      ? this.motion.velocity(then) : to.map((value, k) => (value - from[k]) / this.timeStep);
+    for (const { body, place } of this.moving) {
+      body.position.set(...added(place, from));
+      body.velocity.set(...velocity);
+      body.aabbNeedsUpdate = true;
+    }
+  }
+
+  #ownLacks(scene) {
+    const own = [];
+    const pairs = materialPairs(scene).map(([i, j]) => contactOf(scene, i, j));
+    if (pairs.some((pair) => frictionOf(pair) > 0))
+      own.push({ text: 'friction in collisions (its limit is by the weight)', kind: 'friction in collisions' });
+    const grounds = scene.box ? [] : scene.bodies.map((_, i) => groundOf(scene, i));
+    if (grounds.some(({ kinetic_friction }) => kinetic_friction > 0))
+      own.push({
+        text: 'friction alike in all headings (up to 1.41 times on diagonals)',
+        kind: 'friction alike in all headings',
+      });
+    return own;
+  }
+
+  #applied(scene, timeStep) {
+    const gathered = new Gathered();
+    if (!this.asTyped) {
+      const first = scene.substrate.map((_, material) => scene.bodies.findIndex((b) => b.material === material));
+      for (const i of first.filter((body) => body >= 0 && !scene.box)) {
+        const [friction, restitution] = onSurface(scene, i, FLOOR);
+        gathered.add('friction', i, friction * this.timeStep);
+        gathered.add('substrate_restitution', i, restitution);
+      }
+      for (const [i, j] of materialPairs(scene)) {
+        const contact = contactOf(scene, i, j);
+        gathered.add('restitution', `${i}-${j}`, dependsOnSpeed(contact) ? 'by speed' : contact.restitution);
+        gathered.add('pair_friction', `${i}-${j}`, frictionOf(contact) * this.timeStep);
+      }
+    }
+    const [x, y] = scene.downhill;
+    return {
+      ...this.chosen,
+      ...gathered.settings(),
+      ...this.units.applied(),
+      time_step: timeStep,
+      gravity: scene.gravity,
+      ...(x !== 0 || y !== 0 ? { downhill_x: x, downhill_y: y } : {}),
+    };
+  }
+}
+
+const added = (a, b) => a.map((value, k) => value + b[k]);
+
+/// Friction and restitution of a body on a surface.
+function onSurface(scene, body, surface) {
+  if (scene.box) return [frictionOf(contactOf(scene, body, surface)), surfaceRestitution(scene, body, surface)];
+  const { kinetic_friction, restitution } = groundOf(scene, body);
+  return [kinetic_friction, restitution];
+}
+
+/// cannon takes a body's inertia to be that of the box around it.
+function setInertia(body, inertia) {
+  body.inertia.set(inertia, inertia, inertia);
+  body.invInertia.set(1 / inertia, 1 / inertia, 1 / inertia);
+  body.updateInertiaWorld(true);
+}
