@@ -11,6 +11,7 @@
 
 #include "bullet_backend/coefficients.h"
 #include "bullet_backend/margins.h"
+#include "engine/scene_needs.h"
 
 namespace slipcheck::bullet {
 namespace {

@@ -154,21 +154,4 @@ BodyFields naive_surface(const Scene& scene, int surface) {
   return pair_fields(box_contact(scene, 0, surface), scene.initial[0].velocity - velocity);
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> material_pairs(const Scene& scene) {
-  std::vector<std::vector<std::size_t>> first_two(scene.substrate.size());
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    std::vector<std::size_t>& bodies = first_two[scene.material[i]];
-    if (bodies.size() < 2) bodies.push_back(i);
-  }
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (std::size_t a = 0; a < first_two.size(); ++a) {
-    if (first_two[a].size() == 2) pairs.emplace_back(first_two[a][0], first_two[a][1]);
-    for (std::size_t b = a + 1; b < first_two.size(); ++b) {
-      if (first_two[a].empty() || first_two[b].empty()) continue;
-      pairs.push_back(std::minmax({first_two[a][0], first_two[b][0]}));
-    }
-  }
-  return pairs;
-}
-
 }  // namespace slipcheck::bullet

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "bullet_backend/bullet_settings.h"
@@ -103,9 +102,5 @@ BodyFields naive_ball(const Scene& scene, std::size_t body);
 /// μ_k and restitution of the first body's contact with the substrate, or μ and restitution of its
 /// contact with the box at kFloor, kWall or kLid.
 BodyFields naive_surface(const Scene& scene, int surface);
-
-/// The first two bodies for each two materials, or one material, of which there are two: they stand
-/// for all contacts between balls.
-std::vector<std::pair<std::size_t, std::size_t>> material_pairs(const Scene& scene);
 
 }  // namespace slipcheck::bullet

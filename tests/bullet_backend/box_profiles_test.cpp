@@ -11,6 +11,7 @@
 #include "../support/refusal.h"
 #include "bullet_backend/coefficients.h"
 #include "bullet_box.h"
+#include "engine/scene_needs.h"
 
 namespace slipcheck {
 namespace {
@@ -119,11 +120,11 @@ TEST(BulletBoxProfiles, ASubstrateAfterABoxHasBulletsOwnMargins) {
 TEST(BulletMaterialPairs, StandForAllThatMeet) {
   Scene scene = everything();
   using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
-  EXPECT_EQ(bullet::material_pairs(scene), (Pairs{{0, 1}, {0, 2}}));
+  EXPECT_EQ(material_pairs(scene), (Pairs{{0, 1}, {0, 2}}));
   scene.material = {1, 0, 1};
-  EXPECT_EQ(bullet::material_pairs(scene), (Pairs{{0, 1}, {0, 2}}));
+  EXPECT_EQ(material_pairs(scene), (Pairs{{0, 1}, {0, 2}}));
   scene.material = {1, 1, 1};
-  EXPECT_EQ(bullet::material_pairs(scene), (Pairs{{0, 1}}));
+  EXPECT_EQ(material_pairs(scene), (Pairs{{0, 1}}));
 }
 
 }  // namespace

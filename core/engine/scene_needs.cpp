@@ -1,0 +1,112 @@
+#include "engine/scene_needs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace slipcheck {
+namespace {
+
+bool depends_on_speed(const PairContact& pair) {
+  return !std::holds_alternative<double>(pair.restitution);
+}
+
+bool bounces(const PairContact& pair) {
+  return depends_on_speed(pair) || std::get<double>(pair.restitution) > 0;
+}
+
+/// Slip is neither kept (β0 = −1) nor just stopped (β0 = 0): an engine's friction can only stop it.
+bool reverses_slip(const PairContact& pair) {
+  const double beta0 = pair.tangential_restitution;
+  return pair.friction > 0 && beta0 != 0 && beta0 != -1;
+}
+
+void add_pair(SceneNeeds& needs, const PairContact& pair) {
+  needs.friction |= pair.friction > 0;
+  needs.bounce |= bounces(pair);
+  needs.bounce_law |= depends_on_speed(pair);
+  needs.reversed_slip |= reverses_slip(pair);
+}
+
+/// Whether a body may go further than its radius in a step, so that it can be on the far side of
+/// another before the engine looks again: by its speed at the start, after a fall to the floor, or
+/// on being hit by the floor.
+bool can_pass_in_a_step(const Scene& scene, double time_step) {
+  const double floor_speed = scene.box->floor.largest_speed();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const BodyState& start = scene.initial[i];
+    const double fall = std::max(0.0, 2 * scene.gravity * start.position.z());
+    const double speed = std::max(floor_speed, std::sqrt(start.velocity.squaredNorm() + fall));
+    if (speed * time_step > scene.bodies[i].radius) return true;
+  }
+  return false;
+}
+
+void add_box(SceneNeeds& needs, const Scene& scene, double time_step) {
+  const Box& box = *scene.box;
+  for (const std::size_t material : scene.material) {
+    add_pair(needs, box.on_floor[material]);
+    add_pair(needs, box.on_wall[material]);
+    if (box.lid) add_pair(needs, box.on_lid[material]);
+  }
+  needs.moving_floor = !box.floor.is_still();
+  needs.far_in_a_step = can_pass_in_a_step(scene, time_step);
+}
+
+void add_substrate(SceneNeeds& needs, const Scene& scene) {
+  needs.moving_substrate = !scene.motion.is_still();
+  for (const std::size_t material : scene.material) {
+    const SubstrateContact& ground = scene.substrate[material];
+    needs.friction |= ground.kinetic_friction > 0;
+    needs.static_friction |= ground.static_friction != ground.kinetic_friction;
+    needs.rolling |= !ground.rolling.is_zero();
+    needs.rolling_only |= !ground.rolling.is_zero() && !ground.rolling_while_sliding;
+    needs.rolling_table |= !ground.rolling.is_constant();
+    needs.drilling |= ground.drilling_length > 0;
+    needs.coupled_drilling |= ground.coupled_radius > 0;
+    needs.bounce |= ground.restitution > 0;
+  }
+}
+
+}  // namespace
+
+SceneNeeds needs_of(const Scene& scene, double time_step) {
+  SceneNeeds needs;
+  if (scene.box) {
+    add_box(needs, scene, time_step);
+  } else {
+    add_substrate(needs, scene);
+  }
+  for (const auto& [i, j] : material_pairs(scene)) add_pair(needs, scene.between(i, j));
+  return needs;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> material_pairs(const Scene& scene) {
+  std::vector<std::vector<std::size_t>> first_two(scene.substrate.size());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    std::vector<std::size_t>& bodies = first_two[scene.material[i]];
+    if (bodies.size() < 2) bodies.push_back(i);
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t a = 0; a < first_two.size(); ++a) {
+    if (first_two[a].size() == 2) pairs.emplace_back(first_two[a][0], first_two[a][1]);
+    for (std::size_t b = a + 1; b < first_two.size(); ++b) {
+      if (first_two[a].empty() || first_two[b].empty()) continue;
+      pairs.push_back(std::minmax({first_two[a][0], first_two[b][0]}));
+    }
+  }
+  return pairs;
+}
+
+void LackList::note(bool condition, const char* kind, const char* why) {
+  if (condition) lacks_.push_back({why ? fmt::format("{} ({})", kind, why) : kind, kind});
+}
+
+void LackList::note_threshold(bool condition, double threshold) {
+  if (condition && threshold > 0)
+    lacks_.push_back({fmt::format("restitution below {:.3g} m/s of approach", threshold),
+                      "restitution below … m/s of approach"});
+}
+
+}  // namespace slipcheck

@@ -1,0 +1,78 @@
+#include "engine/scene_needs.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/lacks.h"
+
+namespace slipcheck {
+namespace {
+
+/// Balls of 1 cm, one for each material given, on substrates and with pairs that need nothing.
+Scene balls_of(const std::vector<std::size_t>& materials, std::size_t kinds) {
+  Scene scene;
+  scene.bodies.assign(materials.size(), Sphere{0.01, 0.1, 0.4});
+  scene.initial.resize(materials.size());
+  scene.material = materials;
+  scene.substrate.resize(kinds);
+  scene.pairs.assign(kinds * kinds, PairContact{0.0, 0, -1});
+  return scene;
+}
+
+TEST(SceneNeeds, AMaterialThatNoBodyIsOfNeedsNothing) {
+  Scene scene = balls_of({0}, 2);
+  scene.substrate[1].static_friction = scene.substrate[1].kinetic_friction = 0.3;
+  scene.pairs[3].restitution = 0.9;
+  EXPECT_FALSE(needs_of(scene, 1e-3).friction);
+  EXPECT_FALSE(needs_of(scene, 1e-3).bounce);
+  scene.material[0] = 1;
+  EXPECT_TRUE(needs_of(scene, 1e-3).friction);
+  EXPECT_FALSE(needs_of(scene, 1e-3).static_friction);
+  EXPECT_FALSE(needs_of(scene, 1e-3).bounce) << "a single ball has no pair";
+}
+
+TEST(SceneNeeds, RollingFrictionThatActsOnSlidingBodiesTooIsToldApart) {
+  Scene scene = balls_of({0}, 1);
+  scene.substrate[0].rolling = RollingFriction(0.01);
+  EXPECT_TRUE(needs_of(scene, 1e-3).rolling && needs_of(scene, 1e-3).rolling_only);
+  scene.substrate[0].rolling_while_sliding = true;
+  EXPECT_TRUE(needs_of(scene, 1e-3).rolling);
+  EXPECT_FALSE(needs_of(scene, 1e-3).rolling_only);
+  EXPECT_FALSE(needs_of(scene, 1e-3).rolling_table);
+}
+
+TEST(SceneNeeds, SlipThatIsKeptOrJustStoppedIsNotReversed) {
+  Scene scene = balls_of({0, 0}, 1);
+  scene.pairs[0].friction = 0.2;
+  for (const double beta0 : {-1.0, 0.0, -0.5, 1.0}) {
+    scene.pairs[0].tangential_restitution = beta0;
+    EXPECT_EQ(needs_of(scene, 1e-3).reversed_slip, beta0 != -1 && beta0 != 0) << beta0;
+  }
+}
+
+TEST(SceneNeeds, ABallThatFallsItsRadiusInAStepMayPassAnother) {
+  Scene scene = balls_of({0}, 1);
+  scene.gravity = 10;
+  scene.box.emplace();
+  scene.box->width = 1;
+  scene.box->on_floor = scene.box->on_wall = {PairContact{0.5, 0, -1}};
+  scene.initial[0].position = Vector3(0.5, 0, 0.2);  // 2 m/s on the floor, 1 cm in 5 ms
+  EXPECT_FALSE(needs_of(scene, 4.9e-3).far_in_a_step);
+  EXPECT_TRUE(needs_of(scene, 5.1e-3).far_in_a_step);
+  EXPECT_TRUE(needs_of(scene, 1e-3).bounce);
+}
+
+TEST(LackList, KindsAreWithoutReasonsAndNumbers) {
+  LackList list;
+  list.note(false, lack::kDrilling);
+  list.note(true, lack::kStaticFriction, "one coefficient");
+  list.note_threshold(true, 0);
+  list.note_threshold(true, 0.2);
+  const std::vector<Lack> lacks = list.take();
+  EXPECT_EQ(texts_of(lacks), (std::vector<std::string>{"static friction (one coefficient)",
+                                                       "restitution below 0.2 m/s of approach"}));
+  EXPECT_EQ(lacks[0].kind, "static friction");
+  EXPECT_EQ(lacks[1].kind, "restitution below … m/s of approach");
+}
+
+}  // namespace
+}  // namespace slipcheck
