@@ -11,6 +11,7 @@
 
 #include "bullet_backend/coefficients.h"
 #include "bullet_backend/margins.h"
+#include "engine/gathered_settings.h"
 #include "engine/scene_needs.h"
 
 namespace slipcheck::bullet {
@@ -18,31 +19,6 @@ namespace {
 
 constexpr const char* kBySpeed = "by speed";
 constexpr const char* kBySlip = "by slip";
-
-/// Values of one name for several bodies or pairs, merged into one entry where all are the same.
-class Gathered {
- public:
-  void add(const std::string& name, const std::string& whose, const Setting& value) {
-    values_[name].emplace_back(whose, value);
-  }
-
-  void move_to(Settings& settings) {
-    for (const auto& [name, values] : values_) {
-      const Setting& first = values.front().second;
-      const bool all_alike = std::all_of(values.begin(), values.end(),
-                                         [&](const auto& each) { return each.second == first; });
-      if (all_alike) {
-        settings[name] = first;
-        continue;
-      }
-      for (const auto& [whose, value] : values)
-        settings[fmt::format("{}[{}]", name, whose)] = value;
-    }
-  }
-
- private:
-  std::map<std::string, std::vector<std::pair<std::string, Setting>>> values_;
-};
 
 double number(btScalar value) { return double(value); }
 
@@ -58,7 +34,7 @@ ByIndex find_objects(const btDiscreteDynamicsWorld& world) {
   return objects;
 }
 
-void gather_substrate(Gathered& out, const ByIndex& objects, const Scene& scene,
+void gather_substrate(GatheredSettings& out, const ByIndex& objects, const Scene& scene,
                       const BulletSettings& settings) {
   const btCollisionObject* plane = objects.at(kFloor);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -86,7 +62,7 @@ void gather_substrate(Gathered& out, const ByIndex& objects, const Scene& scene,
 }
 
 /// One body for each material.
-void gather_box(Gathered& out, const ByIndex& objects, const Scene& scene,
+void gather_box(GatheredSettings& out, const ByIndex& objects, const Scene& scene,
                 const BulletSettings& settings) {
   const Box& box = *scene.box;
   std::set<std::size_t> seen;  // materials
@@ -111,7 +87,7 @@ void gather_box(Gathered& out, const ByIndex& objects, const Scene& scene,
   }
 }
 
-void gather_pairs(Gathered& out, const ByIndex& objects, const Scene& scene,
+void gather_pairs(GatheredSettings& out, const ByIndex& objects, const Scene& scene,
                   const BulletSettings& settings) {
   for (const auto& [i, j] : material_pairs(scene)) {
     const btCollisionObject* first = objects.at(static_cast<int>(i));
@@ -127,7 +103,7 @@ void gather_pairs(Gathered& out, const ByIndex& objects, const Scene& scene,
 }
 
 /// Relative to the size of the smaller shape unless the dispatcher is told otherwise.
-void gather_thresholds(Gathered& out, const ByIndex& objects, const Scene& scene) {
+void gather_thresholds(GatheredSettings& out, const ByIndex& objects, const Scene& scene) {
   const auto threshold = [&](std::size_t body) {
     return number(objects.at(static_cast<int>(body))
                       ->getCollisionShape()
@@ -191,7 +167,7 @@ Settings applied_settings(btDiscreteDynamicsWorld& world, const Scene& scene,
     applied["time_unit"] = 1 / units.time;
     applied["mass_unit"] = 1 / units.mass;
   }
-  Gathered by_contact;
+  GatheredSettings by_contact;
   if (scene.box) {
     applied["aabb_margin"] = settings.breaking_threshold * margin_scale(scene);
     applied["broadphase_tree_margin"] = number(gDbvtMargin);

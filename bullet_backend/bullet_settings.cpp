@@ -1,98 +1,28 @@
 #include "bullet_backend/bullet_settings.h"
 
-#include <cassert>
-#include <functional>
 #include <limits>
 #include <utility>
+
+#include "engine/setting_rows.h"
 
 namespace slipcheck::bullet {
 namespace {
 
-/// A row of the table and the way between it and the struct.
-struct Row {
-  SettingInfo info;
-  std::function<void(BulletSettings&, const Setting&)> read;
-  std::function<Setting(const BulletSettings&)> write;
-
-  Row& about(std::string text) {
-    info.about = std::move(text);
-    return *this;
-  }
-  Row& within(double low, double high) {
-    info.low = low;
-    info.high = high;
-    return *this;
-  }
-  Row& try_each(std::vector<Setting> candidates) {
-    info.candidates = std::move(candidates);
-    return *this;
-  }
-  Row& search(double low, double high, bool logarithmic = false) {
-    info.range = SettingInfo::Range{low, high, logarithmic};
-    return *this;
-  }
-};
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Row row(std::string name, Setting shipped) {
-  Row row;
-  row.info.name = std::move(name);
-  row.info.shipped = std::move(shipped);
-  return row;
-}
-
-Row flag(std::string name, bool BulletSettings::*member) {
-  Row made = row(std::move(name), BulletSettings{}.*member);
-  made.read = [member](BulletSettings& to, const Setting& value) {
-    to.*member = std::get<bool>(value);
-  };
-  made.write = [member](const BulletSettings& from) { return Setting(from.*member); };
-  return made.try_each({true, false});
-}
-
-Row number(std::string name, std::string unit, double BulletSettings::*member) {
-  Row made = row(std::move(name), BulletSettings{}.*member);
-  made.info.unit = std::move(unit);
-  made.info.low = 0;
-  made.read = [member](BulletSettings& to, const Setting& value) {
-    to.*member = std::get<double>(value);
-  };
-  made.write = [member](const BulletSettings& from) { return Setting(from.*member); };
-  return made;
-}
-
-Row count(std::string name, int BulletSettings::*member) {
-  Row made = row(std::move(name), static_cast<double>(BulletSettings{}.*member));
-  made.info.whole = true;
-  made.info.low = 0;
-  made.read = [member](BulletSettings& to, const Setting& value) {
-    to.*member = static_cast<int>(std::get<double>(value));
-  };
-  made.write = [member](const BulletSettings& from) {
-    return Setting(static_cast<double>(from.*member));
-  };
-  return made;
-}
-
-template <class Enum>
-Row word(std::string name, Enum BulletSettings::*member, std::vector<std::string> words) {
-  const auto index = [](Enum value) { return static_cast<std::size_t>(value); };
-  Row made = row(std::move(name), words[index(BulletSettings{}.*member)]);
-  made.info.choices = words;
-  for (const std::string& each : words) made.info.candidates.emplace_back(each);
-  made.read = [member, words](BulletSettings& to, const Setting& value) {
-    const std::string& text = std::get<std::string>(value);
-    for (std::size_t k = 0; k < words.size(); ++k)
-      if (words[k] == text) to.*member = static_cast<Enum>(k);
-  };
-  made.write = [member, words, index](const BulletSettings& from) {
-    return Setting(words[index(from.*member)]);
-  };
-  return made;
-}
-
 using S = BulletSettings;
+using Make = SettingRows<S>;
+using Row = Make::Row;
+
+Row flag(std::string name, bool S::*member) { return Make::flag(std::move(name), member); }
+Row number(std::string name, std::string unit, double S::*member) {
+  return Make::number(std::move(name), std::move(unit), member);
+}
+Row count(std::string name, int S::*member) { return Make::count(std::move(name), member); }
+template <class Enum>
+Row word(std::string name, Enum S::*member, std::vector<std::string> words) {
+  return Make::word(std::move(name), member, std::move(words));
+}
 
 std::vector<Row> kinds_and_coefficients() {
   return {
@@ -317,27 +247,12 @@ const std::vector<Row>& rows() {
 }  // namespace
 
 const std::vector<SettingInfo>& setting_table() {
-  static const std::vector<SettingInfo> table = [] {
-    std::vector<SettingInfo> infos;
-    for (const Row& each : rows()) infos.push_back(each.info);
-    return infos;
-  }();
+  static const std::vector<SettingInfo> table = infos_of(rows());
   return table;
 }
 
-BulletSettings read_settings(const Settings& chosen) {
-  BulletSettings settings;
-  for (const Row& each : rows()) {
-    const auto found = chosen.find(each.info.name);
-    if (found != chosen.end()) each.read(settings, found->second);
-  }
-  return settings;
-}
+BulletSettings read_settings(const Settings& chosen) { return read_rows(rows(), chosen); }
 
-Settings write_settings(const BulletSettings& settings) {
-  Settings all;
-  for (const Row& each : rows()) all.emplace(each.info.name, each.write(settings));
-  return all;
-}
+Settings write_settings(const BulletSettings& settings) { return write_rows(rows(), settings); }
 
 }  // namespace slipcheck::bullet

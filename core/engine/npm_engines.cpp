@@ -78,7 +78,7 @@ EngineExecutable npm_worker(const NpmEngine& engine, const std::string& version,
       engine.name + "@" + version,
       engine.precision,
       {"node", {(kit / "main.mjs").string(), engine.name, folder.string()}},
-      kit.parent_path() / "profiles" / engine.name,
+      kit / "profiles" / engine.name,
       {kit / "main.mjs", kit / "engines" / (engine.name + ".mjs"), folder / "package-lock.json"}};
 }
 

@@ -48,7 +48,7 @@ class NpmEnginesTest : public test::InFolder {
     write("workers/node/catalog.json", R"({"ball": {"package": "@balls/ball3d",
       "versions": ">=0.9.0 <2.0.0", "default": "1.0.0", "precision": "single",
       "also": {"cbor-x": "1.6.0"}, "node": 18, "about": "balls"}})");
-    write("workers/profiles/ball/default.yaml",
+    write("workers/node/profiles/ball/default.yaml",
           "slipcheck-profile: 1\nengine: ball\nname: default\n");
     // Speaks the protocol, whatever it is told to run.
     program("node", fmt::format("exec {}\n", (fs::read_symlink("/proc/self/exe").parent_path() /
@@ -117,7 +117,7 @@ TEST_F(NpmEnginesTest, AnEngineIsInstalledInAVersionIntoAFolderOfItsOwnAndFound)
   EXPECT_EQ(newest->engine, "ball@1.0.0");
   const auto older = find_engine("ball@0.9.0", "single");
   ASSERT_TRUE(older);
-  EXPECT_EQ(older->profiles, folder_ / "workers/profiles/ball");
+  EXPECT_EQ(older->profiles, folder_ / "workers/node/profiles/ball");
   EXPECT_EQ(older->command.program, "node");
   EXPECT_EQ(older->command.arguments,
             (std::vector<std::string>{(folder_ / "workers/node/main.mjs").string(), "ball",

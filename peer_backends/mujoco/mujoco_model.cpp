@@ -1,0 +1,178 @@
+#include "peer_backends/mujoco/mujoco_model.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+#include <iterator>
+#include <stdexcept>
+
+#include "peer_backends/mujoco/restitution_spring.h"
+#include "peer_backends/shared/surfaces.h"
+
+namespace slipcheck::mujoco {
+namespace {
+
+using Text = fmt::memory_buffer;
+
+template <class... Args>
+void put(Text& text, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
+}
+
+/// Half the width of a box that stands for a plane which moves, and its thickness [m].
+constexpr double kHalfWidth = 1e4, kThickness = 1;
+
+std::string vector_text(const Vector3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
+
+template <class Enum>
+const char* word(Enum value, std::initializer_list<const char*> words) {
+  return words.begin()[static_cast<std::size_t>(value)];
+}
+
+void put_options(Text& text, const MujocoSetup& setup) {
+  const MujocoSettings& chosen = setup.settings;
+  const Scene& scene = setup.scene;
+  put(text,
+      "<option timestep=\"{}\" gravity=\"{} {} {}\" cone=\"{}\" impratio=\"{}\" solver=\"{}\" "
+      "iterations=\"{}\" tolerance=\"{}\" noslip_iterations=\"{}\" integrator=\"{}\"/>\n",
+      setup.time_step / chosen.substeps, scene.downhill.x(), scene.downhill.y(), -scene.gravity,
+      word(chosen.cone, {"pyramidal", "elliptic"}), chosen.impratio,
+      word(chosen.solver, {"PGS", "CG", "Newton"}), chosen.iterations, chosen.tolerance,
+      chosen.noslip_iterations, word(chosen.integrator, {"Euler", "RK4", "implicit"}));
+  // The solver's tolerance is relative to a mean inertia, in which the stage would be all.
+  put(text, "<statistic meaninertia=\"{}\"/>\n", scene.bodies.front().mass);
+}
+
+void put_ball(Text& text, const Scene& scene, const BodyState& state, std::size_t i) {
+  const Sphere& sphere = scene.bodies[i];
+  const std::string name = ball_name(i);
+  put(text, "<body pos=\"{}\">\n", vector_text(state.position));
+  if (scene.box) {
+    put(text, "<joint name=\"{}\" type=\"slide\" axis=\"1 0 0\"/>\n", name);
+    put(text, "<joint type=\"slide\" axis=\"0 0 1\"/><joint type=\"hinge\" axis=\"0 1 0\"/>\n");
+  } else {
+    put(text, "<freejoint name=\"{}\"/>\n", name);
+  }
+  const double moment = sphere.moment_of_inertia();
+  put(text, "<inertial pos=\"0 0 0\" mass=\"{}\" diaginertia=\"{} {} {}\"/>\n", sphere.mass, moment,
+      moment, moment);
+  put(text, "<geom name=\"{}\" type=\"sphere\" size=\"{}\" contype=\"0\" conaffinity=\"0\"/>\n",
+      name, sphere.radius);
+  put(text, "</body>\n");
+}
+
+void put_surface(Text& text, const peer::Surface& surface, std::size_t k) {
+  const double depth = surface.moves ? kThickness / 2 : 0;
+  const Vector3 place = (surface.offset - depth) * surface.normal;
+  put(text, "<geom name=\"{}\" type=\"{}\" size=\"{}\" pos=\"{}\" zaxis=\"{}\" ", surface_name(k),
+      surface.moves ? "box" : "plane",
+      surface.moves ? fmt::format("{0} {0} {1}", kHalfWidth, depth) : "0 0 1", vector_text(place),
+      vector_text(surface.normal));
+  put(text, "contype=\"0\" conaffinity=\"0\"/>\n");
+}
+
+void put_surfaces(Text& text, const Scene& scene, const std::vector<peer::Surface>& surfaces) {
+  for (std::size_t k = 0; k < surfaces.size(); ++k)
+    if (!surfaces[k].moves) put_surface(text, surfaces[k], k);
+  if (!surfaces.front().moves) return;
+  put(text, "<body>\n");
+  if (scene.box) {
+    put(text, "<joint name=\"stage_z\" type=\"slide\" axis=\"0 0 1\"/>\n");
+  } else {
+    put(text, "<joint name=\"stage_x\" type=\"slide\" axis=\"1 0 0\"/>\n");
+    put(text, "<joint name=\"stage_y\" type=\"slide\" axis=\"0 1 0\"/>\n");
+  }
+  put(text, "<inertial pos=\"0 0 0\" mass=\"{0}\" diaginertia=\"{0} {0} {0}\"/>\n",
+      stage_mass(scene));
+  for (std::size_t k = 0; k < surfaces.size(); ++k)
+    if (surfaces[k].moves) put_surface(text, surfaces[k], k);
+  put(text, "</body>\n");
+}
+
+int dimensions(const MujocoSettings& chosen, const peer::ContactValues& values) {
+  if (chosen.condim > 0) return chosen.condim;
+  if (values.rolling > 0) return 6;
+  if (values.drilling > 0) return 4;
+  return values.friction > 0 ? 3 : 1;
+}
+
+std::string solref(const MujocoSetup& setup, double restitution) {
+  const MujocoSettings& chosen = setup.settings;
+  if (chosen.restitution == RestitutionMap::none || restitution == 0)
+    return fmt::format("{} {}", chosen.solref_timeconst, chosen.solref_dampratio);
+  const double step = setup.time_step / chosen.substeps;
+  const Spring spring = spring_of(restitution, chosen.contact_steps * step);
+  // MuJoCo divides the one by dmax² and the other by dmax.
+  const double d = chosen.solimp_dmax;
+  return fmt::format("{} {}", -spring.stiffness * d * d, -spring.damping * d);
+}
+
+void put_pair(Text& text, const MujocoSetup& setup, int body, int other, const std::string& first,
+              const std::string& second) {
+  const MujocoSettings& chosen = setup.settings;
+  const peer::ContactValues values = values_of(setup, body, other);
+  put(text,
+      "<pair geom1=\"{0}\" geom2=\"{1}\" condim=\"{2}\" friction=\"{3} {3} {4} {5} {5}\" "
+      "solref=\"{6}\" solimp=\"{7} {8} {9}\" margin=\"{10}\"/>\n",
+      first, second, dimensions(chosen, values), values.friction, values.drilling, values.rolling,
+      solref(setup, values.restitution), chosen.solimp_dmin, chosen.solimp_dmax,
+      chosen.solimp_width, chosen.margin);
+}
+
+void put_pairs(Text& text, const MujocoSetup& setup, const std::vector<peer::Surface>& surfaces) {
+  const std::size_t bodies = setup.scene.bodies.size();
+  for (std::size_t i = 0; i < bodies; ++i) {
+    for (std::size_t k = 0; k < surfaces.size(); ++k)
+      put_pair(text, setup, static_cast<int>(i), surfaces[k].index, surface_name(k), ball_name(i));
+    for (std::size_t j = i + 1; j < bodies; ++j)
+      put_pair(text, setup, static_cast<int>(i), static_cast<int>(j), ball_name(i), ball_name(j));
+  }
+}
+
+}  // namespace
+
+std::string ball_name(std::size_t body) { return fmt::format("ball{}", body); }
+std::string surface_name(std::size_t surface) { return fmt::format("surface{}", surface); }
+
+peer::ContactValues values_of(const MujocoSetup& setup, int body, int other) {
+  peer::ContactValues typed = peer::typed_values(setup.scene, body, other);
+  if (setup.settings.coefficients == CoefficientMap::fields) return typed;
+  peer::ContactValues values = peer::exact_values(setup.scene, body, other, {});
+  values.restitution = typed.restitution;  // one number of a law
+  return values;
+}
+
+double stage_mass(const Scene& scene) {
+  double mass = 0;
+  for (const Sphere& body : scene.bodies) mass += body.mass;
+  return 1e6 * mass;
+}
+
+std::string mjcf(const MujocoSetup& setup, std::span<const BodyState> states) {
+  const std::vector<peer::Surface> surfaces = peer::surfaces_of(setup.scene);
+  Text text;
+  put(text, "<mujoco>\n<compiler angle=\"radian\"/>\n");
+  put_options(text, setup);
+  put(text, "<worldbody>\n");
+  put_surfaces(text, setup.scene, surfaces);
+  for (std::size_t i = 0; i < states.size(); ++i) put_ball(text, setup.scene, states[i], i);
+  put(text, "</worldbody>\n<contact>\n");
+  put_pairs(text, setup, surfaces);
+  put(text, "</contact>\n</mujoco>\n");
+  return fmt::to_string(text);
+}
+
+Model compile(const std::string& mjcf) {
+  const auto files = std::make_unique<mjVFS>();
+  mj_defaultVFS(files.get());
+  mj_makeEmptyFileVFS(files.get(), "scene.xml", static_cast<int>(mjcf.size()));
+  std::memcpy(files->filedata[0], mjcf.data(), mjcf.size());
+  std::array<char, 1000> error{};
+  Model model(mj_loadXML("scene.xml", files.get(), error.data(), static_cast<int>(error.size())));
+  mj_deleteVFS(files.get());
+  if (!model) throw std::runtime_error(fmt::format("mujoco: {}", error.data()));
+  return model;
+}
+
+}  // namespace slipcheck::mujoco

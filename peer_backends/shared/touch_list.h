@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "peer_backends/shared/contact_values.h"
+
+namespace slipcheck::peer {
+
+/// Normal impulses of a step, summed over the contact points of each two that touch. Those of a
+/// box's walls and lid are nobody's business.
+class TouchList {
+ public:
+  void clear() { impulses_.clear(); }
+
+  /// Between two bodies, or a body and a surface, in any order; `impulse` [N s].
+  void add(int first, int second, double impulse) {
+    if (first < 0 || (second >= 0 && second < first)) std::swap(first, second);
+    if (second == kWall || second == kLid || !(impulse > 0)) return;
+    impulses_[{first, second}] += impulse;
+  }
+
+  void write(std::vector<Touch>& touches) const {
+    touches.clear();
+    for (const auto& [pair, impulse] : impulses_)
+      touches.push_back({pair.first, pair.second, impulse});
+  }
+
+ private:
+  std::map<std::pair<int, int>, double> impulses_;
+};
+
+}  // namespace slipcheck::peer
