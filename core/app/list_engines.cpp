@@ -7,7 +7,6 @@
 #include <set>
 
 #include "engine/engine_registry.h"
-#include "engine/npm_engines.h"
 #include "engine/profile.h"
 #include "engine/remote_engine.h"
 
@@ -79,14 +78,12 @@ Json list_engines() {
     }
     list.push_back(std::move(entry));
   }
-  const auto note_missing = [&](const std::string& engine, const std::string& reason) {
+  for (const auto& [name, from] : known_engines())
     if (std::ranges::none_of(
-            found, [&](const EngineExecutable& e) { return engine_family(e.engine) == engine; }))
-      list.push_back(Json{{"engine", engine}, {"status", "skipped"}, {"reason", reason}});
-  };
-  for (const std::string& engine : known_engines()) note_missing(engine, "not installed");
-  for (const NpmEngine& engine : npm_engines())
-    note_missing(engine.name, fmt::format("not installed: slipcheck engines add {}", engine.name));
+            found, [&](const EngineExecutable& e) { return engine_family(e.engine) == name; }))
+      list.push_back(Json{{"engine", name},
+                          {"status", "skipped"},
+                          {"reason", fmt::format("not installed: {}", from)}});
   return list;
 }
 

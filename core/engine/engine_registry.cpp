@@ -54,11 +54,36 @@ bool is_executable(const fs::path& path) {
 
 }  // namespace
 
-const std::vector<std::string>& known_engines() {
-  static const std::vector<std::string> names = {
-      "bullet",
+std::vector<KnownEngine> known_engines() {
+  std::vector<KnownEngine> engines = {
+      {"bullet", "Debian package libbullet-dev"},
+      {"dart", "Debian package libdart-dev"},
+      {"lammps", "Debian package liblammps-dev"},
+      {"mujoco", "Debian package libmujoco-dev"},
+      {"ode", "Debian package libode-dev"},
+      {"siconos", "Debian package libsiconos-kernel-dev"},
+      {"simbody", "Debian package libsimbody-dev"},
   };
-  return names;
+  for (const NpmEngine& engine : npm_engines()) {
+    const std::string command = "slipcheck engines add " + engine.name;
+    const auto known = std::ranges::find(engines, engine.name, &KnownEngine::name);
+    if (known == engines.end())
+      engines.push_back({engine.name, command});
+    else
+      known->from += ", or " + command;
+  }
+  std::ranges::sort(engines, {}, &KnownEngine::name);
+  return engines;
+}
+
+std::string not_installed_text(const std::string& engine, const std::string& precision) {
+  std::string text = engine + " (" + precision + ") is not installed";
+  const std::vector<KnownEngine> engines = known_engines();
+  const auto known = std::ranges::find(engines, engine_family(engine), &KnownEngine::name);
+  if (known == engines.end()) return text;
+  const std::string version = engine_version(engine);
+  return text + ": " +
+         (version.empty() ? known->from : "slipcheck engines add " + engine + " may have it");
 }
 
 std::vector<fs::path> engine_directories() {

@@ -20,8 +20,16 @@ struct EngineExecutable {
   std::vector<std::filesystem::path> made_of = {};  ///< files whose bytes tell it from another
 };
 
-/// The engines that the project has an adapter for, sorted, whether built here or not.
-const std::vector<std::string>& known_engines();
+/// An engine that the project has an adapter for, whether built here or not.
+struct KnownEngine {
+  std::string name;  ///< "bullet"
+  std::string from;  ///< what it takes: "Debian package libbullet-dev"
+};
+
+/// Those of packages and those that npm brings, sorted by name.
+std::vector<KnownEngine> known_engines();
+/// "rapier@0.19.3 (single) is not installed: slipcheck engines add rapier@0.19.3"
+std::string not_installed_text(const std::string& engine, const std::string& precision);
 
 /// "rapier" of "rapier@0.19.3", "bullet" of "bullet".
 std::string engine_family(std::string_view engine);

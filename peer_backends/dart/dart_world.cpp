@@ -139,7 +139,6 @@ struct DartWorld::Parts {
     }
     world->step();
     ++steps;
-    touches.clear();
     for (const auto& contact : world->getLastCollisionResult().getContacts())
       touches.add(index_of(contact.collisionObject1->getShapeFrame()),
                   index_of(contact.collisionObject2->getShapeFrame()),
@@ -187,6 +186,8 @@ DartWorld::DartWorld(const DartSetup& setup, std::span<const BodyState> states, 
 DartWorld::~DartWorld() = default;
 
 void DartWorld::step() { parts_->step(); }
+
+void DartWorld::forget_touches() { parts_->touches.clear(); }
 
 void DartWorld::look(Frame& frame) const {
   const double unit = parts_->unit;

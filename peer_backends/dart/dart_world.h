@@ -15,6 +15,7 @@ namespace slipcheck::dart_engine {
 class DartWorld {
  public:
   using Chosen = DartSettings;
+  static constexpr bool kShowsParts = true;
   using DartSetup = peer::Setup<Chosen>;
 
   static EngineInfo info();
@@ -27,6 +28,7 @@ class DartWorld {
   ~DartWorld();
 
   void step();
+  void forget_touches();
   void look(Frame& frame) const;
   Settings applied() const;
 

@@ -97,27 +97,34 @@ int dimensions(const MujocoSettings& chosen, const peer::ContactValues& values) 
   return values.friction > 0 ? 3 : 1;
 }
 
-std::string solref(const MujocoSetup& setup, double restitution) {
+/// What a pair's solref and solimp say in XML.
+struct Reference {
+  std::string solref, solimp;
+};
+
+Reference reference(const MujocoSetup& setup, double restitution) {
   const MujocoSettings& chosen = setup.settings;
   if (chosen.restitution == RestitutionMap::none || restitution == 0)
-    return fmt::format("{} {}", chosen.solref_timeconst, chosen.solref_dampratio);
+    return {fmt::format("{} {}", chosen.solref_timeconst, chosen.solref_dampratio),
+            fmt::format("{} {} {}", chosen.solimp_dmin, chosen.solimp_dmax, chosen.solimp_width)};
   const double step = setup.time_step / chosen.substeps;
   const Spring spring = spring_of(restitution, chosen.contact_steps * step);
-  // MuJoCo divides the one by dmax² and the other by dmax.
-  const double d = chosen.solimp_dmax;
-  return fmt::format("{} {}", -spring.stiffness * d * d, -spring.damping * d);
+  // A spring is what it says as far as d is 1. MuJoCo divides stiffness by d² and damping by d.
+  constexpr double d = 0.9999;  // mjMAXIMP
+  return {fmt::format("{} {}", -spring.stiffness * d * d, -spring.damping * d),
+          fmt::format("{} {} {}", d, d, chosen.solimp_width)};
 }
 
 void put_pair(Text& text, const MujocoSetup& setup, int body, int other, const std::string& first,
               const std::string& second) {
   const MujocoSettings& chosen = setup.settings;
   const peer::ContactValues values = values_of(setup, body, other);
+  const Reference pair = reference(setup, values.restitution);
   put(text,
       "<pair geom1=\"{0}\" geom2=\"{1}\" condim=\"{2}\" friction=\"{3} {3} {4} {5} {5}\" "
-      "solref=\"{6}\" solimp=\"{7} {8} {9}\" margin=\"{10}\"/>\n",
+      "solref=\"{6}\" solimp=\"{7}\" margin=\"{8}\"/>\n",
       first, second, dimensions(chosen, values), values.friction, values.drilling, values.rolling,
-      solref(setup, values.restitution), chosen.solimp_dmin, chosen.solimp_dmax,
-      chosen.solimp_width, chosen.margin);
+      pair.solref, pair.solimp, chosen.margin);
 }
 
 void put_pairs(Text& text, const MujocoSetup& setup, const std::vector<peer::Surface>& surfaces) {

@@ -99,7 +99,6 @@ struct MujocoWorld::Parts {
     move_stage();
     mj_step(model.get(), data.get());
     ++steps;
-    touches.clear();
     for (int k = 0; k < data->ncon; ++k) {
       const mjContact& contact = data->contact[k];
       if (contact.efc_address < 0) continue;
@@ -176,6 +175,8 @@ MujocoWorld::MujocoWorld(const MujocoSetup& setup, std::span<const BodyState> st
 MujocoWorld::~MujocoWorld() = default;
 
 void MujocoWorld::step() { parts_->step(); }
+
+void MujocoWorld::forget_touches() { parts_->touches.clear(); }
 
 void MujocoWorld::look(Frame& frame) const {
   frame.bodies.clear();

@@ -16,6 +16,7 @@ namespace slipcheck::mujoco {
 class MujocoWorld {
  public:
   using Chosen = MujocoSettings;
+  static constexpr bool kShowsParts = false;
 
   static EngineInfo info();
   static Chosen read(const Settings& chosen) { return read_settings(chosen); }
@@ -27,6 +28,7 @@ class MujocoWorld {
   ~MujocoWorld();
 
   void step();
+  void forget_touches();
   void look(Frame& frame) const;
   Settings applied() const;
 

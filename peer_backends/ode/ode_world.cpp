@@ -174,7 +174,6 @@ struct OdeWorld::Parts {
     } else {
       dWorldQuickStep(world, time_step);
     }
-    touches.clear();
     for (const Point& point : points) count(point);
     dJointGroupEmpty(contacts);
     ++steps;
@@ -231,6 +230,8 @@ OdeWorld::OdeWorld(const OdeSetup& setup, std::span<const BodyState> states, dou
 OdeWorld::~OdeWorld() = default;
 
 void OdeWorld::step() { parts_->step(); }
+
+void OdeWorld::forget_touches() { parts_->touches.clear(); }
 
 void OdeWorld::look(Frame& frame) const {
   frame.bodies.clear();

@@ -16,6 +16,7 @@ namespace slipcheck::ode {
 class OdeWorld {
  public:
   using Chosen = OdeSettings;
+  static constexpr bool kShowsParts = true;
   using OdeSetup = peer::Setup<Chosen>;
 
   static EngineInfo info();
@@ -28,6 +29,7 @@ class OdeWorld {
   ~OdeWorld();
 
   void step();
+  void forget_touches();
   void look(Frame& frame) const;
   Settings applied() const;
 

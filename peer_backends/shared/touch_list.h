@@ -8,7 +8,7 @@
 
 namespace slipcheck::peer {
 
-/// Normal impulses of a step, summed over the contact points of each two that touch. Those of a
+/// Normal impulses since clear(), summed over the contact points of each two that touch. Those of a
 /// box's walls and lid are nobody's business.
 class TouchList {
  public:

@@ -26,7 +26,10 @@ struct Setup {
 ///   static std::string refusal(const Setup<Chosen>&), empty where there is none;
 ///   static std::vector<Lack> lacks(const Setup<Chosen>&);
 ///   World(const Setup<Chosen>&, std::span<const BodyState>, double time);
-///   Settings applied() const; void step(), one of its own; void look(Frame&), bodies and touches.
+///   Settings applied() const; void step(), one of its own;
+///   void look(Frame&), bodies and the touches since forget_touches().
+///   kShowsParts: its own steps are shown. Where a contact lasts many of them it is no collision in
+///   any one, and the harness sees the whole of it between steps of its own.
 template <class World>
 class WorldEngine final : public Engine {
  public:
@@ -55,11 +58,14 @@ class WorldEngine final : public Engine {
   void step() override {
     const int substeps = setup_->settings.substeps;
     parts_.clear();
+    world_->forget_touches();
     for (int k = 1; k <= substeps; ++k) {
       world_->step();
       if (k == substeps) break;
+      if constexpr (!World::kShowsParts) continue;
       world_->look(parts_.emplace_back());
       parts_.back().part = static_cast<double>(k) / substeps;
+      world_->forget_touches();
     }
   }
 

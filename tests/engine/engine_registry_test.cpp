@@ -91,9 +91,12 @@ TEST(EngineRegistry, AnEngineWithoutAVersionIsTheNewest) {
   EXPECT_FALSE(find_engine("rapier@0.10.0", "single", all));
 }
 
-TEST(EngineRegistry, KnownEnginesAreSorted) {
-  EXPECT_TRUE(std::is_sorted(known_engines().begin(), known_engines().end()));
-  EXPECT_NE(std::find(known_engines().begin(), known_engines().end(), "bullet"),
+TEST(EngineRegistry, KnownEnginesAreSortedAndTellWhatTheyTake) {
+  EXPECT_TRUE(std::ranges::is_sorted(known_engines(), {}, &KnownEngine::name));
+  const auto ode = std::ranges::find(known_engines(), "ode", &KnownEngine::name);
+  ASSERT_NE(ode, known_engines().end());
+  EXPECT_EQ(ode->from, "Debian package libode-dev");
+  EXPECT_NE(std::ranges::find(known_engines(), "bullet", &KnownEngine::name),
             known_engines().end());
 }
 

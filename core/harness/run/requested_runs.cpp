@@ -28,7 +28,8 @@ constexpr std::size_t kMostBodies = 400'000;
 
 /// Every engine that the project or this machine knows of.
 std::vector<std::string> engine_names() {
-  std::set<std::string> names(known_engines().begin(), known_engines().end());
+  std::set<std::string> names;
+  for (const KnownEngine& known : known_engines()) names.insert(known.name);
   for (const EngineExecutable& found : find_engines()) names.insert(found.engine);
   return {names.begin(), names.end()};
 }
@@ -51,7 +52,7 @@ class Profiles {
   /// fault in it is noted.
   void choose(const Scenario& scenario, const std::string& key, bool of_grid,
               EngineRecord& record) {
-    if (std::ranges::find(engines_, record.engine) == engines_.end()) {
+    if (std::ranges::find(engines_, engine_family(record.engine)) == engines_.end()) {
       note(fault_at(scenario, key + ".engine",
                     fmt::format("must be one of the engines {}{}", fmt::join(engines_, ", "),
                                 did_you_mean(record.engine, engines_)),

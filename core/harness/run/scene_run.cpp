@@ -124,8 +124,7 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
     EngineRecord& record = *task.record;
     const auto executable = find_engine(record.engine, record.precision, installed);
     if (!executable) {
-      record.reason =
-          fmt::format("slipcheck-engine-{}-{} is not installed", record.engine, record.precision);
+      record.reason = not_installed_text(record.engine, record.precision);
       continue;
     }
     EngineWork& work = works.emplace_back(task, options, workers);
