@@ -92,12 +92,20 @@ TEST(EngineRegistry, AnEngineWithoutAVersionIsTheNewest) {
 }
 
 TEST(EngineRegistry, KnownEnginesAreSortedAndTellWhatTheyTake) {
-  EXPECT_TRUE(std::ranges::is_sorted(known_engines(), {}, &KnownEngine::name));
-  const auto ode = std::ranges::find(known_engines(), "ode", &KnownEngine::name);
-  ASSERT_NE(ode, known_engines().end());
-  EXPECT_EQ(ode->from, "Debian package libode-dev");
-  EXPECT_NE(std::ranges::find(known_engines(), "bullet", &KnownEngine::name),
-            known_engines().end());
+  const std::vector<KnownEngine> known = known_engines();
+  EXPECT_TRUE(std::ranges::is_sorted(known, {}, &KnownEngine::name));
+  const auto from = [&](const std::string& name) {
+    const auto found = std::ranges::find(known, name, &KnownEngine::name);
+    return found == known.end() ? "unknown" : found->from;
+  };
+  EXPECT_EQ(from("ode"), "Debian package libode-dev");
+  EXPECT_EQ(from("bullet"), "Debian package libbullet-dev");
+  EXPECT_EQ(from("rapier"), "slipcheck engines add rapier");
+  EXPECT_EQ(not_installed_text("ode", "double"),
+            "ode (double) is not installed: Debian package libode-dev");
+  EXPECT_EQ(
+      not_installed_text("rapier@0.19.3", "single"),
+      "rapier@0.19.3 (single) is not installed: slipcheck engines add rapier@0.19.3 may have it");
 }
 
 }  // namespace
