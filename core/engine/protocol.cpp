@@ -274,7 +274,10 @@ Bytes encode(const Reply& reply) {
 std::size_t body_length(std::span<const std::uint8_t, kPrefix> prefix) {
   const std::size_t length = read_u32(prefix.data());
   if (length > kMaxMessage) {
-    throw Rubbish(fmt::format("a message of {} bytes, more than {}", length, kMaxMessage));
+    const std::string letters(prefix.begin(), prefix.end());
+    const bool is_text = std::ranges::all_of(letters, [](char c) { return c >= ' ' && c <= '~'; });
+    throw Rubbish(fmt::format("a message of {} bytes, more than {}{}", length, kMaxMessage,
+                              is_text ? fmt::format(": a text that begins \"{}\"?", letters) : ""));
   }
   return length;
 }

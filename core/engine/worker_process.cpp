@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <span>
@@ -234,6 +236,25 @@ void WorkerProcess::fail_because_gone() {
     reason = with_words(how_it_ended(status), last_words());
   }
   throw WorkerFailure(Status::crashed, reason);
+}
+
+std::size_t WorkerProcess::unread() const {
+  int waiting = 0;
+  return out_ >= 0 && ioctl(out_, FIONREAD, &waiting) == 0 ? static_cast<std::size_t>(waiting) : 0;
+}
+
+WorkerEnd WorkerProcess::finish(const Bytes& last, bool end_of_input, double patience) {
+  if (pid_ < 0) throw WorkerFailure(Status::crashed, "the worker is gone");
+  // A few bytes: they fit into the socket whatever the worker does.
+  if (!last.empty()) static_cast<void>(send(in_, last.data(), last.size(), MSG_NOSIGNAL));
+  if (end_of_input) shutdown(in_, SHUT_WR);
+  WorkerEnd end;
+  end.exited = has_exited(milliseconds(std::llround(1e3 * std::min(patience, kForever))));
+  end.left_over = unread();
+  const int status = kill_and_reap();
+  end.how = end.exited ? how_it_ended(status) : "went on";
+  end.well = end.exited && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  return end;
 }
 
 bool WorkerProcess::alive() {

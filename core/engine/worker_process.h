@@ -32,6 +32,14 @@ struct WorkerLimits {
   double reply = 10;                          ///< for each reply [s], > 0
 };
 
+/// How a worker ended that was let go.
+struct WorkerEnd {
+  bool exited = false;        ///< by itself, in time
+  std::string how;            ///< "exited with code 0", "killed by signal 11 (…)", "went on"
+  bool well = false;          ///< exited with code 0
+  std::size_t left_over = 0;  ///< what it still wrote and nobody asked for [bytes]
+};
+
 /// A worker seen from the harness: a child process in a process group of its own, with pipes to its
 /// standard streams. Every way in which it can fail ends in WorkerFailure with a reason; the
 /// child is always killed with its group and reaped. Not for use by two threads at once, and
@@ -55,6 +63,14 @@ class WorkerProcess {
 
   /// Ends the worker because of something in its reply: throws WorkerFailure with that reason.
   [[noreturn]] void fail(WorkerFailure::Status status, const std::string& reason);
+
+  /// What the worker has written that nobody asked for, so far [bytes].
+  std::size_t unread() const;
+
+  /// Sends a last message, which may be empty or a part of one, ends the input where
+  /// `end_of_input`, and waits up to `patience` [s] for the worker to exit. Then it is gone in any
+  /// case. Throws WorkerFailure where it is gone already.
+  WorkerEnd finish(const protocol::Bytes& last, bool end_of_input, double patience);
 
   /// Whether another exchange has a chance. A worker that died meanwhile is noticed.
   bool alive();

@@ -1,0 +1,149 @@
+// Scenes that an engine may refuse, but must not fall over.
+
+#include <fmt/format.h>
+
+#include "studies/conformance/checks.h"
+#include "studies/conformance/trial_scenes.h"
+
+namespace slipcheck {
+namespace {
+
+constexpr std::size_t kSteps = 20;
+
+/// Refused with a reason, or run.
+std::string take(const Trial& trial, const Scene& scene, std::size_t steps = kSteps) {
+  RemoteEngine engine = trial.engine();
+  try {
+    const Applied applied = engine.configure(scene, {}, kStep);
+    run(engine, scene, steps, 0.25);
+    std::string lacks;
+    for (const Lack& lack : applied.not_represented)
+      lacks += (lacks.empty() ? ", not represented: " : "; ") + lack.text;
+    return "runs" + lacks;
+  } catch (const Refused& refused) {
+    if (*refused.what() == '\0') throw Breach("it is refused without a reason");
+    const Scene plain = one_sphere(0);
+    engine.configure(plain, {}, kStep);
+    run(engine, plain, 1);
+    return fmt::format("refused: {}", refused.what());
+  }
+}
+
+std::string many_bodies(const Trial& trial) { return take(trial, spheres_on_plane(400), 10); }
+
+std::string open_box(const Trial& trial) { return take(trial, spheres_in_box()); }
+
+std::string moving_box_with_lid(const Trial& trial) {
+  Scene scene = spheres_in_box();
+  scene.box->moving_walls = true;
+  scene.box->lid = 0.3;
+  return take(trial, scene);
+}
+
+std::string periodic_plane(const Trial& trial) {
+  Scene scene = spheres_on_plane(3);
+  scene.periodic = {0.3, 0.3};
+  return take(trial, scene);
+}
+
+std::string tilted_plane(const Trial& trial) {
+  Scene scene = spheres_on_plane(1);
+  scene.downhill = {0.5, -0.8};
+  return take(trial, scene);
+}
+
+std::string moved_plane(const Trial& trial, const SubstrateMotion& motion) {
+  Scene scene = spheres_on_plane(1);
+  scene.motion = motion;
+  return take(trial, scene);
+}
+
+std::string belt(const Trial& trial) {
+  return moved_plane(trial, SubstrateMotion::constant({0.2, -0.1}));
+}
+
+std::string shaken_plane(const Trial& trial) {
+  return moved_plane(trial, SubstrateMotion::oscillation({0.01, 0.002}, 5, 0.3));
+}
+
+std::string plane_by_table(const Trial& trial) {
+  return moved_plane(trial,
+                     SubstrateMotion::table({{0, {0, 0}}, {0.26, {0.01, 0}}, {0.5, {0, 0}}}));
+}
+
+std::string confined(const Trial& trial) {
+  Scene scene = two_that_meet(0.5);
+  scene.confined = true;
+  return take(trial, scene, 100);
+}
+
+std::string by_law(const Trial& trial, const RestitutionLaw& law) {
+  Scene scene = two_that_meet(0.5);
+  scene.pairs = {{law, 0.2, 0.5}};
+  return take(trial, scene, 100);
+}
+
+std::string power_law(const Trial& trial) { return by_law(trial, PowerLawRestitution{}); }
+
+std::string tabulated(const Trial& trial) {
+  return by_law(trial, TabulatedRestitution{-2, 0.5, {3, 2, 1}, {-1, -2, -3}});
+}
+
+std::string all_frictions(const Trial& trial) {
+  Scene scene = spheres_on_plane(2);
+  SubstrateContact& ground = scene.substrate[0];
+  ground.static_friction = 0.5;
+  ground.rolling = RollingFriction({{0, 0.001}, {0.5, 0.002}});
+  ground.drilling_length = 1e-4;
+  ground.coupled_radius = 2e-4;
+  ground.rolling_while_sliding = true;
+  for (BodyState& state : scene.initial) {
+    state.velocity = {0.3, 0.2, 0};
+    state.angular_velocity = {5, 10, 40};
+  }
+  return take(trial, scene);
+}
+
+std::string two_materials(const Trial& trial) {
+  Scene scene = spheres_on_plane(3);
+  scene.bodies[1] = {2 * kTrialRadius, 0.01, 2.0 / 3};
+  scene.initial[1].position = {0.1, 0.1, 2 * kTrialRadius};
+  scene.material = {0, 1, 0};
+  SubstrateContact smooth;
+  scene.substrate.push_back(smooth);
+  scene.pairs = {{0.8, 0.3, 0}, {0.5, 0, -1}, {0.5, 0, -1}, {0.9, 0.1, 0}};
+  return take(trial, scene);
+}
+
+std::string weightless(const Trial& trial) {
+  Scene scene = two_that_meet(0.5);
+  scene.gravity = 0;
+  return take(trial, scene, 100);
+}
+
+}  // namespace
+
+std::vector<Check> scene_checks() {
+  const char* mend =
+      "Run the scene, or answer configure with {type: \"refused\", reason: text} and stay usable; "
+      "what of it is "
+      "not done goes into not_represented.";
+  return {
+      {"scene: 400 bodies", mend, many_bodies},
+      {"scene: two materials", mend, two_materials},
+      {"scene: no gravity", mend, weightless},
+      {"scene: all frictions", mend, all_frictions},
+      {"scene: restitution by a power", mend, power_law},
+      {"scene: restitution by a table", mend, tabulated},
+      {"scene: confined to the plane", mend, confined},
+      {"scene: tilted plane", mend, tilted_plane},
+      {"scene: belt", mend, belt},
+      {"scene: shaken plane", mend, shaken_plane},
+      {"scene: plane moved by a table", mend, plane_by_table},
+      {"scene: periodic plane", mend, periodic_plane},
+      {"scene: open box", mend, open_box},
+      {"scene: moving box with a lid", mend, moving_box_with_lid},
+  };
+}
+
+}  // namespace slipcheck
