@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 
 struct ConformanceArguments {
   std::string engine, precision, json;
+  std::vector<std::string> only;
   double reply_limit = WorkerLimits{}.reply;
   bool quiet = false;
 };
@@ -96,6 +97,7 @@ int ask_all(const ConformanceArguments& arguments) {
     ConformanceOptions options;
     options.limits.reply = arguments.reply_limit;
     options.stop = &interrupted();
+    options.only = arguments.only;
     options.progress = [&](std::size_t done, std::size_t total) { bar.set(done, total); };
     reports.push_back(check_conformance(worker, options));
   }
@@ -120,6 +122,9 @@ void add_conformance_command(CLI::App& app, int& exit_code) {
   command->add_option("--reply-limit", arguments->reply_limit, "Time that a reply may take [s]")
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
+  command->add_option("--only", arguments->only, "Checks, by their names, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(conformance_check_names()));
   command->add_option("--json", arguments->json, "The same as JSON; - for stdout");
   command->add_flag("-q,--quiet", arguments->quiet, "No table; the exit code tells");
   command->footer(
@@ -127,6 +132,7 @@ void add_conformance_command(CLI::App& app, int& exit_code) {
       "worker,\n3 it cannot start.\n\n"
       "Examples:\n"
       "  slipcheck conformance bullet\n"
+      "  slipcheck conformance bullet --only \"free fall,rest stays\"\n"
       "  slipcheck conformance docs/example-engine/slipcheck-engine-example-double");
   command->callback([arguments, &exit_code] { exit_code = ask_all(*arguments); });
 }

@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   add_check_command(app, exit_code);
   add_engines_command(app, exit_code);
   add_conformance_command(app, exit_code);
+  add_convert_command(app, exit_code);
   add_explain_command(app, exit_code);
   add_figures_command(app, exit_code);
   add_gas_command(app, exit_code);

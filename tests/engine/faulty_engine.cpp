@@ -1,5 +1,6 @@
 // An engine whose setting `fault` says how it fails, at the tenth step unless its value says
-// otherwise. "ok": bodies fly on straight; the rest is in kFaults below.
+// otherwise; the shipped one is that of the environment, SLIPCHECK_FAULT, or "ok": bodies fly on
+// straight. The rest is in kFaults below.
 
 #include <signal.h>
 #include <unistd.h>
@@ -82,13 +83,19 @@ const std::map<std::string, std::function<void()>> kFaults = {
      [] { write_raw(protocol::encode(protocol::Reply(protocol::Started{}))), sleep_for_ever(); }},
 };
 
+/// That of a run whose profile names none.
+std::string shipped_fault() {
+  const char* fault = std::getenv("SLIPCHECK_FAULT");
+  return fault == nullptr ? "ok" : fault;
+}
+
 class FaultyEngine final : public Engine {
  public:
   EngineInfo info() const override {
     SettingInfo fault, pause;
     fault.name = "fault";
     fault.about = "how it fails";
-    fault.shipped = std::string("ok");
+    fault.shipped = shipped_fault();
     pause.name = "pause";
     pause.about = "before each step where the fault is slow";
     pause.unit = "ms";
@@ -100,7 +107,8 @@ class FaultyEngine final : public Engine {
   }
 
   Applied configure(const Scene&, const Settings& settings, double time_step) override {
-    fault_ = settings.contains("fault") ? std::get<std::string>(settings.at("fault")) : "ok";
+    fault_ =
+        settings.contains("fault") ? std::get<std::string>(settings.at("fault")) : shipped_fault();
     if (fault_ == "refuse") throw Refused("does not like the scene");
     pause_ = settings.contains("pause") ? std::get<double>(settings.at("pause")) : 30;
     time_step_ = time_step;

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
+
 namespace slipcheck {
 namespace {
+
+constexpr std::size_t kSeenWidth = 52;  // the rest is in the JSON
 
 Cell answer_cell(CheckVerdict verdict) {
   if (verdict == CheckVerdict::passed) return {.text = "passed", .tone = Tone::good, .symbol = "✓"};
@@ -18,7 +22,9 @@ TextTable conformance_table(const ConformanceReport& report) {
   table.columns = {{"check"}, {"", false, 2}, {"seen", false, 1}};
   for (const ConformanceCheck& check : report.checks) {
     const bool failed = check.verdict == CheckVerdict::failed;
-    table.rows.push_back({{check.name}, answer_cell(check.verdict), {failed ? "" : check.why}});
+    table.rows.push_back({{check.name},
+                          answer_cell(check.verdict),
+                          {failed ? "" : shortened(check.why, kSeenWidth)}});
     if (failed)
       table.notes.push_back({check.name, fmt::format("{}. To mend: {}", check.why, check.mend)});
   }

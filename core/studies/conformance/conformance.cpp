@@ -18,6 +18,20 @@ std::vector<Check> all_checks() {
   return all;
 }
 
+std::vector<Check> chosen_checks(const std::vector<std::string>& only) {
+  std::vector<Check> checks = all_checks();
+  std::erase_if(checks, [&](const Check& check) {
+    return !only.empty() && std::ranges::find(only, check.name) == only.end();
+  });
+  return checks;
+}
+
+/// Whether the question is about the greeting itself, so that it can be asked without one.
+bool is_about_greeting(const Check& check) {
+  const std::string_view name = check.name;
+  return name == "greeting" || name == "settings table";
+}
+
 ConformanceCheck answer_of(const Check& check, const Trial& trial) {
   const auto failed = [&](const char* why) {
     return ConformanceCheck{check.name, CheckVerdict::failed, why, check.mend};
@@ -74,16 +88,15 @@ ConformanceReport check_conformance(const std::filesystem::path& executable,
   report.executable = executable;
   report.no_start = why_no_start(trial);
   if (report.no_start.empty()) take_names(report, trial);
-  const std::vector<Check> checks = all_checks();
+  const std::vector<Check> checks = chosen_checks(options.only);
+  const auto not_asked = [&](const Check& check, const char* why) {
+    report.checks.push_back({check.name, CheckVerdict::not_judged, why, ""});
+  };
   for (const Check& check : checks) {
-    const bool can_ask = report.checks.empty() || !report.engine.empty() ||
-                         report.checks.size() < 2;  // the greeting and its table are judged apart
     if (!report.no_start.empty())
-      report.checks.push_back(
-          {check.name, CheckVerdict::not_judged, "no worker could be started", ""});
-    else if (!can_ask)
-      report.checks.push_back(
-          {check.name, CheckVerdict::not_judged, "the worker does not greet", ""});
+      not_asked(check, "no worker could be started");
+    else if (report.engine.empty() && !is_about_greeting(check))
+      not_asked(check, "the worker does not greet");
     else
       report.checks.push_back(answer_of(check, trial));
     if (options.progress) options.progress(report.checks.size(), checks.size());

@@ -28,7 +28,7 @@ struct ConformanceReport {
   std::filesystem::path executable;
   std::string engine, version, precision;  ///< as it greets; empty where it does not
   std::string no_start;                    ///< why there is no worker to ask; empty where there is
-  std::vector<ConformanceCheck> checks;    ///< in the order of the list, all of them
+  std::vector<ConformanceCheck> checks;    ///< in the order of the list
 
   std::size_t count(CheckVerdict verdict) const;
 };
@@ -36,6 +36,7 @@ struct ConformanceReport {
 struct ConformanceOptions {
   WorkerLimits limits;
   const std::atomic<bool>* stop = nullptr;
+  std::vector<std::string> only = {};  ///< names of the checks that are wanted; all where empty
   /// Called after each check with how many are done of how many.
   std::function<void(std::size_t, std::size_t)> progress = {};
 };
