@@ -20,9 +20,6 @@ const std::vector<Make::Row>& rows() {
                  "DARTCollisionDetector"),
       Make::word("lcp_solver", &S::lcp_solver, {"dantzig", "pgs"})
           .about("DantzigBoxedLcpSolver with PGS where it fails, or PgsBoxedLcpSolver alone"),
-      Make::word("joint", &S::joint, {"free", "translation_ball"})
-          .about("FreeJoint, which moves a body that turns along a screw within a step, or a "
-                 "translation and a turn of two joints"),
       Make::number("error_reduction_parameter", "", &S::error_reduction_parameter)
           .within(0, 1)
           .try_each({0.0, 0.01})

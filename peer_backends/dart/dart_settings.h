@@ -19,11 +19,6 @@ enum class Detector {
 
 enum class LcpSolver { dantzig, pgs };
 
-enum class JointKind {
-  free,              ///< FreeJoint
-  translation_ball,  ///< TranslationalJoint with the mass, BallJoint below it with the inertia
-};
-
 /// Everything that a profile can choose; the values here are DART's own. Meaning, unit and range
 /// stand once, in setting_table(). Lengths are DART's, which differ from SI where the profile says
 /// so.
@@ -31,7 +26,6 @@ struct DartSettings {
   CoefficientMap coefficients = CoefficientMap::pair;
   Detector collision_detector = Detector::fcl;
   LcpSolver lcp_solver = LcpSolver::dantzig;
-  JointKind joint = JointKind::free;
   double error_reduction_parameter = 0.01, max_error_reduction_velocity = 1e-3, error_allowance = 0,
          constraint_force_mixing = 1e-5;
   double length_unit = 1;

@@ -7,12 +7,9 @@
 #include <dart/constraint/ContactConstraint.hpp>
 #include <dart/constraint/DantzigBoxedLcpSolver.hpp>
 #include <dart/constraint/PgsBoxedLcpSolver.hpp>
-#include <dart/dynamics/BallJoint.hpp>
 #include <dart/dynamics/BoxShape.hpp>
 #include <dart/dynamics/FreeJoint.hpp>
-#include <dart/dynamics/PlaneShape.hpp>
 #include <dart/dynamics/SphereShape.hpp>
-#include <dart/dynamics/TranslationalJoint.hpp>
 #include <dart/simulation/World.hpp>
 
 #include "engine/scene_needs.h"
@@ -27,11 +24,9 @@ namespace {
 namespace dd = ::dart::dynamics;
 using ::dart::constraint::ContactConstraint;
 
-/// Of the box that stands for the plane where a detector knows none [m]: wide, and thin, so that
-/// its top is exact.
-constexpr double kPlaneWidth = 1e5, kPlaneThickness = 1;
-/// Part of the mass that a turning body below a translation keeps; DART takes none of 0.
-constexpr double kNoMass = 1e-12;
+/// Of the box that stands for the plane [m], as in DART's own examples: neither detector knows a
+/// PlaneShape (FCL's makes an upright plate of it). Wide, and thin, so that its top is exact.
+constexpr double kPlaneWidth = 1e4, kPlaneThickness = 1;
 
 dd::Inertia inertia_of(double mass, double moment) {
   return dd::Inertia(mass, Eigen::Vector3d::Zero(), moment * Eigen::Matrix3d::Identity());
@@ -85,19 +80,12 @@ struct DartWorld::Parts {
     plane = dd::Skeleton::create("plane");
     auto pair = plane->createJointAndBodyNodePair<dd::FreeJoint>();
     plane_joint = pair.first;
-    if (setup.settings.collision_detector == Detector::dart) {
-      const double width = kPlaneWidth / unit, thickness = kPlaneThickness / unit;
-      shapes.dress_surface(
-          *pair.second, surface.index,
-          std::make_shared<dd::BoxShape>(Eigen::Vector3d(width, width, thickness)));
-      Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
-      place.translation().z() = -thickness / 2;
-      plane_joint->setTransform(place);
-    } else {
-      shapes.dress_surface(
-          *pair.second, surface.index,
-          std::make_shared<dd::PlaneShape>(Eigen::Vector3d(Eigen::Vector3d::UnitZ()), 0.0));
-    }
+    const double width = kPlaneWidth / unit, thickness = kPlaneThickness / unit;
+    shapes.dress_surface(*pair.second, surface.index,
+                         std::make_shared<dd::BoxShape>(Eigen::Vector3d(width, width, thickness)));
+    Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+    place.translation().z() = -thickness / 2;
+    plane_joint->setTransform(place);
     plane->setMobile(false);  // its velocity is felt all the same
     world->addSkeleton(plane);
   }
@@ -106,27 +94,13 @@ struct DartWorld::Parts {
     const auto shape = std::make_shared<dd::SphereShape>(sphere.radius / unit);
     const double moment = sphere.moment_of_inertia() / (unit * unit);
     const dd::SkeletonPtr ball = dd::Skeleton::create(std::to_string(body));
-    dd::BodyNode* node = nullptr;
-    const Eigen::Vector3d position = state.position / unit, velocity = state.velocity / unit;
-    if (setup.settings.joint == JointKind::free) {
-      auto pair = ball->createJointAndBodyNodePair<dd::FreeJoint>();
-      node = pair.second;
-      node->setInertia(inertia_of(sphere.mass, moment));
-      Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
-      place.translation() = position;
-      pair.first->setTransform(place);
-      pair.first->setLinearVelocity(velocity);
-      pair.first->setAngularVelocity(state.angular_velocity);
-    } else {
-      auto carrier = ball->createJointAndBodyNodePair<dd::TranslationalJoint>();
-      carrier.second->setInertia(inertia_of(sphere.mass, kNoMass * moment));
-      auto turning = carrier.second->createChildJointAndBodyNodePair<dd::BallJoint>();
-      node = turning.second;
-      node->setInertia(inertia_of(kNoMass * sphere.mass, moment));
-      carrier.first->setPositions(position);
-      carrier.first->setVelocities(velocity);
-      turning.first->setVelocities(state.angular_velocity);
-    }
+    const auto [joint, node] = ball->createJointAndBodyNodePair<dd::FreeJoint>();
+    node->setInertia(inertia_of(sphere.mass, moment));
+    Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+    place.translation() = state.position / unit;
+    joint->setTransform(place);
+    joint->setLinearVelocity(state.velocity / unit);
+    joint->setAngularVelocity(state.angular_velocity);
     shapes.dress_ball(*node, body, shape);
     world->addSkeleton(ball);
     balls.push_back(node);
@@ -160,7 +134,7 @@ struct DartWorld::Parts {
 EngineInfo DartWorld::info() { return {"dart", DART_VERSION, "double", setting_table()}; }
 
 std::string DartWorld::refusal(const DartSetup& setup) {
-  if (setup.scene.box) return "a box takes planes that move, and its collision detector has none";
+  if (setup.scene.box) return "only scenes on a substrate, not in a box, are mapped";
   return "";
 }
 

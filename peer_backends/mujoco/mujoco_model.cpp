@@ -40,8 +40,9 @@ void put_options(Text& text, const MujocoSetup& setup) {
       word(chosen.cone, {"pyramidal", "elliptic"}), chosen.impratio,
       word(chosen.solver, {"PGS", "CG", "Newton"}), chosen.iterations, chosen.tolerance,
       chosen.noslip_iterations, word(chosen.integrator, {"Euler", "RK4", "implicit"}));
-  // The solver's tolerance is relative to a mean inertia, in which the stage would be all.
-  put(text, "<statistic meaninertia=\"{}\"/>\n", scene.bodies.front().mass);
+  // The solver's tolerance is relative to a mean inertia, in which a stage would be all.
+  if (peer::surfaces_of(scene).front().moves)
+    put(text, "<statistic meaninertia=\"{}\"/>\n", scene.bodies.front().mass);
 }
 
 void put_ball(Text& text, const Scene& scene, const BodyState& state, std::size_t i) {

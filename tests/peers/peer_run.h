@@ -1,0 +1,123 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "../bullet_backend/bullet_run.h"
+#include "../support/bundled.h"
+#include "scene/contact_scene.h"
+
+namespace slipcheck::test {
+
+inline std::string peer_executable(const std::string& engine) {
+  return std::string(SLIPCHECK_BINARY_DIR) + "/slipcheck-engine-" + engine + "-double";
+}
+
+inline Settings peer_profile(const std::string& engine, const std::string& profile) {
+  return load_profile(std::string(SLIPCHECK_SOURCE_DIR) + "/peer_backends/" + engine +
+                      "/profiles/" + profile + ".yaml")
+      .settings;
+}
+
+/// What a bundled scenario comes to.
+inline Scene bundled_scene(const std::string& name) {
+  return make_contact_scene(bundled(name)).hard;
+}
+
+/// States after every step of a run of an engine of its own.
+using States = std::vector<std::vector<BodyState>>;
+
+/// What a bare program yields is what the worker does with the profile `default`, for a second at
+/// 240 Hz, to the last bit.
+inline void expect_as_bare(const std::string& engine, const Scene& scene, const States& bare) {
+  RemoteEngine worker(peer_executable(engine));
+  const auto frames = run(worker, scene, peer_profile(engine, "default"), 240, bare.size());
+  ASSERT_EQ(frames.size(), bare.size());
+  ASSERT_NE(std::memcmp(frames.front().bodies.data(), frames.back().bodies.data(),
+                        scene.bodies.size() * sizeof(BodyState)),
+            0)
+      << "nothing moves";
+  for (std::size_t n = 0; n < bare.size(); ++n)
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const BodyState &a = frames[n].bodies[i], &b = bare[n][i];
+      ASSERT_EQ(a.position, b.position) << "step " << n << " body " << i;
+      ASSERT_EQ(a.velocity, b.velocity) << "step " << n << " body " << i;
+      ASSERT_EQ(a.angular_velocity, b.angular_velocity) << "step " << n << " body " << i;
+    }
+}
+
+/// Frames of a scene in a worker with a profile's settings and others over them.
+inline std::vector<Frame> run_peer(const std::string& engine, const Scene& scene,
+                                   const std::string& profile, double rate, std::size_t steps,
+                                   const Settings& over = {}) {
+  RemoteEngine worker(peer_executable(engine));
+  return run(worker, scene, with(peer_profile(engine, profile), over), rate, steps);
+}
+
+/// A steel ball of 1 cm that slides along x on the plane.
+inline BodyState sliding_ball(double speed) {
+  BodyState state;
+  state.position = Vector3(0, 0, 0.01);
+  state.velocity = Vector3(speed, 0, 0);
+  return state;
+}
+
+/// A ball at rest on a belt of this speed ends up rolling with 2/7 of it: the angular momentum
+/// about its path on the belt stays, m v + I Ω/R = 0 with Ω R = v − V and I = 2/5 m R².
+inline Scene belt(double speed) {
+  Scene scene = scene_of(steel_ball(0.01), {sliding_ball(0)}, ground_with_friction(0.3));
+  scene.motion = SubstrateMotion::constant(Vector2(speed, 0));
+  return scene;
+}
+
+/// A ball that spins about the vertical, on a plane of this drilling length.
+inline Scene spinning_top(double drilling_length, double spin) {
+  SubstrateContact ground = ground_with_friction(0.3);
+  ground.drilling_length = drilling_length;
+  BodyState state = sliding_ball(0);
+  state.angular_velocity = Vector3(0, 0, spin);
+  return scene_of(steel_ball(0.01), {state}, ground);
+}
+
+/// A ball that rolls at a heading, on a plane of rolling friction.
+inline Scene rolling_ball(double mu_r, double speed, double degrees) {
+  SubstrateContact ground = ground_with_friction(0.3);
+  ground.rolling = RollingFriction(mu_r);
+  return scene_of(steel_ball(0.01), {rolling_towards(0.01, speed, degrees)}, ground);
+}
+
+/// By how much a rolling ball is braked over so many steps, over μ_r g.
+inline double rolling_ratio(const std::string& engine, const std::string& profile, double degrees,
+                            const Settings& over = {}) {
+  constexpr double kMuR = 0.02, kSpeed = 0.5, kRate = 1000;
+  constexpr std::size_t kSteps = 500;
+  const auto frames =
+      run_peer(engine, rolling_ball(kMuR, kSpeed, degrees), profile, kRate, kSteps, over);
+  const double lost = kSpeed - frames.back().bodies[0].velocity.norm();
+  return lost / (kMuR * kGravity * static_cast<double>(kSteps) / kRate);
+}
+
+/// Two balls that meet head-on far from the plane, without gravity; where they part over where they
+/// met, `phase` of a step into it.
+inline double head_on_restitution(const std::string& engine, const std::string& profile,
+                                  const RestitutionLaw& law, double speed, double phase,
+                                  double rate, const Settings& over = {}) {
+  PairContact pair;
+  pair.restitution = law;
+  const double x = 0.01 + (3 + phase) * speed / rate / 2;
+  BodyState left, right;
+  left.position = Vector3(-x, 0, 1);
+  right.position = Vector3(x, 0, 1);
+  left.velocity = Vector3(speed / 2, 0, 0);
+  right.velocity = -left.velocity;
+  Scene scene = scene_of(steel_ball(0.01), {left, right}, {}, pair);
+  scene.gravity = 0;
+  const auto frames = run_peer(engine, scene, profile, rate, 12, over);
+  const auto& last = frames.back().bodies;
+  return (last[1].velocity.x() - last[0].velocity.x()) / speed;
+}
+
+}  // namespace slipcheck::test
