@@ -150,7 +150,7 @@ class CannonEngine {
     }
     this.world.addBody(body);
     this.indexOf.set(body, i);
-    if (scene.bodies.length > 0 && !this.asTyped) this.#followLaws(body, i);
+    if (!this.asTyped) this.#followLaws(body, i);
     return body;
   }
 
@@ -243,6 +243,11 @@ class CannonEngine {
 
   #ownLacks(scene) {
     const own = [];
+    if (this.asTyped)
+      own.push({
+        text: "a sphere's moment of inertia (that of the cube around it)",
+        kind: "a sphere's moment of inertia",
+      });
     const pairs = materialPairs(scene).map(([i, j]) => contactOf(scene, i, j));
     if (pairs.some((pair) => frictionOf(pair) > 0))
       own.push({ text: 'friction in collisions (its limit is by the weight)', kind: 'friction in collisions' });

@@ -11,12 +11,17 @@ import { Gathered } from '../kit/gathered.mjs';
 import { lacks } from '../kit/lacks.mjs';
 import { surfaceMotion } from '../kit/motion.mjs';
 import { load, versionOf } from '../kit/packages.mjs';
-import { count, flag, number, search, word } from '../kit/settings.mjs';
+import { count, flag, number, word } from '../kit/settings.mjs';
+import { rounded } from '../kit/text.mjs';
 import { Touches } from '../kit/touches.mjs';
 import { Units, gravityOf, unitSettings } from '../kit/units.mjs';
 
 const PACKAGE = 'jolt-physics';
 const LAYER = 0; // everything meets everything
+
+/// The principal moments of a sphere are taken for zero where the length of their vector is below
+/// 1e-6 (MotionProperties::SetMassProperties, Vec3::IsNearZero).
+const LEAST_INERTIA = 1e-6 / Math.sqrt(3);
 
 /// Rows that are members of PhysicsSettings, which has their values.
 const WORLD_SETTINGS = {
@@ -109,12 +114,15 @@ class JoltEngine {
     this.start(scene.initial, 0);
     return {
       settings: this.#applied(scene, timeStep),
-      not_represented: lacks(scene, timeStep, {
-        threshold: settings.min_velocity_for_restitution / this.units.speed,
-        bounceLaw: !this.asTyped,
-        surfaceVelocity: settings.surface_velocity === 'step_end',
-        sweeps: settings.linear_cast,
-      }),
+      not_represented: [
+        ...lacks(scene, timeStep, {
+          threshold: settings.min_velocity_for_restitution / this.units.speed,
+          bounceLaw: !this.asTyped,
+          surfaceVelocity: settings.surface_velocity === 'step_end',
+          sweeps: settings.linear_cast,
+        }),
+        ...this.#ownLacks(scene),
+      ],
       left_out: [],
     };
   }
@@ -255,14 +263,14 @@ class JoltEngine {
       const second = this.balls[j].GetLinearVelocity();
       other = [second.GetX(), second.GetY(), second.GetZ()];
     } else {
-      if (this.isMoving(j)) other = this.velocityNow;
+      if (this.#isMoving(j)) other = this.velocityNow;
       const length = this.timeStep / this.chosen.collision_steps;
       gravityOf(this.scene).forEach((g, axis) => (v[axis] -= Math.min(0, g * normal[axis]) * length * normal[axis]));
     }
     return -v.reduce((sum, value, axis) => sum + (value - other[axis]) * normal[axis], 0);
   }
 
-  isMoving(surface) {
+  #isMoving(surface) {
     return !this.motion.isStill && Boolean(this.scene.box) && (surface === FLOOR || this.scene.box.moving_walls);
   }
 
@@ -320,13 +328,11 @@ class JoltEngine {
   /// A plane where it stays; planes cannot move, and so a thick box where it does. The substrate,
   /// which moves along itself, stays.
   #addSurface(surface, normal, place) {
-    const { jolt, scene } = this;
-    const moves = this.isMoving(surface);
+    const moves = this.#isMoving(surface);
     const settings = moves ? this.#movingSurface(normal, place) : this.#stillSurface(normal, place);
-    if (this.asTyped) this.#setFields(settings, naiveSurface(scene, surface));
+    if (this.asTyped) this.#setFields(settings, naiveSurface(this.scene, surface));
     const body = this.#addBody(settings, surface);
     if (moves) this.moving.push({ id: body.GetID(), place: behind(normal, place, this.#thickness()) });
-    else body.SetAllowSleeping?.(true);
   }
 
   #stillSurface(normal, place) {
@@ -412,6 +418,29 @@ class JoltEngine {
     };
     const least = (i, j) => Math.max(rounding(i), j >= 0 ? rounding(j) : 0);
     return explainedImpulses(bodies, distinct(this.contacts), changes, least);
+  }
+
+  #ownLacks(scene) {
+    const { length, mass, time } = this.units;
+    const own = [];
+    const inertia = LEAST_INERTIA / (mass * length * length);
+    const least = scene.bodies.reduce((low, b) => Math.min(low, b.shape_factor * b.mass * b.radius ** 2), Infinity);
+    if (least < inertia)
+      own.push({
+        text: `moments of inertia below ${rounded(inertia, 2)} kg m² (that of a sphere of 1 m is taken)`,
+        kind: 'moments of inertia below … kg m²',
+      });
+    const limit = this.chosen.max_angular_velocity * time;
+    const turns = scene.bodies.map(({ radius }, i) => {
+      const [vx, vy, vz, wx, wy, wz] = scene.initial.subarray(9 * i + 3, 9 * i + 9);
+      return Math.max(Math.hypot(wx, wy, wz), Math.hypot(vx, vy, vz) / radius);
+    });
+    if (turns.some((turn) => turn > limit))
+      own.push({
+        text: `angular velocities above ${rounded(limit, 3)} rad/s`,
+        kind: 'angular velocities above … rad/s',
+      });
+    return own;
   }
 
   #applied(scene, timeStep) {

@@ -1,6 +1,8 @@
 // Normal impulses of an engine that does not tell them, from what they did to the bodies.
 
 const SWEEPS = 60;
+/// Of the largest impulse: what a sweep may still change when it is the last one.
+const SETTLED = 1e-9;
 
 /// A contact is {i, j, normal}: bodies, j < 0 for what does not move by contacts, and the unit normal
 /// [x, y, z] that points from j to i. `changes` holds for each body what contacts did to its velocity
@@ -10,13 +12,17 @@ const SWEEPS = 60;
 export function explainedImpulses(bodies, contacts, changes, least) {
   const left = Float64Array.from(changes);
   const sums = contacts.map(() => [0, 0, 0]);
-  for (let sweep = 0; sweep < SWEEPS; ++sweep) {
+  let largest = 0;
+  for (let sweep = 0, change = Infinity; sweep < SWEEPS && change > SETTLED * largest; ++sweep) {
+    change = 0;
     contacts.forEach((contact, k) => {
       const impulse = atPoint(bodies, contact, left);
+      change = Math.max(change, Math.hypot(...impulse));
       act(bodies[contact.i], contact, impulse, left, contact.i, 1);
       if (contact.j >= 0) act(bodies[contact.j], contact, impulse, left, contact.j, -1);
       impulse.forEach((value, axis) => (sums[k][axis] += value));
     });
+    largest = Math.max(largest, change);
   }
   const found = [];
   contacts.forEach(({ i, j, normal }, k) => {
