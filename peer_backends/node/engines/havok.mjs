@@ -1,5 +1,6 @@
-// Havok, package @babylonjs/havok: single precision, no rolling or drilling friction. Its source is closed: what is said of it
-// here is measured. Coefficients belong to shapes and are combined by modes.
+// Havok, package @babylonjs/havok: single precision, no rolling or drilling friction. Its source is
+// closed: what is said of it here is measured. Coefficients belong to shapes and are combined by
+// modes.
 
 import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -23,7 +24,11 @@ const NO_TURN = [0, 0, 0, 1];
 export async function open(folder) {
   const start = await load(folder, PACKAGE);
   const wasm = join(resolve(folder), 'node_modules', PACKAGE, 'lib', 'esm', 'HavokPhysics.wasm');
-  const havok = await start({ wasmBinary: readFileSync(wasm), print: console.error, printErr: console.error });
+  const havok = await start({
+    wasmBinary: readFileSync(wasm),
+    print: console.error,
+    printErr: console.error,
+  });
   return new HavokEngine(havok, versionOf(folder, PACKAGE));
 }
 
@@ -44,8 +49,10 @@ class HavokEngine {
     this.scene = this.units.scene(scene);
     this.timeStep = timeStep * this.units.time;
     this.motion = surfaceMotion(this.scene);
-    this.shapes = settings.coefficients === 'fields'
-      ? typedShapes(this.scene) : pairShapes(withoutStaticFriction(this.scene), 'havok', FILTER_BITS);
+    this.shapes =
+      settings.coefficients === 'fields'
+        ? typedShapes(this.scene)
+        : pairShapes(withoutStaticFriction(this.scene), 'havok', FILTER_BITS);
     this.start(scene.initial, 0);
     const speed = rounded(SLOW / this.units.speed, 3);
     return {
@@ -70,11 +77,21 @@ class HavokEngine {
     done(hp, hp.HP_World_SetGravity(this.world, gravityOf(this.scene)));
     done(hp, hp.HP_World_SetIdealStepTime(this.world, this.chosen.ideal_step_time));
     if (this.hasSpeedLimit)
-      done(hp, hp.HP_World_SetSpeedLimit(
-        this.world, this.chosen.max_linear_velocity, this.chosen.max_angular_velocity));
+      done(
+        hp,
+        hp.HP_World_SetSpeedLimit(
+          this.world,
+          this.chosen.max_linear_velocity,
+          this.chosen.max_angular_velocity,
+        ),
+      );
     this.#addSubstrate();
     this.balls = this.scene.bodies.map((_, i) =>
-      this.#addBall(i, Array.from(states.subarray(9 * i, 9 * i + 9), (value, k) => value * factors[k])));
+      this.#addBall(
+        i,
+        Array.from(states.subarray(9 * i, 9 * i + 9), (value, k) => value * factors[k]),
+      ),
+    );
   }
 
   step() {
@@ -88,7 +105,8 @@ class HavokEngine {
     const factors = this.units.ofState;
     this.balls.forEach((ball, i) => {
       const parts = [
-        made(hp, hp.HP_Body_GetPosition(ball)), made(hp, hp.HP_Body_GetLinearVelocity(ball)),
+        made(hp, hp.HP_Body_GetPosition(ball)),
+        made(hp, hp.HP_Body_GetLinearVelocity(ball)),
         made(hp, hp.HP_Body_GetAngularVelocity(ball)),
       ];
       parts.flat().forEach((value, k) => {
@@ -101,33 +119,60 @@ class HavokEngine {
   #makeSettings() {
     const { hp } = this;
     const body = made(hp, hp.HP_Body_Create());
-    const damping = [hp.HP_Body_GetLinearDamping(body), hp.HP_Body_GetAngularDamping(body)]
-      .map((answer) => Number(made(hp, answer).toPrecision(6)));
+    const damping = [hp.HP_Body_GetLinearDamping(body), hp.HP_Body_GetAngularDamping(body)].map(
+      (answer) => Number(made(hp, answer).toPrecision(6)),
+    );
     hp.HP_Body_Release(body);
-    const limits = this.hasSpeedLimit ? [
-      number('max_linear_velocity', 'm/s', 200, 'at which a velocity is cut', { high: 1e9, candidates: [200, 1e9] }),
-      number('max_angular_velocity', 'rad/s', 100, 'at which a spin is cut', { high: 1e9, candidates: [100, 1e9] }),
-    ] : [];
+    const limits = this.hasSpeedLimit
+      ? [
+          number('max_linear_velocity', 'm/s', 200, 'at which a velocity is cut', {
+            high: 1e9,
+            candidates: [200, 1e9],
+          }),
+          number('max_angular_velocity', 'rad/s', 100, 'at which a spin is cut', {
+            high: 1e9,
+            candidates: [100, 1e9],
+          }),
+        ]
+      : [];
     return [
-      word('coefficients', ['fields', 'pair'], 'pair',
+      word(
+        'coefficients',
+        ['fields', 'pair'],
+        'pair',
         "the scene's coefficients straight in the shapes' materials, which Havok combines by their geometric mean; or " +
-        'exactly, pair by pair, through combine modes and collision filters'),
-      number('ideal_step_time', 's', 1 / 60, 'HP_World_SetIdealStepTime: the step for which contacts are tuned; 0: whichever ' +
-        'it is', { high: 10, candidates: [1 / 60, 0] }),
+          'exactly, pair by pair, through combine modes and collision filters',
+      ),
+      number(
+        'ideal_step_time',
+        's',
+        1 / 60,
+        'HP_World_SetIdealStepTime: the step for which contacts are tuned; 0: whichever ' + 'it is',
+        { high: 10, candidates: [1 / 60, 0] },
+      ),
       flag('sleeping', true, 'a body that is slow for a while stops'),
       number('linear_damping', '1/s', damping[0], 'of each body', { candidates: [] }),
       number('angular_damping', '1/s', damping[1], 'of each body', { candidates: [damping[1], 0] }),
       ...limits,
-      word('surface_velocity', ['this_step', 'step_end'], 'this_step',
-        'velocity of a moving substrate as contacts feel it: the mean over the step, or that at its end'),
+      word(
+        'surface_velocity',
+        ['this_step', 'step_end'],
+        'this_step',
+        'velocity of a moving substrate as contacts feel it: the mean over the step, or that at its end',
+      ),
       ...unitSettings,
     ];
   }
 
   #refuse(scene) {
-    if (scene.box) throw new Refused('havok: bodies in a box stay in a plane, and Havok locks no directions of a body');
+    if (scene.box)
+      throw new Refused(
+        'havok: bodies in a box stay in a plane, and Havok locks no directions of a body',
+      );
     if (scene.periodic.some((length) => length > 0))
-      throw new Refused('havok: the substrate repeats itself, and a Havok world has no periodic boundaries');
+      throw new Refused(
+        'havok: the substrate repeats itself, and a Havok world has no periodic boundaries',
+      );
   }
 
   #leave() {
@@ -145,11 +190,15 @@ class HavokEngine {
   #addBall(i, state) {
     const { hp, chosen } = this;
     const { radius, mass, shape_factor } = this.scene.bodies[i];
-    const shapes = this.shapes.ofBall(i).map((contact) =>
-      this.#shape(hp.HP_Shape_CreateSphere([0, 0, 0], radius), contact));
+    const shapes = this.shapes
+      .ofBall(i)
+      .map((contact) => this.#shape(hp.HP_Shape_CreateSphere([0, 0, 0], radius), contact));
     const ball = this.#body(shapes, hp.MotionType.DYNAMIC);
     const inertia = shape_factor * radius * radius; // of a mass of 1
-    done(hp, hp.HP_Body_SetMassProperties(ball, [[0, 0, 0], mass, [inertia, inertia, inertia], NO_TURN]));
+    done(
+      hp,
+      hp.HP_Body_SetMassProperties(ball, [[0, 0, 0], mass, [inertia, inertia, inertia], NO_TURN]),
+    );
     done(hp, hp.HP_Body_SetLinearDamping(ball, chosen.linear_damping));
     done(hp, hp.HP_Body_SetAngularDamping(ball, chosen.angular_damping));
     done(hp, hp.HP_Body_SetPosition(ball, state.slice(0, 3)));
@@ -157,7 +206,8 @@ class HavokEngine {
     done(hp, hp.HP_Body_SetLinearVelocity(ball, state.slice(3, 6)));
     done(hp, hp.HP_Body_SetAngularVelocity(ball, state.slice(6, 9)));
     done(hp, hp.HP_Body_SetEventMask(ball, ALL_EVENTS));
-    if (!chosen.sleeping) done(hp, hp.HP_Body_SetActivationControl(ball, hp.ActivationControl.ALWAYS_ACTIVE));
+    if (!chosen.sleeping)
+      done(hp, hp.HP_Body_SetActivationControl(ball, hp.ActivationControl.ALWAYS_ACTIVE));
     return ball;
   }
 
@@ -167,7 +217,8 @@ class HavokEngine {
     this.handles.shapes.push(shape);
     const shipped = made(hp, hp.HP_Shape_GetMaterial(shape));
     const mode = { smaller: hp.MaterialCombine.MINIMUM, larger: hp.MaterialCombine.MAXIMUM };
-    const modes = rule === 'as shipped' ? shipped.slice(3) : [mode[rule.friction], mode[rule.restitution]];
+    const modes =
+      rule === 'as shipped' ? shipped.slice(3) : [mode[rule.friction], mode[rule.restitution]];
     done(hp, hp.HP_Shape_SetMaterial(shape, [friction, friction, restitution, ...modes]));
     done(hp, hp.HP_Shape_SetFilterInfo(shape, [member, filter]));
     return shape;
@@ -201,8 +252,11 @@ class HavokEngine {
     const { hp, units } = this;
     const thick = 32 * this.scene.bodies.reduce((most, { radius }) => Math.max(most, radius), 0);
     const wide = 200 * units.length;
-    const shapes = this.shapes.ofSurface(FLOOR).map((contact) => this.#shape(
-      hp.HP_Shape_CreateBox([0, 0, -thick / 2], NO_TURN, [wide, wide, thick]), contact));
+    const shapes = this.shapes
+      .ofSurface(FLOOR)
+      .map((contact) =>
+        this.#shape(hp.HP_Shape_CreateBox([0, 0, -thick / 2], NO_TURN, [wide, wide, thick]), contact),
+      );
     const isStill = this.motion.isStill;
     this.substrate = this.#body(shapes, isStill ? hp.MotionType.STATIC : hp.MotionType.KINEMATIC);
     done(hp, hp.HP_Body_SetPosition(this.substrate, this.motion.position(this.startTime)));
@@ -221,13 +275,17 @@ class HavokEngine {
     }
   }
 
-  /// By Havok's events, each with the impulse of a contact in the step; the one that ends a contact repeats the last.
+  /// By Havok's events, each with the impulse of a contact in the step; the one that ends a contact
+  /// repeats the last.
   #findTouches(touches) {
     const { hp } = this;
     const found = new Touches();
     const world = Number(this.world[0]);
-    for (let event = Number(hp.HP_World_GetCollisionEvents(this.world)[1]); event !== 0;
-      event = Number(hp.HP_World_GetNextCollisionEvent(world, event))) {
+    for (
+      let event = Number(hp.HP_World_GetCollisionEvents(this.world)[1]);
+      event !== 0;
+      event = Number(hp.HP_World_GetNextCollisionEvent(world, event))
+    ) {
       const [type, one, other, impulse] = made(hp, hp.HP_Event_AsCollision(event));
       if (type === hp.EventType.COLLISION_FINISHED) continue;
       const [a, b] = [one, other].map((point) => this.bodyOf.get(point[0][0]));
@@ -251,7 +309,8 @@ class HavokEngine {
 
 /// Havok has a static friction, but applies it to what slides as well.
 const withoutStaticFriction = (scene) => ({
-  ...scene, substrate: scene.substrate.map((ground) => ({ ...ground, static_friction: ground.kinetic_friction })),
+  ...scene,
+  substrate: scene.substrate.map((ground) => ({ ...ground, static_friction: ground.kinetic_friction })),
 });
 
 function done(hp, result) {

@@ -1,5 +1,6 @@
-// PhysX 5, package physx-js-webidl: single precision, no rolling friction, drilling friction with TGS alone. Coefficients belong to
-// the materials of shapes and are combined by modes; contact modification cannot be reached from JavaScript.
+// PhysX 5, package physx-js-webidl: single precision, no rolling friction, drilling friction with
+// TGS alone. Coefficients belong to the materials of shapes and are combined by modes; contact
+// modification cannot be reached from JavaScript.
 
 import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -19,21 +20,52 @@ const MOST_POINTS = 64; // of one pair of shapes, in a report
 const LARGEST = 3e38; // of a single
 
 const SETTINGS = [
-  word('coefficients', ['fields', 'pair'], 'pair',
+  word(
+    'coefficients',
+    ['fields', 'pair'],
+    'pair',
     "the scene's coefficients straight in the materials, which PhysX averages; or exactly, pair by pair, through " +
-    'combine modes and collision filters'),
+      'combine modes and collision filters',
+  ),
   word('solver', ['PGS', 'TGS'], 'PGS', 'PxSolverType'),
   count('position_iterations', 4, 'of the solver', { low: 1, high: 255, candidates: [1, 4, 16] }),
-  count('velocity_iterations', 1, 'of the solver, without the push on overlaps', { high: 255, candidates: [0, 1, 4] }),
-  number('bounce_threshold', 'm/s', 2, 'bounceThresholdVelocity: approach below which nothing rebounds', {
-    candidates: [0, 0.2, 2] }),
+  count('velocity_iterations', 1, 'of the solver, without the push on overlaps', {
+    high: 255,
+    candidates: [0, 1, 4],
+  }),
+  number(
+    'bounce_threshold',
+    'm/s',
+    2,
+    'bounceThresholdVelocity: approach below which nothing rebounds',
+    {
+      candidates: [0, 0.2, 2],
+    },
+  ),
   number('contact_offset', 'm', 0.02, 'of each shape: gap at which there is a contact', {
-    low: 1e-9, high: 1e6, candidates: [0.02, 1e-3], ...search(1e-6, 0.02, true) }),
+    low: 1e-9,
+    high: 1e6,
+    candidates: [0.02, 1e-3],
+    ...search(1e-6, 0.02, true),
+  }),
   number('max_depenetration_velocity', 'm/s', 1e32, 'at which an overlap is pushed out, at most', {
-    low: 1e-9, high: 1e32, candidates: [1e32, 1, 0.001] }),
-  number('friction_offset_threshold', 'm', 0.04, 'gap from which on there is no friction', { low: 1e-9, high: 1e6 }),
-  number('friction_correlation_distance', 'm', 0.025, 'patches of contact closer than this share a friction', {
-    high: 1e6 }),
+    low: 1e-9,
+    high: 1e32,
+    candidates: [1e32, 1, 0.001],
+  }),
+  number('friction_offset_threshold', 'm', 0.04, 'gap from which on there is no friction', {
+    low: 1e-9,
+    high: 1e6,
+  }),
+  number(
+    'friction_correlation_distance',
+    'm',
+    0.025,
+    'patches of contact closer than this share a friction',
+    {
+      high: 1e6,
+    },
+  ),
   flag('friction_every_iteration', false, 'PxSceneFlag::eENABLE_FRICTION_EVERY_ITERATION, of PGS'),
   flag('stabilization', false, 'PxSceneFlag::eENABLE_STABILIZATION: what is slow is slowed more'),
   flag('ccd', false, 'bodies are swept'),
@@ -42,9 +74,16 @@ const SETTINGS = [
   number('sleep_threshold', 'm2/s2', 0.005, 'kinetic energy over mass that is slow'),
   number('linear_damping', '1/s', 0, 'of each body', { candidates: [] }),
   number('angular_damping', '1/s', 0.05, 'of each body', { candidates: [0, 0.05] }),
-  number('max_angular_velocity', 'rad/s', 100, 'at which the spin is cut', { high: 1e16, candidates: [100, 1e16] }),
-  word('surface_velocity', ['this_step', 'step_end'], 'this_step',
-    'velocity of a moving substrate, floor or wall as contacts feel it: the mean over the step, or that at its end'),
+  number('max_angular_velocity', 'rad/s', 100, 'at which the spin is cut', {
+    high: 1e16,
+    candidates: [100, 1e16],
+  }),
+  word(
+    'surface_velocity',
+    ['this_step', 'step_end'],
+    'this_step',
+    'velocity of a moving substrate, floor or wall as contacts feel it: the mean over the step, or that at its end',
+  ),
   ...unitSettings,
 ];
 
@@ -57,7 +96,8 @@ const SURFACES = [
   { surface: LID, normal: [0, 0, -1], turn: [0, ROOT, 0, ROOT] },
 ];
 
-/// The package is built for the web alone and takes Node for nothing it knows: while it starts it finds what a browser has.
+/// The package is built for the web alone and takes Node for nothing it knows: while it starts it
+/// finds what a browser has.
 async function asInABrowser(start) {
   const hidden = Object.getOwnPropertyDescriptor(globalThis, 'process');
   Object.defineProperty(globalThis, 'process', { value: undefined, configurable: true });
@@ -76,7 +116,8 @@ export async function open(folder) {
   const { version } = JSON.parse(readFileSync(join(place, 'package.json'), 'utf8'));
   const module = pathToFileURL(join(place, `${PACKAGE}.mjs`)).href;
   const physx = await asInABrowser(async () =>
-    (await import(module)).default({ wasmBinary, print: console.error, printErr: console.error }));
+    (await import(module)).default({ wasmBinary, print: console.error, printErr: console.error }),
+  );
   return new PhysxEngine(physx, version);
 }
 
@@ -88,7 +129,10 @@ class PhysxEngine {
     this.settings = SETTINGS;
     this.top = physx.PxTopLevelFunctions.prototype;
     const foundation = this.top.CreateFoundation(
-      physx.PHYSICS_VERSION, new physx.PxDefaultAllocator(), new physx.PxDefaultErrorCallback());
+      physx.PHYSICS_VERSION,
+      new physx.PxDefaultAllocator(),
+      new physx.PxDefaultErrorCallback(),
+    );
     this.tolerances = new physx.PxTolerancesScale();
     this.physics = this.top.CreatePhysics(physx.PHYSICS_VERSION, foundation, this.tolerances);
     this.threads = this.top.DefaultCpuDispatcherCreate(0);
@@ -99,7 +143,9 @@ class PhysxEngine {
 
   configure(scene, settings, timeStep) {
     if (scene.periodic.some((length) => length > 0))
-      throw new Refused('physx: the substrate repeats itself, and a PhysX scene has no periodic boundaries');
+      throw new Refused(
+        'physx: the substrate repeats itself, and a PhysX scene has no periodic boundaries',
+      );
     this.#leave();
     this.units = new Units(scene, settings);
     this.chosen = settings;
@@ -135,7 +181,11 @@ class PhysxEngine {
     this.actors = [];
     this.#addSurfaces();
     this.balls = this.scene.bodies.map((_, i) =>
-      this.#addBall(i, Array.from(states.subarray(9 * i, 9 * i + 9), (value, k) => value * factors[k])));
+      this.#addBall(
+        i,
+        Array.from(states.subarray(9 * i, 9 * i + 9), (value, k) => value * factors[k]),
+      ),
+    );
   }
 
   step() {
@@ -180,10 +230,13 @@ class PhysxEngine {
     desc.frictionOffsetThreshold = chosen.friction_offset_threshold;
     desc.frictionCorrelationDistance = chosen.friction_correlation_distance;
     const flags = {
-      friction_every_iteration: 'eENABLE_FRICTION_EVERY_ITERATION', stabilization: 'eENABLE_STABILIZATION',
-      ccd: 'eENABLE_CCD', enhanced_determinism: 'eENABLE_ENHANCED_DETERMINISM',
+      friction_every_iteration: 'eENABLE_FRICTION_EVERY_ITERATION',
+      stabilization: 'eENABLE_STABILIZATION',
+      ccd: 'eENABLE_CCD',
+      enhanced_determinism: 'eENABLE_ENHANCED_DETERMINISM',
     };
-    for (const [name, bit] of Object.entries(flags)) if (chosen[name]) desc.flags.raise(px.PxSceneFlagEnum[bit]);
+    for (const [name, bit] of Object.entries(flags))
+      if (chosen[name]) desc.flags.raise(px.PxSceneFlagEnum[bit]);
     const world = this.physics.createScene(desc);
     px.destroy(desc);
     px.destroy(gravity);
@@ -208,7 +261,9 @@ class PhysxEngine {
   #addBall(i, state) {
     const { px, chosen, scene } = this;
     const { radius, mass, shape_factor } = scene.bodies[i];
-    const ball = this.#withPose(state.slice(0, 3), [0, 0, 0, 1], (pose) => this.physics.createRigidDynamic(pose));
+    const ball = this.#withPose(state.slice(0, 3), [0, 0, 0, 1], (pose) =>
+      this.physics.createRigidDynamic(pose),
+    );
     const geometry = new px.PxSphereGeometry(radius);
     this.#attach(ball, geometry, this.shapes.ofBall(i));
     px.destroy(geometry);
@@ -277,8 +332,12 @@ class PhysxEngine {
 
   #pairFlags() {
     const flags = this.px.PxPairFlagEnum;
-    return flags.eNOTIFY_TOUCH_FOUND | flags.eNOTIFY_TOUCH_PERSISTS | flags.eNOTIFY_CONTACT_POINTS |
-      (this.chosen.ccd ? flags.eDETECT_CCD_CONTACT | flags.eNOTIFY_TOUCH_CCD : 0);
+    return (
+      flags.eNOTIFY_TOUCH_FOUND |
+      flags.eNOTIFY_TOUCH_PERSISTS |
+      flags.eNOTIFY_CONTACT_POINTS |
+      (this.chosen.ccd ? flags.eDETECT_CCD_CONTACT | flags.eNOTIFY_TOUCH_CCD : 0)
+    );
   }
 
   #addSurfaces() {
@@ -288,7 +347,8 @@ class PhysxEngine {
       if (surface !== FLOOR && !box) continue;
       if (surface === LID && !box.lid) continue;
       const place = [normal[0] < 0 ? box.width : 0, 0, surface === LID ? box.lid : 0];
-      if (moves && (surface === FLOOR || box.moving_walls)) this.#addMovingSurface(surface, normal, place);
+      if (moves && (surface === FLOOR || box.moving_walls))
+        this.#addMovingSurface(surface, normal, place);
       else this.#addPlane(surface, place, turn);
     }
   }
@@ -326,7 +386,10 @@ class PhysxEngine {
       if (this.chosen.surface_velocity === 'step_end') {
         const here = added(middle, this.motion.position(now));
         this.#withPose(here, [0, 0, 0, 1], (pose) => actor.setGlobalPose(pose));
-        target = added(here, this.motion.velocity(then).map((v) => v * this.timeStep));
+        target = added(
+          here,
+          this.motion.velocity(then).map((v) => v * this.timeStep),
+        );
       }
       this.#withPose(target, [0, 0, 0, 1], (pose) => actor.setKinematicTarget(pose));
     }
@@ -337,14 +400,16 @@ class PhysxEngine {
     const { px } = this;
     const helpers = px.NativeArrayHelpers.prototype;
     const reports = new px.PxSimulationEventCallbackImpl();
-    for (const name of ['onConstraintBreak', 'onWake', 'onSleep', 'onTrigger']) reports[name] = () => {};
+    for (const name of ['onConstraintBreak', 'onWake', 'onSleep', 'onTrigger'])
+      reports[name] = () => {};
     reports.onContact = (headerAddress, pairsAddress, pairs) => {
       const header = px.wrapPointer(headerAddress, px.PxContactPairHeader);
       const [a, b] = [0, 1].map((k) => this.bodyOf.get(px.getPointer(header.get_actors(k))));
       const [first, second] = a >= 0 ? [a, b] : [b, a];
       if (second === WALL || second === LID) return;
       const list = px.wrapPointer(pairsAddress, px.PxContactPair);
-      for (let k = 0; k < pairs; ++k) this.#addImpulses(helpers.getContactPairAt(list, k), first, second);
+      for (let k = 0; k < pairs; ++k)
+        this.#addImpulses(helpers.getContactPairAt(list, k), first, second);
     };
     return reports;
   }

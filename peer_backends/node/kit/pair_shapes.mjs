@@ -1,12 +1,21 @@
 // Pair coefficients in an engine whose coefficients belong to shapes and are combined by rules.
 //
-// Two shapes with the same value combine to it by the rule of the smaller. A surface's shape has its own value and the rule of
-// the smaller or of the larger, whichever yields that value; of two rules the engine takes the later
-// of the two. Where pairs of materials differ, a ball has a shape for each pair, and filters let those meet that belong
-// together.
+// Two shapes with the same value combine to it by the rule of the smaller. A surface's shape has
+// its own value and the rule of the smaller or of the larger, whichever yields that value; of two
+// rules the engine takes the later of the two. Where pairs of materials differ, a ball has a shape
+// for each pair, and filters let those meet that belong together.
 
 import {
-  FLOOR, LID, WALL, contactOf, frictionOf, groundOf, materialPairs, naiveBall, naiveSurface, pairRestitution,
+  FLOOR,
+  LID,
+  WALL,
+  contactOf,
+  frictionOf,
+  groundOf,
+  materialPairs,
+  naiveBall,
+  naiveSurface,
+  pairRestitution,
   surfaceRestitution,
 } from './contacts.mjs';
 import { Refused } from './faults.mjs';
@@ -15,7 +24,10 @@ import { Gathered } from './gathered.mjs';
 /// The surfaces of a scene, each with its name in the settings in force.
 export function surfaceNames({ box }) {
   if (!box) return [[FLOOR, 'substrate']];
-  const both = [[FLOOR, 'floor'], [WALL, 'wall']];
+  const both = [
+    [FLOOR, 'floor'],
+    [WALL, 'wall'],
+  ];
   return box.lid ? [...both, [LID, 'lid']] : both;
 }
 
@@ -24,19 +36,33 @@ function onSurface(scene, body, surface) {
   if (scene.box) {
     const friction = frictionOf(contactOf(scene, body, surface));
     return {
-      friction, staticFriction: friction, restitution: surfaceRestitution(scene, body, surface), drilling: 0,
+      friction,
+      staticFriction: friction,
+      restitution: surfaceRestitution(scene, body, surface),
+      drilling: 0,
     };
   }
   const { kinetic_friction, static_friction, restitution, drilling_length } = groundOf(scene, body);
-  return { friction: kinetic_friction, staticFriction: static_friction, restitution, drilling: drilling_length };
+  return {
+    friction: kinetic_friction,
+    staticFriction: static_friction,
+    restitution,
+    drilling: drilling_length,
+  };
 }
 
 const NUMBERS = ['friction', 'staticFriction', 'restitution', 'drilling'];
 const alike = (a, b) => NUMBERS.every((key) => a[key] === b[key]);
-const typed = ({ friction, restitution }) => ({ friction, staticFriction: friction, restitution, drilling: 0 });
+const typed = ({ friction, restitution }) => ({
+  friction,
+  staticFriction: friction,
+  restitution,
+  drilling: 0,
+});
 const NO_CONTACT = typed({ friction: 0, restitution: 0 });
 
-/// Coefficients as people type them: one pair of fields for each body and surface, under the engine's own rule.
+/// Coefficients as people type them: one pair of fields for each body and surface, under the
+/// engine's own rule.
 export function typedShapes(scene) {
   const applied = new Gathered();
   scene.bodies.forEach((_, i) => {
@@ -56,26 +82,35 @@ export function typedShapes(scene) {
   };
 }
 
-/// The scene's coefficients exactly: shapes {friction, staticFriction, restitution, drilling, rule, member, filter} of each
-/// body, ofBall(i), and of each surface, ofSurface(FLOOR). `rule` has two words, 'smaller' or 'larger',
-/// of friction and of restitution; two shapes meet where the `member` of each is in the other's `filter`. `filterBits` is how
-/// many bits those may have. Throws Refused.
+/// The scene's coefficients exactly: shapes {friction, staticFriction, restitution, drilling, rule,
+/// member, filter} of each body, ofBall(i), and of each surface, ofSurface(FLOOR). `rule` has two
+/// words, 'smaller' or 'larger', of friction and of restitution; two shapes meet where the `member`
+/// of each is in the other's `filter`. `filterBits` is how many bits those may have. Throws
+/// Refused.
 export function pairShapes(scene, engine, filterBits) {
   const pairs = materialPairs(scene).map(([i, j]) => {
     const friction = frictionOf(contactOf(scene, i, j));
     return {
-      a: scene.bodies[i].material, b: scene.bodies[j].material, name: `${i}-${j}`,
+      a: scene.bodies[i].material,
+      b: scene.bodies[j].material,
+      name: `${i}-${j}`,
       ...typed({ friction, restitution: pairRestitution(scene, i, j) }),
     };
   });
-  const firstOf = scene.substrate.map((_, material) => scene.bodies.findIndex((b) => b.material === material));
+  const firstOf = scene.substrate.map((_, material) =>
+    scene.bodies.findIndex((b) => b.material === material),
+  );
   const present = firstOf.map((body, material) => ({ body, material })).filter(({ body }) => body >= 0);
   const bits = new Bits(engine, filterBits);
   const balls = pairs.every((pair) => alike(pair, pairs[0]))
-    ? alikeBalls(scene, pairs[0] ?? NO_CONTACT, bits) : ballsByPair(scene, pairs, bits);
+    ? alikeBalls(scene, pairs[0] ?? NO_CONTACT, bits)
+    : ballsByPair(scene, pairs, bits);
   const surfaces = new Map();
   for (const [surface] of surfaceNames(scene))
-    surfaces.set(surface, shapesOfSurface(present, (body) => onSurface(scene, body, surface), balls, bits));
+    surfaces.set(
+      surface,
+      shapesOfSurface(present, (body) => onSurface(scene, body, surface), balls, bits),
+    );
   return {
     ofBall: (i) => balls[scene.bodies[i].material],
     ofSurface: (surface) => surfaces.get(surface),
@@ -94,7 +129,8 @@ class Bits {
   next() {
     if (this.given === this.count)
       throw new Refused(
-        `${this.engine}: the contacts of these materials need more than ${this.count} bits of collision filters`);
+        `${this.engine}: the contacts of these materials need more than ${this.count} bits of collision filters`,
+      );
     return 2 ** this.given++;
   }
 }
@@ -114,10 +150,13 @@ function ballsByPair(scene, pairs, bits) {
     balls[pair.a].push({ ...pair, rule: EVEN, member: one, filter: other });
     if (pair.a !== pair.b) balls[pair.b].push({ ...pair, rule: EVEN, member: other, filter: one });
   }
-  return balls.map((own) => (own.length > 0 ? own : [{ ...NO_CONTACT, rule: EVEN, member: 0, filter: 0 }]));
+  return balls.map((own) =>
+    own.length > 0 ? own : [{ ...NO_CONTACT, rule: EVEN, member: 0, filter: 0 }],
+  );
 }
 
-/// How a surface's value comes of its own and a ball's; undefined where one rule for static and kinetic friction cannot.
+/// How a surface's value comes of its own and a ball's; undefined where one rule for static and
+/// kinetic friction cannot.
 function ruleFor(contact, ball) {
   const isSmaller = contact.friction <= ball.friction && contact.staticFriction <= ball.staticFriction;
   const isLarger = contact.friction >= ball.friction && contact.staticFriction >= ball.staticFriction;
@@ -128,7 +167,8 @@ function ruleFor(contact, ball) {
   };
 }
 
-/// Shapes of a surface, one for all materials that meet it alike. It meets a ball's first shape, or one of its own.
+/// Shapes of a surface, one for all materials that meet it alike. It meets a ball's first shape, or
+/// one of its own.
 function shapesOfSurface(present, contactWith, balls, bits) {
   const shapes = [];
   for (const { body, material } of present) {
@@ -140,15 +180,18 @@ function shapesOfSurface(present, contactWith, balls, bits) {
       balls[material].push(ball);
       rule = EVEN;
     }
-    let shape = shapes.find((each) => alike(each, contact) && each.rule.friction === rule.friction &&
-      each.rule.restitution === rule.restitution);
+    let shape = shapes.find(
+      (each) =>
+        alike(each, contact) &&
+        each.rule.friction === rule.friction &&
+        each.rule.restitution === rule.restitution,
+    );
     if (!shape) {
-      const bit = bits.next();
-      shape = { ...contact, rule, member: bit, filter: bit };
+      shape = { ...contact, rule, member: bits.next(), filter: bits.next() };
       shapes.push(shape);
     }
-    if ((ball.member & shape.member) === 0) {
-      ball.member += shape.member;
+    if ((ball.member & shape.filter) === 0) {
+      ball.member += shape.filter;
       ball.filter += shape.member;
     }
   }
