@@ -343,22 +343,17 @@ class MujocoEngine {
   }
 }
 
-/// A free joint's angular velocity is in the frame of its body.
+/// A free joint's angular velocity is in the frame of its body; turned as mju_rotVecQuat does.
 function stateInSpace(position, velocity, i) {
-  const [x, y, z, qw, qx, qy, qz] = position.subarray(7 * i, 7 * i + 7);
+  const [x, y, z, q0, q1, q2, q3] = position.subarray(7 * i, 7 * i + 7);
   const [vx, vy, vz, wx, wy, wz] = velocity.subarray(6 * i, 6 * i + 6);
-  const tx = 2 * (qy * wz - qz * wy);
-  const ty = 2 * (qz * wx - qx * wz);
-  const tz = 2 * (qx * wy - qy * wx);
-  return [
-    x,
-    y,
-    z,
-    vx,
-    vy,
-    vz,
-    wx + qw * tx + qy * tz - qz * ty,
-    wy + qw * ty + qz * tx - qx * tz,
-    wz + qw * tz + qx * ty - qy * tx,
+  const tx = q0 * wx + q2 * wz - q3 * wy;
+  const ty = q0 * wy + q3 * wx - q1 * wz;
+  const tz = q0 * wz + q1 * wy - q2 * wx;
+  const turned = [
+    wx + 2 * (q2 * tz - q3 * ty),
+    wy + 2 * (q3 * tx - q1 * tz),
+    wz + 2 * (q1 * ty - q2 * tx),
   ];
+  return [x, y, z, vx, vy, vz, ...turned];
 }
