@@ -28,7 +28,7 @@ class BulletEngine final : public Engine {
     return {"bullet", bullet_version(), bullet_precision(), setting_table()};
   }
 
-  Applied configure(const Scene& scene, const Settings& chosen, double time_step) override {
+  Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
     const BulletSettings settings = read_settings(chosen);
     if (scene.periodic != Vector2::Zero()) {
       throw Refused(

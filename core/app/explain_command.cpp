@@ -57,7 +57,7 @@ void explain(const Scenario& scenario, const std::vector<EngineRecord>& runs, bo
     const Explanation explanation = explain_scene(scenario, scene, general);
     fmt::print("  solver: {}\n", explanation.solver);
     print(explanation.sections);
-    print(explain_engines(scenario, scene.hard, runs, &interrupted()));
+    print(explain_engines(scenario, EngineScene(scene), runs, &interrupted()));
   } catch (const Unsupported& unsupported) {
     fmt::print("\n  No solver for this scene:\n{}\n", unsupported.what());
   }

@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "engine/engine_scene.h"
 #include "physics/frame.h"
-#include "scene/scene.h"
 
 namespace slipcheck {
 
@@ -80,7 +80,8 @@ class Engine {
   /// Prepares for a scene with steps of `time_step` [s], > 0. Settings that are not named have the
   /// engine's own values; those that are have been checked against info(). May be called again for
   /// another scene. Throws Refused.
-  virtual Applied configure(const Scene& scene, const Settings& settings, double time_step) = 0;
+  virtual Applied configure(const EngineScene& scene, const Settings& settings,
+                            double time_step) = 0;
 
   /// A fresh world, nothing left of an earlier one, with the bodies in these states at `time` [s],
   /// >= 0, of the scene's clock, by which the substrate or the box moves.
@@ -95,6 +96,11 @@ class Engine {
   /// The instants inside the last step at which the engine ended steps of its own, in order, each
   /// with its `part` < 1. None unless overridden.
   virtual std::span<const Frame> parts() const { return {}; }
+
+  /// CPU time [s] that this engine has used so far, >= 0 and never falling: of the difference over
+  /// some steps the harness hears. That of the whole process, in case the engine has threads of its
+  /// own, unless overridden by an engine whose work is done in processes beside it.
+  virtual double cpu_seconds() const;
 };
 
 }  // namespace slipcheck

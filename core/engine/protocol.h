@@ -26,7 +26,7 @@ struct Hello {
 };
 struct Configure {
   static constexpr const char* kType = "configure";
-  Scene scene;
+  EngineScene scene;
   Settings settings;     ///< those that are chosen
   double time_step = 0;  ///< [s], > 0
 };

@@ -56,7 +56,8 @@ Expected RemoteEngine::ask(const protocol::Request& request) {
   return std::move(*expected);
 }
 
-Applied RemoteEngine::configure(const Scene& scene, const Settings& settings, double time_step) {
+Applied RemoteEngine::configure(const EngineScene& scene, const Settings& settings,
+                                double time_step) {
   deadline_ = Clock::time_point::max();
   auto reply = ask<protocol::Configured>(protocol::Configure{scene, settings, time_step});
   bodies_ = scene.bodies.size();

@@ -24,7 +24,7 @@ class RemoteEngine {
   const EngineInfo& info() const { return info_; }
 
   /// Engine::configure over there; throws Refused with the engine's reason, and the worker lives.
-  Applied configure(const Scene& scene, const Settings& settings, double time_step);
+  Applied configure(const EngineScene& scene, const Settings& settings, double time_step);
 
   /// A fresh world with one state for each body of the configured scene at `time` [s], >= 0. The
   /// time limit of the run counts from here.

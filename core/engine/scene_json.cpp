@@ -6,7 +6,9 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/contact_json.h"
 #include "engine/message_fields.h"
+#include "engine/soft_json.h"
 
 namespace slipcheck {
 namespace protocol {
@@ -82,24 +84,11 @@ void describe_vector(Fields& f, const char* key, Vector2& vector) {
   if constexpr (Fields::kReads) vector = {xy.first, xy.second};
 }
 
-/// A list of something for each of so many `things`.
-void check_size(const JsonNode& list, std::size_t size, std::size_t count, const char* things) {
-  if (size != count)
-    list.fault_alone(
-        fmt::format("must have an entry for each of {} {}, has {}", count, things, size));
-}
-
 /// Spheres and their materials go over body by body.
 struct MaterialSphere {
   Sphere sphere;
   std::size_t material = 0;
 };
-
-RestitutionLaw restitution_of(const JsonNode& node) {
-  if (!node.json().is_object()) return node.number(0, 1);
-  if (!node.has("log_odds")) return read_finite<PowerLawRestitution>(node);
-  return read_finite<TabulatedRestitution>(node);
-}
 
 std::vector<RollingFriction::Point> rolling_points(const JsonNode& node) {
   std::vector<RollingFriction::Point> points;
@@ -126,35 +115,6 @@ std::vector<SubstrateMotion::Point> motion_points(const JsonNode& node) {
 }
 
 }  // namespace
-
-template <class Fields>
-void describe(Fields& f, PowerLawRestitution& law) {
-  f("coefficient", law.coefficient, kAboveZero);
-  f("exponent", law.exponent, kNotBelowZero);
-  f("speed", law.speed, kAboveZero);
-}
-
-template <class Fields>
-void describe(Fields& f, TabulatedRestitution& table) {
-  f("log_first", table.log_first);
-  f("log_step", table.log_step, kAboveZero);
-  f("log_odds", table.log_odds);
-  f("slope", table.slope);
-  if constexpr (Fields::kReads) {
-    if (table.log_odds.empty()) f["log_odds"].fault("must have a point");
-    check_size(f["slope"], table.slope.size(), table.log_odds.size(), "points");
-  }
-}
-
-template <class Fields>
-void describe(Fields& f, PairContact& pair) {
-  if constexpr (Fields::kReads)
-    pair.restitution = restitution_of(f["restitution"]);
-  else
-    std::visit([&](const auto& law) { f("restitution", law); }, pair.restitution);
-  f("friction", pair.friction, kNotBelowZero);
-  f("tangential_restitution", pair.tangential_restitution, NumberRange{-1, 1});
-}
 
 template <class Fields>
 void describe(Fields& f, SubstrateContact& contact) {
@@ -253,12 +213,31 @@ void describe(Fields& f, Scene& scene) {
   }
 }
 
+template <class Fields>
+void describe(Fields& f, EngineScene& scene) {
+  describe(f, static_cast<Scene&>(scene));
+  f("soft", scene.soft);
+}
+
 namespace protocol {
+namespace {
 
-json scene_to_json(const Scene& scene) { return message_json(scene); }
+void check_soft_sizes(const JsonNode& node, const SoftContacts& soft, std::size_t materials,
+                      bool is_boxed) {
+  check_size(node["pairs"], soft.pairs.size(), materials * materials, "pairs of materials");
+  const std::size_t surfaces = is_boxed ? materials : 0;
+  for (const auto& [key, contacts] : {std::pair{"on_floor", &soft.box.on_floor},
+                                      {"on_wall", &soft.box.on_wall},
+                                      {"on_lid", &soft.box.on_lid}})
+    check_size(node[key], contacts->size(), surfaces, "materials in a box");
+}
 
-Scene scene_from_json(const JsonNode& node) {
-  auto scene = read_finite<Scene>(node);
+}  // namespace
+
+json scene_to_json(const EngineScene& scene) { return message_json(scene); }
+
+EngineScene scene_from_json(const JsonNode& node) {
+  auto scene = read_finite<EngineScene>(node);
   const std::size_t materials = scene.substrate.size();
   if (materials == 0) node["substrate"].fault("must have an entry");
   if (scene.bodies.empty()) node["bodies"].fault("must have an entry");
@@ -273,6 +252,7 @@ Scene scene_from_json(const JsonNode& node) {
                                         {"on_wall", &scene.box->on_wall},
                                         {"on_lid", &scene.box->on_lid}})
       check_size(node["box"][key], contacts->size(), materials, "materials");
+  if (scene.soft) check_soft_sizes(node["soft"], *scene.soft, materials, scene.box.has_value());
   return scene;
 }
 

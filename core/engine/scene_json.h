@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/cbor.h"
-#include "scene/scene.h"
+#include "engine/engine_scene.h"
 
 namespace slipcheck::protocol {
 
@@ -26,9 +26,9 @@ Bytes pack_states(std::span<const BodyState> states);
 std::vector<BodyState> unpack_states(const JsonNode& node);
 
 /// The scene as docs/engine-protocol.md words it.
-nlohmann::json scene_to_json(const Scene& scene);
+nlohmann::json scene_to_json(const EngineScene& scene);
 
-/// The inverse; every index and range that Scene promises is checked. Throws Rubbish.
-Scene scene_from_json(const JsonNode& node);
+/// The inverse; every index and range that EngineScene promises is checked. Throws Rubbish.
+EngineScene scene_from_json(const JsonNode& node);
 
 }  // namespace slipcheck::protocol

@@ -72,13 +72,6 @@ class Connection {
   int out_;
 };
 
-/// CPU time of the whole process, in case the engine has threads of its own [s].
-double cpu_seconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// Answers requests in the only order that makes sense: configure, start, step.
 class Worker {
  public:
@@ -121,14 +114,14 @@ class Worker {
     if (!started_) return protocol::Failed{"step before start"};
     protocol::Frames reply;
     reply.frames.reserve(request.count);
-    const double before = cpu_seconds();
+    const double before = engine_.cpu_seconds();
     for (std::size_t k = 0; k < request.count; ++k) {
       engine_.step();
       const std::span<const Frame> parts = engine_.parts();
       reply.frames.insert(reply.frames.end(), parts.begin(), parts.end());
       engine_.read(reply.frames.emplace_back());
     }
-    reply.cpu_seconds = cpu_seconds() - before;
+    reply.cpu_seconds = engine_.cpu_seconds() - before;
     return reply;
   }
 
@@ -139,9 +132,9 @@ class Worker {
     reply.cpu_seconds.reserve(request.repeats);
     for (std::size_t run = 0; run < request.repeats; ++run) {
       engine_.start(request.states, request.time);
-      const double before = cpu_seconds();
+      const double before = engine_.cpu_seconds();
       for (std::size_t k = 0; k < request.steps; ++k) engine_.step();
-      reply.cpu_seconds.push_back(cpu_seconds() - before);
+      reply.cpu_seconds.push_back(engine_.cpu_seconds() - before);
     }
     return reply;
   }
@@ -192,6 +185,12 @@ int leave() {
 }
 
 }  // namespace
+
+double Engine::cpu_seconds() const {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 int run_worker(Engine& engine) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);

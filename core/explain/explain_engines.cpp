@@ -19,7 +19,7 @@ std::string text_of(const Setting& setting) {
 }
 
 /// Asks the engine of a run what it would make of the scene; takes no step.
-void ask(ExplainSection& section, const EngineRecord& run, const Scene& scene,
+void ask(ExplainSection& section, const EngineRecord& run, const EngineScene& scene,
          const std::atomic<bool>* stop) {
   const auto executable = find_engine(run.engine, run.precision);
   if (!executable) {
@@ -47,7 +47,7 @@ void ask(ExplainSection& section, const EngineRecord& run, const Scene& scene,
 
 }  // namespace
 
-ExplainSections explain_engines(const Scenario& scenario, const Scene& scene,
+ExplainSections explain_engines(const Scenario& scenario, const EngineScene& scene,
                                 const std::vector<EngineRecord>& runs,
                                 const std::atomic<bool>* stop) {
   ExplainSections sections;

@@ -74,14 +74,6 @@ void make_surface(const Scenario& scenario, const std::vector<BodyClass>& classe
 
 }  // namespace
 
-bool ContactScene::is_hard() const {
-  const auto all_hard = [](const std::vector<std::optional<SoftContact>>& contacts) {
-    return std::ranges::none_of(contacts, [](const auto& each) { return each.has_value(); });
-  };
-  return all_hard(soft) && all_hard(soft_box.on_floor) && all_hard(soft_box.on_wall) &&
-         all_hard(soft_box.on_lid);
-}
-
 ContactScene make_contact_scene(const Scenario& scenario) {
   Makers makers(scenario);
   Obstacles obstacles(scenario);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -45,7 +46,13 @@ struct ContactScene {
   const std::optional<SoftContact>& between(std::size_t i, std::size_t j) const {
     return soft[hard.material[i] * hard.substrate.size() + hard.material[j]];
   }
-  bool is_hard() const;
+  bool is_hard() const {
+    const auto all_hard = [](const std::vector<std::optional<SoftContact>>& contacts) {
+      return std::ranges::none_of(contacts, [](const auto& each) { return each.has_value(); });
+    };
+    return all_hard(soft) && all_hard(soft_box.on_floor) && all_hard(soft_box.on_wall) &&
+           all_hard(soft_box.on_lid);
+  }
 };
 
 /// The scene with no contact that lasts.

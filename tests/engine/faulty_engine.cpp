@@ -106,7 +106,7 @@ class FaultyEngine final : public Engine {
     return {"faulty", "1.0", "double", {fault, pause}};
   }
 
-  Applied configure(const Scene&, const Settings& settings, double time_step) override {
+  Applied configure(const EngineScene&, const Settings& settings, double time_step) override {
     fault_ =
         settings.contains("fault") ? std::get<std::string>(settings.at("fault")) : shipped_fault();
     if (fault_ == "refuse") throw Refused("does not like the scene");

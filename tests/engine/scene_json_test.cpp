@@ -18,11 +18,11 @@ Request decode(const Request& request) {
   return decode_request(std::span<const std::uint8_t>(encode(request)).subspan(kPrefix));
 }
 
-Scene through(const Scene& scene) {
+EngineScene through(const EngineScene& scene) {
   return std::get<Configure>(decode(Configure{scene, {{"erp", 0.2}}, 1e-3})).scene;
 }
 
-void expect_rubbish(const Scene& scene, const std::function<void(json&)>& spoil,
+void expect_rubbish(const EngineScene& scene, const std::function<void(json&)>& spoil,
                     const char* reason) {
   json object = scene_to_json(scene);
   spoil(object);
@@ -157,6 +157,70 @@ TEST(SceneJson, ABadSceneIsNamed) {
         s["motion"] = {{"kind", "table"}, {"points", {{0, 0}, {0, 1}}}};
       },
       "motion.points[0]: must be a list of 3 numbers, got a list");
+}
+
+/// One soft contact of each law, and one pair whose contact stays hard.
+EngineScene soft_scene() {
+  EngineScene scene(some_box(3));
+  const SoftContact linear{LinearForce{1e5, 0.3}, ContactEnd::zero_force,
+                           ViscousForce{1.0 / 3, 0.5, ViscousForce::Caps::apart}, false};
+  const SoftContact hertz{HertzForce{1e9}, ContactEnd::zero_overlap,
+                          AsperityForce{0.2, 1e-7, AsperityForce::Form::passive}, true};
+  const SoftContact power{PowerForce{1e8, 20, 1.4, 0.6}, ContactEnd::zero_overlap,
+                          NoTangentialForce{}, false};
+  const SoftContact spheres{ViscoelasticForce{1e9, 1e-6}, ContactEnd::zero_overlap,
+                            ImpactAngleForce{0.3, -0.5, 2.0 / 7, PowerLawRestitution{}}, false};
+  const SoftContact compact{CompactViscoelasticForce{2e9, 1.0 / 7}, ContactEnd::zero_overlap,
+                            NoTangentialForce{}, false};
+  scene.soft = SoftContacts{{linear, std::nullopt, std::nullopt, hertz},
+                            {{power, spheres}, {std::nullopt, compact}, {linear, std::nullopt}}};
+  return scene;
+}
+
+TEST(SceneJson, SoftContactsComeThroughWhole) {
+  const EngineScene scene = soft_scene();
+  const EngineScene received = through(scene);
+  EXPECT_EQ(scene_to_json(received), scene_to_json(scene));
+  ASSERT_TRUE(received.soft);
+  EXPECT_EQ(received.soft_between(0, 1), nullptr);
+  const SoftContact& linear = *received.soft_between(0, 2);
+  EXPECT_EQ(std::get<LinearForce>(linear.normal).damping, 0.3);
+  EXPECT_EQ(linear.end, ContactEnd::zero_force);
+  EXPECT_EQ(std::get<ViscousForce>(linear.tangential).damping, 1.0 / 3);
+  EXPECT_EQ(std::get<ViscousForce>(linear.tangential).caps, ViscousForce::Caps::apart);
+  const SoftContact& hertz = *received.soft_between(1, 1);
+  EXPECT_EQ(std::get<AsperityForce>(hertz.tangential).form, AsperityForce::Form::passive);
+  EXPECT_TRUE(hertz.after_impact);
+  const SoftBox& box = received.soft->box;
+  EXPECT_EQ(std::get<PowerForce>(box.on_floor[0]->normal).gamma, 0.6);
+  EXPECT_EQ(std::get<ImpactAngleForce>(box.on_floor[1]->tangential).tangential_restitution, -0.5);
+  EXPECT_EQ(std::get<CompactViscoelasticForce>(box.on_wall[1]->normal).dissipation_time, 1.0 / 7);
+  EXPECT_FALSE(box.on_wall[0]);
+}
+
+TEST(SceneJson, WhereAllIsHardNothingIsSaidOfSoftContacts) {
+  EXPECT_FALSE(scene_to_json(some_scene()).contains("soft"));
+  EXPECT_FALSE(EngineScene(with_hard_contacts(some_scene())).soft);
+  EXPECT_FALSE(through(some_scene()).soft);
+}
+
+TEST(SceneJson, ABadSoftContactIsNamed) {
+  const auto expect = [](auto spoil, const char* reason) {
+    expect_rubbish(soft_scene(), spoil, reason);
+  };
+  expect([](json& s) { s["soft"]["pairs"].erase(0); },
+         "soft.pairs: must have an entry for each of 4 pairs of materials, has 3");
+  expect([](json& s) { s["soft"]["on_wall"].erase(0); },
+         "soft.on_wall: must have an entry for each of 2 materials in a box, has 1");
+  expect([](json& s) { s["soft"]["pairs"][0]["normal"]["model"] = "stiff"; },
+         "soft.pairs[0].normal.model: must be one of linear, hertz, power, viscoelastic, "
+         "compact_viscoelastic, got \"stiff\"");
+  expect([](json& s) { s["soft"]["pairs"][0]["normal"]["stiffness"] = 0; },
+         "soft.pairs[0].normal.stiffness: must be > 0, got 0");
+  expect([](json& s) { s["soft"]["pairs"][0]["tangential"]["caps"] = "none"; },
+         "soft.pairs[0].tangential.caps: must be one of together, apart, got \"none\"");
+  expect([](json& s) { s["soft"]["pairs"][3].erase("ends_at"); },
+         "soft.pairs[3].ends_at: must be there");
 }
 
 TEST(SceneJson, ABadBoxIsNamed) {

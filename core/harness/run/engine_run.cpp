@@ -41,7 +41,7 @@ void run_phases(RemoteEngine& engine, const EnsembleTask& task, const EngineReco
                 PhaseShare& share) {
   const double step = 1 / record.rate;
   share.version = engine.info().version;
-  share.applied = engine.configure(task.solver->scene().hard, record.settings, step);
+  share.applied = engine.configure(EngineScene(task.solver->scene()), record.settings, step);
 
   const std::vector<double> starts = starts_of(task, step);
   const std::size_t chunk = steps_at_once(task.reference->run.end_time, step);

@@ -35,7 +35,7 @@ TimedWork timed_engine(const PreparedScene& scene, const ReferenceSolver& solver
   return {&point, static_cast<double>(stretch->steps), point.knob,
           [&solver, &curve, &workers, stretch, step, repeats] {
             RemoteEngine& engine = workers.worker(curve.engine, curve.precision);
-            engine.configure(solver.scene().hard, curve.settings, step);
+            engine.configure(EngineScene(solver.scene()), curve.settings, step);
             const std::vector<double> seconds =
                 engine.time_steps(stretch->states, stretch->start, stretch->steps, repeats);
             return *std::min_element(seconds.begin() + 1, seconds.end());

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <array>
+
+#include "engine/contact_json.h"
+#include "engine/engine_scene.h"
+
+/// The fields of contacts that last in messages: a member `soft` of the scene.
+namespace slipcheck {
+
+template <>
+inline constexpr std::array kNamesOf<ContactEnd> = {"zero_overlap", "zero_force"};
+template <>
+inline constexpr std::array kNamesOf<ViscousForce::Caps> = {"together", "apart"};
+template <>
+inline constexpr std::array kNamesOf<AsperityForce::Form> = {"printed", "passive"};
+
+/// The words for the alternatives of a law, in the order of its variant.
+template <class Law>
+inline constexpr std::array<const char*, 0> kModelsOf{};
+template <>
+inline constexpr std::array kModelsOf<NormalForce> = {"linear", "hertz", "power", "viscoelastic",
+                                                      "compact_viscoelastic"};
+template <>
+inline constexpr std::array kModelsOf<TangentialForce> = {"none", "viscous", "asperity",
+                                                          "impact_angle"};
+
+template <class Fields>
+void describe(Fields& f, LinearForce& force) {
+  f("stiffness", force.stiffness, kAboveZero);
+  f("damping", force.damping, kNotBelowZero);
+}
+
+template <class Fields>
+void describe(Fields& f, HertzForce& force) {
+  f("modulus", force.modulus, kAboveZero);
+}
+
+template <class Fields>
+void describe(Fields& f, PowerForce& force) {
+  f("modulus", force.modulus, kAboveZero);
+  f("viscosity", force.viscosity, kNotBelowZero);
+  f("alpha", force.alpha, NumberRange{1});
+  f("gamma", force.gamma, kNotBelowZero);
+}
+
+template <class Fields>
+void describe(Fields& f, ViscoelasticForce& force) {
+  f("modulus", force.modulus, kAboveZero);
+  f("dissipation_time", force.dissipation_time, kNotBelowZero);
+}
+
+template <class Fields>
+void describe(Fields& f, CompactViscoelasticForce& force) {
+  f("modulus", force.modulus, kAboveZero);
+  f("dissipation_time", force.dissipation_time, kNotBelowZero);
+}
+
+template <class Fields>
+void describe(Fields&, NoTangentialForce&) {}
+
+template <class Fields>
+void describe(Fields& f, ViscousForce& force) {
+  f("damping", force.damping, kNotBelowZero);
+  f("friction", force.friction, kNotBelowZero);
+  f("caps", force.caps);
+}
+
+template <class Fields>
+void describe(Fields& f, AsperityForce& force) {
+  f("friction", force.friction, kNotBelowZero);
+  f("size", force.size, kAboveZero);
+  f("form", force.form);
+}
+
+template <class Fields>
+void describe(Fields& f, ImpactAngleForce& force) {
+  f("friction", force.friction, kNotBelowZero);
+  f("tangential_restitution", force.tangential_restitution, NumberRange{-1, 1});
+  f("mass_ratio", force.mass_ratio, kAboveZero);
+  describe_restitution(f, force.restitution);
+}
+
+/// One alternative of a law and the word that tells which.
+template <class Fields, class... Forces>
+void describe(Fields& f, std::variant<Forces...>& law) {
+  constexpr auto& words = kModelsOf<std::variant<Forces...>>;
+  static_assert(words.size() == sizeof...(Forces));
+  std::string model = words[law.index()];
+  f("model", model);
+  if constexpr (Fields::kReads) {
+    std::size_t k = 0;
+    const bool known = ((words[k++] == model && (law = Forces{}, true)) || ...);
+    if (!known) f["model"].fault(fmt::format("must be one of {}", fmt::join(words, ", ")));
+  }
+  std::visit([&](auto& force) { describe(f, force); }, law);
+}
+
+template <class Fields>
+void describe(Fields& f, SoftContact& contact) {
+  const auto law = [&](const char* key, auto& force) {
+    f.object(key, [&](auto& fields) { describe(fields, force); });
+  };
+  law("normal", contact.normal);
+  law("tangential", contact.tangential);
+  f("ends_at", contact.end);
+  f("after_impact", contact.after_impact);
+}
+
+/// A list with null where the contact is hard.
+template <class Fields>
+void describe_soft_list(Fields& f, const char* key,
+                        std::vector<std::optional<SoftContact>>& contacts) {
+  if constexpr (Fields::kReads) {
+    contacts.clear();
+    for (const JsonNode& item : f[key].items()) {
+      auto& contact = contacts.emplace_back();
+      if (!item.json().is_null()) contact = read_finite<SoftContact>(item);
+    }
+  } else {
+    nlohmann::json list = nlohmann::json::array();
+    for (const auto& contact : contacts)
+      list.push_back(contact ? message_json(*contact) : nlohmann::json());
+    f(key, list);
+  }
+}
+
+template <class Fields>
+void describe(Fields& f, SoftContacts& soft) {
+  describe_soft_list(f, "pairs", soft.pairs);
+  describe_soft_list(f, "on_floor", soft.box.on_floor);
+  describe_soft_list(f, "on_wall", soft.box.on_wall);
+  describe_soft_list(f, "on_lid", soft.box.on_lid);
+}
+
+}  // namespace slipcheck
