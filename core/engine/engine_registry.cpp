@@ -58,7 +58,7 @@ std::vector<KnownEngine> known_engines() {
   std::vector<KnownEngine> engines = {
       {"bullet", "Debian package libbullet-dev"},
       {"dart", "Debian package libdart-dev"},
-      {"lammps", "Debian package liblammps-dev"},
+      {"lammps", "Debian package lammps"},
       {"mujoco", "Debian package libmujoco-dev"},
       {"ode", "Debian package libode-dev"},
       {"siconos", "Debian package libsiconos-kernel-dev"},

@@ -1,0 +1,78 @@
+#include "common/momentum_touches.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+namespace slipcheck {
+namespace {
+
+struct Candidate {
+  int first, second;
+  Vector3 normal;  // from the second to the first
+};
+
+/// Gap [m] that counts as touching: resting bodies hover by rounding.
+constexpr double kNear = 1e-6;  // of the radius
+
+std::vector<Candidate> candidates(const Scene& scene, std::span<const BodyState> before,
+                                  std::span<const BodyState> after, double time_step) {
+  std::vector<Candidate> found;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const double radius = scene.bodies[i].radius, margin = kNear * radius;
+    const BodyState& old = before[i];
+    const double fall = 0.5 * scene.gravity * time_step * time_step;
+    const double lowest = std::min({old.position.z(), after[i].position.z(),
+                                    old.position.z() + time_step * old.velocity.z() - fall});
+    if (!scene.box && lowest < radius + margin)
+      found.push_back({static_cast<int>(i), kSubstrate, Vector3::UnitZ()});
+    for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {
+      const double reach = radius + scene.bodies[j].radius;
+      const Vector3 apart = scene.to_nearest_image(old.position - before[j].position);
+      const Vector3 rate = old.velocity - before[j].velocity;
+      const Vector3 now = scene.to_nearest_image(after[i].position - after[j].position);
+      // The closest approach of the free flight within the step.
+      const double square = rate.squaredNorm();
+      const double when = square > 0 ? std::clamp(-apart.dot(rate) / square, 0.0, time_step) : 0.0;
+      const double nearest = std::min((apart + when * rate).norm(), now.norm());
+      if (nearest < reach + margin)
+        found.push_back(
+            {static_cast<int>(i), static_cast<int>(j), (apart + now).stableNormalized()});
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyState> before,
+                                    std::span<const BodyState> after, double time_step) {
+  const std::vector<Candidate> found = candidates(scene, before, after, time_step);
+  if (found.empty()) return {};
+  const auto bodies = static_cast<Eigen::Index>(scene.bodies.size());
+  const auto count = static_cast<Eigen::Index>(found.size());
+  Eigen::MatrixXd lines = Eigen::MatrixXd::Zero(3 * bodies, count);
+  Eigen::VectorXd momenta(3 * bodies);
+  const Vector3 gravity(scene.downhill.x(), scene.downhill.y(), -scene.gravity);
+  double largest = 0;
+  for (Eigen::Index i = 0; i < bodies; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Vector3 gained =
+        scene.bodies[k].mass * (after[k].velocity - before[k].velocity - time_step * gravity);
+    momenta.segment<3>(3 * i) = gained;
+    largest = std::max(largest, gained.norm());
+  }
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const Candidate& each = found[static_cast<std::size_t>(c)];
+    lines.block<3, 1>(3 * each.first, c) = each.normal;
+    if (each.second != kSubstrate) lines.block<3, 1>(3 * each.second, c) = -each.normal;
+  }
+  const Eigen::VectorXd impulses = lines.completeOrthogonalDecomposition().solve(momenta);
+  std::vector<Touch> touches;
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const Candidate& each = found[static_cast<std::size_t>(c)];
+    if (impulses[c] > 1e-9 * largest) touches.push_back({each.first, each.second, impulses[c]});
+  }
+  return touches;
+}
+
+}  // namespace slipcheck

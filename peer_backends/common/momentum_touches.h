@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/frame.h"
+#include "scene/scene.h"
+
+namespace slipcheck {
+
+/// Who exchanged a normal impulse in a step, of an engine that does not tell: what the change of
+/// the bodies' momenta beyond gravity's comes to along the lines of centres and the substrate's
+/// normal. Only those count who overlap before or after, or who would by their velocities
+/// before. Friction's impulses are taken out as far as they are across those lines; where a body
+/// touches so many others that the split is not unique, it is the smallest.
+std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyState> before,
+                                    std::span<const BodyState> after, double time_step);
+
+}  // namespace slipcheck

@@ -1,0 +1,189 @@
+#include "lammps/lammps_engine.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "common/momentum_touches.h"
+#include "common/moving_frame.h"
+#include "engine/scene_needs.h"
+#include "lammps/lammps_input.h"
+#include "lammps/lammps_process.h"
+#include "lammps/springs.h"
+
+namespace slipcheck::lammps {
+namespace {
+
+/// "29 Sep 2021 - Update 2", from the first line of `lmp -h` that holds it.
+std::string lammps_version() {
+  std::string version = "unknown";
+  FILE* help = popen("lmp -h 2>/dev/null", "r");
+  if (!help) return version;
+  char line[512];
+  const std::string mark = "Simulator - ";
+  while (std::fgets(line, sizeof line, help)) {
+    const std::string text = line;
+    const std::size_t at = text.find(mark);
+    if (at != std::string::npos)
+      version = text.substr(at + mark.size(), text.find_last_not_of("\r\n") + 1 - at - mark.size());
+  }
+  pclose(help);
+  return version;
+}
+
+void refuse_what_cannot_be(const Scene& scene) {
+  if (scene.box)
+    throw Refused("lammps: the walls of a box are shaken and fix wall/gran knows no table of them");
+  for (const Sphere& body : scene.bodies)
+    if (body.shape_factor != 0.4)
+      throw Refused(fmt::format(
+          "lammps: atoms of style sphere are solid, I = 2/5 m R², and the scene has {} m R²",
+          body.shape_factor));
+}
+
+std::vector<Lack> not_represented(const EngineScene& scene, const LammpsSettings& settings,
+                                  double time_step) {
+  const SceneNeeds needs = needs_of(scene, time_step);
+  const bool fields = settings.coefficients == Coefficients::fields;
+  bool any_hard = false, apart = false, low = false;
+  for (const auto& [i, j] : material_pairs(scene)) {
+    const SoftContact* soft = scene.soft_between(i, j);
+    any_hard |= !soft;
+    const auto* viscous = soft ? std::get_if<ViscousForce>(&soft->tangential) : nullptr;
+    apart |= viscous && viscous->friction > 0 && viscous->caps == ViscousForce::Caps::apart;
+    const auto* e = std::get_if<double>(&scene.between(i, j).restitution);
+    low |= !soft && e && *e < settings.lowest_restitution;
+  }
+  for (const std::size_t material : scene.material)
+    low |= scene.substrate[material].restitution < settings.lowest_restitution;
+  LackList missing;
+  missing.note(needs.static_friction, lack::kStaticFriction,
+               "one coefficient, and damping below its limit");
+  missing.note(needs.coupled_drilling, lack::kCoupledDrilling,
+               "torque and friction are full, each by itself");
+  missing.note(needs.rolling_only, lack::kRollingOnly, "it acts while sliding too");
+  missing.note(needs.rolling_table, lack::kRollingTable);
+  missing.note(any_hard && needs.bounce_law, lack::kRestitutionLaw);
+  missing.note(any_hard && needs.reversed_slip, lack::kTangentialRestitution,
+               "friction only stops the slip");
+  missing.note(scene.confined, lack::kConfinement);
+  if (low)
+    missing.add({fmt::format("restitution below {:.3g}", settings.lowest_restitution),
+                 "restitution below …"});
+  missing.note(true, "contacts without duration",
+               any_hard ? "hard ones and the substrate are springs" : "the substrate is a spring");
+  missing.note(apart, "friction whose parts in the plane and across it have a limit each");
+  missing.note(fields, "restitution of a linear spring", "damping tsuji is made for Hertz's force");
+  missing.note(settings.pair_style != PairStyle::law, "the tangential force",
+               "a spring acts beside the damping");
+  return missing.take();
+}
+
+class LammpsEngine final : public Engine {
+ public:
+  EngineInfo info() const override {
+    static const std::string version = lammps_version();
+    return {"lammps", version, "double", setting_rows().infos()};
+  }
+
+  Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
+    const LammpsSettings settings = setting_rows().read(chosen);
+    refuse_what_cannot_be(scene);
+    const MovingFrame frame(scene, "lammps");
+    const InnerSteps steps = inner_steps(scene, settings, time_step);
+    input(scene, scene.initial, settings, steps.length);  // refuses what cannot be said
+    if (!process_ || settings.ranks != setup_->settings.ranks) {
+      process_.reset();
+      process_ = std::make_unique<LammpsProcess>(settings.ranks);
+    }
+    setup_.emplace(Setup{scene, settings, steps, time_step, frame});
+    start(scene.initial, 0);
+    return {applied(scene, settings, steps), not_represented(scene, settings, time_step), {}};
+  }
+
+  void start(std::span<const BodyState> states, double) override {
+    if (run_ && run_->blown_up)  // that LAMMPS has ended
+      process_ = std::make_unique<LammpsProcess>(setup_->settings.ranks);
+    run_ = std::make_unique<Run>();
+    run_->states = setup_->frame.enter(states);
+    process_->send(input(setup_->scene, run_->states, setup_->settings, setup_->steps.length) +
+                   dump_command(setup_->scene, process_->snapshot_file()) + "run 0\n");
+    process_->finish_run();
+  }
+
+  void step() override { ++run_->pending; }
+
+  void read(Frame& frame) const override {
+    const std::vector<BodyState> before = run_->states;
+    const double time = static_cast<double>(run_->pending) * setup_->time_step;
+    advance(true);
+    frame.bodies = run_->states;
+    frame.touches = run_->blown_up ? std::vector<Touch>{}
+                                   : momentum_touches(setup_->scene, before, run_->states, time);
+    setup_->frame.leave(frame.bodies, static_cast<double>(run_->frames) * setup_->time_step);
+  }
+
+  double cpu_seconds() const override {
+    if (run_) advance(false);
+    return cpu_seconds_;
+  }
+
+ private:
+  struct Setup {
+    EngineScene scene;
+    LammpsSettings settings;
+    InnerSteps steps;
+    double time_step;
+    MovingFrame frame;
+  };
+  /// A world in LAMMPS, as seen from the substrate.
+  struct Run {
+    std::vector<BodyState> states;  // in the last frame
+    long pending = 0;               // steps that are asked for and not taken
+    long taken = 0;                 // of LAMMPS's
+    long frames = 0;                // steps of the engine's at the last frame
+    bool blown_up = false;
+  };
+
+  /// Takes the steps that are pending, all in one run: nothing comes between them.
+  void advance(bool look) const {
+    Run& run = *run_;
+    if (run.pending == 0 || run.blown_up) {
+      run.pending = 0;
+      return;
+    }
+    const long count = run.pending * setup_->steps.count;
+    run.taken += count;
+    run.frames += run.pending;
+    run.pending = 0;
+    try {
+      // Of all steps on the way only the last is a multiple of itself.
+      process_->send(fmt::format("dump_modify frames every {}\nrun {} pre no\n",
+                                 look ? run.taken : 1000000000, count));
+      cpu_seconds_ += process_->finish_run();
+      if (look) process_->read_snapshot(run.taken, run.states, run.states.size());
+    } catch (const LammpsError& error) {
+      const std::string reason = error.what();
+      if (reason.find("Lost atoms") == std::string::npos &&
+          reason.find("Non-numeric") == std::string::npos)
+        throw;
+      run.blown_up = true;
+      for (BodyState& state : run.states)
+        state.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+
+  std::optional<Setup> setup_;
+  std::unique_ptr<LammpsProcess> process_;
+  std::unique_ptr<Run> run_;
+  mutable double cpu_seconds_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_lammps_engine() { return std::make_unique<LammpsEngine>(); }
+
+}  // namespace slipcheck::lammps

@@ -1,0 +1,261 @@
+#include "lammps/lammps_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/engine.h"
+#include "lammps/springs.h"
+
+namespace slipcheck::lammps {
+namespace {
+
+/// A number that LAMMPS reads back as the same.
+std::string exact(double value) { return fmt::format("{:.17g}", value); }
+
+double smallest_radius(const Scene& scene) {
+  return std::ranges::min_element(scene.bodies, {}, &Sphere::radius)->radius;
+}
+
+/// The springs of all pairs of types, the one for (a, b), a <= b, at its place in the triangle.
+std::vector<Spring> pair_springs(const EngineScene& scene, const AtomTypes& types,
+                                 const LammpsSettings& settings) {
+  std::vector<Spring> springs;
+  const std::size_t count = types.first_body.size();
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = a; b < count; ++b)
+      springs.push_back(pair_spring(scene, types.first_body[a], types.first_body[b], settings));
+  return springs;
+}
+
+/// gran/hooke takes rates of the reduced mass, one set for all types.
+struct HookeCoefficients {
+  double stiffness, normal_rate, tangential_rate, friction;
+  bool never_attracts;
+  bool operator==(const HookeCoefficients&) const = default;
+};
+
+HookeCoefficients hooke_coefficients(const Spring& spring) {
+  // gran/hertz/history: ρ = k √R_eff, and the damping is √(R_eff ξ) m_eff γ_n.
+  const double unit = spring.hertz ? std::sqrt(spring.effective_radius) : 1;
+  return {spring.stiffness / unit, spring.damping / (spring.mass * unit),
+          spring.tangential / spring.mass, spring.friction, spring.never_attracts};
+}
+
+std::string gran_style(const char* style, const Spring& spring) {
+  const HookeCoefficients c = hooke_coefficients(spring);
+  return fmt::format("pair_style {} {} NULL {} {} {} 1{}\npair_coeff * *\n", style,
+                     exact(c.stiffness), exact(c.normal_rate), exact(c.tangential_rate),
+                     exact(c.friction), c.never_attracts ? " limit_damping" : "");
+}
+
+/// The words of pair style `granular` and of fix wall/gran for a spring. Their tangential damping
+/// is a factor on the normal one, which so must not be zero.
+std::string granular(const Spring& spring) {
+  const double unit = spring.hertz ? std::sqrt(spring.effective_radius) : 1;
+  const bool slips = spring.friction > 0 && spring.tangential > 0;
+  std::string text =
+      fmt::format("{} {}", spring.hertz ? "hertz" : "hooke", exact(spring.stiffness / unit));
+  double factor = 0;
+  if (spring.tsuji_restitution) {
+    text += fmt::format(" {} damping tsuji", exact(*spring.tsuji_restitution));
+    factor = 1;
+  } else if (spring.hertz && spring.damping > 0) {
+    text += fmt::format(" {} damping viscoelastic", exact(spring.damping / (spring.mass * unit)));
+  } else {
+    const double normal = std::max(spring.damping, slips ? 1e-9 * spring.tangential : 0.0);
+    text += fmt::format(" {} damping velocity", exact(normal));
+    if (slips) factor = spring.tangential / normal;
+  }
+  text += fmt::format(" tangential linear_nohistory {} {}", exact(factor),
+                      exact(slips ? spring.friction : 0.0));
+  return text;
+}
+
+std::string pair_commands(const EngineScene& scene, const AtomTypes& types,
+                          const LammpsSettings& settings) {
+  const std::vector<Spring> springs = pair_springs(scene, types, settings);
+  const bool alike = std::ranges::all_of(springs, [&](const Spring& each) {
+    return each.hertz == springs[0].hertz &&
+           hooke_coefficients(each) == hooke_coefficients(springs[0]);
+  });
+  if (settings.pair_style != PairStyle::law) {
+    const bool hertz = settings.pair_style == PairStyle::hertz_history;
+    if (!alike || springs[0].hertz != hertz)
+      throw Refused(
+          fmt::format("lammps: {} has one set of coefficients for all pairs, {}",
+                      hertz ? "gran/hertz/history" : "gran/hooke/history",
+                      alike ? "of another law than the scene's" : "and the scene's pairs differ"));
+    return gran_style(hertz ? "gran/hertz/history" : "gran/hooke/history", springs[0]);
+  }
+  if (alike && !springs[0].hertz && !springs[0].tsuji_restitution)
+    return gran_style("gran/hooke", springs[0]);
+  std::string text = "pair_style granular\n";
+  std::size_t place = 0;
+  for (std::size_t a = 0; a < types.first_body.size(); ++a)
+    for (std::size_t b = a; b < types.first_body.size(); ++b) {
+      const Spring& spring = springs[place++];
+      text += fmt::format("pair_coeff {} {} {}{}\n", a + 1, b + 1, granular(spring),
+                          spring.never_attracts ? " limit_damping" : "");
+    }
+  return text;
+}
+
+/// Rolling and twisting as springs that hold up to their caps and are critically damped.
+std::string wall_torques(const Scene& scene, std::size_t body, const Spring& spring,
+                         const LammpsSettings& settings) {
+  const Sphere& sphere = scene.bodies[body];
+  const SubstrateContact& ground = scene.on_substrate(body);
+  const double q = sphere.shape_factor;
+  std::string text;
+  if (!ground.rolling.is_zero()) {
+    // The torque is R μ F_N; a sphere that rolls is slowed by R μ F_N/((1 + q) m R).
+    const double factor = settings.coefficients == Coefficients::fields ? 1 : 1 + q;
+    const double damping = 2 * std::sqrt(spring.stiffness * (1 + q) * sphere.mass);
+    text += fmt::format(" rolling sds {} {} {}", exact(spring.stiffness), exact(damping),
+                        exact(factor * ground.rolling.points().front().coefficient));
+  }
+  if (ground.drilling_length > 0) {
+    const double stiffness = spring.stiffness * sphere.radius * sphere.radius;
+    const double damping = 2 * std::sqrt(stiffness * sphere.moment_of_inertia());
+    text += fmt::format(" twisting sds {} {} {}", exact(stiffness), exact(damping),
+                        exact(ground.drilling_length));
+  }
+  return text;
+}
+
+std::string wall_commands(const EngineScene& scene, const AtomTypes& types,
+                          const LammpsSettings& settings) {
+  std::string text;
+  for (std::size_t type = 0; type < types.first_body.size(); ++type) {
+    const std::size_t body = types.first_body[type];
+    const Spring spring = substrate_spring(scene, body, settings);
+    text += fmt::format(
+        "group type{0} type {0}\n"
+        "fix wall{0} type{0} wall/gran granular {1}{2} zplane 0 NULL\n",
+        type + 1, granular(spring), wall_torques(scene, body, spring, settings));
+  }
+  return text;
+}
+
+/// A place inside the cell, and how many cells away it is.
+std::pair<double, long> folded(double place, double length) {
+  if (length == 0) return {place, 0};
+  const double cells = std::floor(place / length);
+  return {place - cells * length, static_cast<long>(cells)};
+}
+
+std::string box_commands(const Scene& scene, std::span<const BodyState> states, std::size_t types) {
+  std::string text =
+      fmt::format("boundary {} {} s\nregion world block", scene.periodic.x() > 0 ? 'p' : 's',
+                  scene.periodic.y() > 0 ? 'p' : 's');
+  const double margin = 2 * std::ranges::max_element(scene.bodies, {}, &Sphere::radius)->radius;
+  for (int k = 0; k < 3; ++k) {
+    const double cell = k < 2 ? scene.periodic[k] : 0;
+    double low = 0, high = 0;
+    for (const BodyState& state : states) {
+      low = std::min(low, state.position[k]);
+      high = std::max(high, state.position[k]);
+    }
+    text += cell > 0 ? fmt::format(" 0 {}", exact(cell))
+                     : fmt::format(" {} {}", exact(low - margin), exact(high + margin));
+  }
+  return text + fmt::format(" units box\ncreate_box {} world\n", types);
+}
+
+std::string atom_commands(const Scene& scene, std::span<const BodyState> states,
+                          const AtomTypes& types) {
+  std::string create, set;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto& [position, velocity, spin] = states[i];
+    const auto [x, cells_x] = folded(position.x(), scene.periodic.x());
+    const auto [y, cells_y] = folded(position.y(), scene.periodic.y());
+    create += fmt::format("create_atoms {} single {} {} {} units box\n", types.of_body[i] + 1,
+                          exact(x), exact(y), exact(position.z()));
+    set += fmt::format("set atom {} diameter {} mass {} vx {} vy {} vz {} omega {} {} {}\n", i + 1,
+                       exact(2 * scene.bodies[i].radius), exact(scene.bodies[i].mass),
+                       exact(velocity.x()), exact(velocity.y()), exact(velocity.z()),
+                       exact(spin.x()), exact(spin.y()), exact(spin.z()));
+    if (scene.periodic.x() > 0)
+      set += fmt::format("set atom {} image {} NULL NULL\n", i + 1, cells_x);
+    if (scene.periodic.y() > 0)
+      set += fmt::format("set atom {} image NULL {} NULL\n", i + 1, cells_y);
+  }
+  return create + set;
+}
+
+std::string gravity_command(const Scene& scene) {
+  const Vector3 gravity(scene.downhill.x(), scene.downhill.y(), -scene.gravity);
+  if (gravity.isZero(0)) return "";
+  // fix gravity makes a unit vector of the direction: along an axis it is exact.
+  const bool level = scene.downhill.isZero(0);
+  const Vector3 direction = level ? Vector3(0, 0, -1) : gravity;
+  return fmt::format("fix weight all gravity {} vector {} {} {}\n",
+                     exact(level ? scene.gravity : gravity.norm()), exact(direction.x()),
+                     exact(direction.y()), exact(direction.z()));
+}
+
+/// Beyond so many bodies pairs are looked for in bins, which cost memory where bodies are far
+/// apart.
+constexpr std::size_t kBins = 400;
+
+}  // namespace
+
+InnerSteps inner_steps(const EngineScene& scene, const LammpsSettings& settings, double time_step) {
+  if (settings.substeps > 0) return {settings.substeps, time_step / settings.substeps};
+  const AtomTypes types = atom_types(scene);
+  const double speed = approach_speed(scene);
+  double shortest = settings.collision_time > 0 ? settings.collision_time : time_step;
+  if (scene.bodies.size() > 1)
+    for (const Spring& spring : pair_springs(scene, types, settings))
+      shortest = std::min(shortest, collision_time(spring, speed));
+  const double count = std::ceil(time_step / shortest * settings.steps_per_collision);
+  if (!(count < 1e8))
+    throw Refused(
+        fmt::format("lammps: {:.3g} steps of its own in each step of {} s", count, time_step));
+  return {std::max(1, static_cast<int>(count)), time_step / std::max(1.0, count)};
+}
+
+std::string input(const EngineScene& scene, std::span<const BodyState> states,
+                  const LammpsSettings& settings, double inner_step) {
+  const AtomTypes types = atom_types(scene);
+  std::string text =
+      "clear\nunits si\natom_style sphere\nnewton off\n"
+      "comm_modify mode single vel yes\natom_modify sort 0 0\n";
+  text += box_commands(scene, states, types.first_body.size());
+  text += atom_commands(scene, states, types);
+  text += pair_commands(scene, types, settings);
+  text += fmt::format("neighbor {} {}\nneigh_modify delay 0 every 1 check yes\n",
+                      exact(settings.skin * smallest_radius(scene)),
+                      scene.bodies.size() > kBins ? "bin" : "nsq");
+  text += "fix motion all nve/sphere\n" + gravity_command(scene);
+  text += wall_commands(scene, types, settings);
+  return text + fmt::format("timestep {}\nthermo 1000000000\n", exact(inner_step));
+}
+
+std::string dump_command(const Scene& scene, const std::string& file) {
+  const char *x = scene.periodic.x() > 0 ? "xu" : "x", *y = scene.periodic.y() > 0 ? "yu" : "y";
+  return fmt::format(
+      "dump frames all custom 1000000000 {} id {} {} z vx vy vz omegax omegay omegaz\n"
+      "dump_modify frames format float %.17g sort id flush yes\n",
+      file, x, y);
+}
+
+Settings applied(const EngineScene& scene, const LammpsSettings& settings,
+                 const InnerSteps& steps) {
+  Settings all = setting_rows().write(settings);
+  all["substeps"] = static_cast<double>(steps.count);
+  all["timestep"] = steps.length;
+  const auto tell = [&](const std::string& of, const Spring& spring) {
+    all[of + "_stiffness"] = spring.stiffness;
+    all[of + "_damping"] = spring.damping;
+    all[of + "_tangential_damping"] = spring.tangential;
+    all[of + "_friction"] = spring.friction;
+  };
+  if (scene.bodies.size() > 1) tell("pair", pair_spring(scene, 0, 1, settings));
+  tell("substrate", substrate_spring(scene, 0, settings));
+  return all;
+}
+
+}  // namespace slipcheck::lammps

@@ -1,0 +1,274 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "../scenes.h"
+#include "../support/refusal.h"
+#include "engine/lacks.h"
+#include "worker_run.h"
+
+namespace slipcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kRate = 240;
+
+std::string executable() { return test::peer_executable("lammps"); }
+
+double number(const Applied& applied, const std::string& name) {
+  return std::get<double>(applied.settings.at(name));
+}
+
+// --- the same as a bare input file ---------------------------------------------------------------
+
+/// A ball as somebody types it who has no adapter.
+struct Typed {
+  double radius, mass, x, y, z, vx, wy;
+};
+
+/// An input file of LAMMPS's own language, run by lmp: the states after each of `steps` steps.
+std::vector<std::vector<double>> bare(const std::vector<Typed>& balls, const Applied& applied,
+                                      const std::string& pair, double friction, int steps) {
+  const auto folder = fs::temp_directory_path() / fmt::format("slipcheck-bare-{}", getpid());
+  fs::create_directories(folder);
+  const double k = number(applied, "substrate_stiffness"), c = number(applied, "substrate_damping");
+  const double tangential = number(applied, "substrate_tangential_damping");
+  const int inner = static_cast<int>(number(applied, "substeps"));
+  std::ofstream in(folder / "in.bare");
+  in << "units si\natom_style sphere\nboundary s s s\nnewton off\ncomm_modify mode single vel yes\n"
+     << "region box block -1 1 -1 1 -1 1\ncreate_box 1 box\n";
+  int id = 0;
+  for (const Typed& b : balls)
+    in << fmt::format(
+        "create_atoms 1 single {:.17g} {:.17g} {:.17g} units box\n"
+        "set atom {} diameter {:.17g} mass {:.17g} vx {:.17g} omega 0 {:.17g} 0\n",
+        b.x, b.y, b.z, ++id, 2 * b.radius, b.mass, b.vx, b.wy);
+  in << pair << "neighbor 0.0005 nsq\nneigh_modify delay 0 every 1 check yes\n"
+     << "fix 1 all nve/sphere\nfix 2 all gravity 9.81 vector 0 0 -1\n"
+     << fmt::format(
+            "fix 3 all wall/gran granular hooke {:.17g} {:.17g} damping velocity tangential "
+            "linear_nohistory {:.17g} {:.17g} zplane 0 NULL\n",
+            k, c, tangential / c, friction)
+     << fmt::format("timestep {:.17g}\n", 1 / kRate / inner)
+     << fmt::format("dump 1 all custom {} {} id x y z vx vy vz omegax omegay omegaz\n", inner,
+                    (folder / "dump").string())
+     << "dump_modify 1 format float %.17g sort id\n"
+     << fmt::format("run {}\n", steps * inner);
+  in.close();
+  const std::string command =
+      fmt::format("cd {} && lmp -log none -in in.bare > out.txt 2>&1", folder.string());
+  EXPECT_EQ(std::system(command.c_str()), 0);
+
+  std::vector<std::vector<double>> frames;
+  std::ifstream dump(folder / "dump");
+  for (std::string line; std::getline(dump, line);) {
+    if (!line.starts_with("ITEM: ATOMS")) continue;
+    std::vector<double>& frame = frames.emplace_back();
+    for (std::size_t k_ball = 0; k_ball < balls.size(); ++k_ball) {
+      std::getline(dump, line);
+      std::istringstream words(line);
+      std::string word;
+      words >> word;  // the id
+      while (words >> word) frame.push_back(std::strtod(word.c_str(), nullptr));
+    }
+  }
+  fs::remove_all(folder);
+  if (!frames.empty()) frames.erase(frames.begin());  // the start
+  return frames;
+}
+
+void expect_same_bits(const Scene& scene, const std::vector<Typed>& balls, const std::string& pair,
+                      int steps) {
+  RemoteEngine engine(executable());
+  const Applied applied = engine.configure(scene, {}, 1 / kRate);
+  const auto frames = test::peer_run(engine, scene, {}, 1 / kRate, static_cast<std::size_t>(steps));
+  const auto expected = bare(balls, applied, pair, scene.substrate[0].kinetic_friction, steps);
+  ASSERT_EQ(frames.size(), expected.size());
+  for (std::size_t n = 0; n < frames.size(); ++n) {
+    ASSERT_EQ(expected[n].size(), 9 * balls.size());
+    ASSERT_EQ(std::memcmp(frames[n].bodies.data(), expected[n].data(), 72 * balls.size()), 0)
+        << "frame " << n;
+  }
+}
+
+TEST(Lammps, NumbersAreThoseOfABareInputFile) {
+  const Scene slide = test::slide_to_roll();
+  const std::string any_pair = "pair_style gran/hooke 1e5 NULL 0 0 0 1\npair_coeff * *\n";
+  expect_same_bits(slide, {{0.005, slide.bodies[0].mass, 0, 0, 0.005, 0.5, 0}}, any_pair, 240);
+  const Scene bounce = test::bouncing_ball();
+  expect_same_bits(bounce, {{0.01, bounce.bodies[0].mass, 0, 0, 0.06, 0, 0}}, any_pair, 240);
+
+  const Scene pair = test::head_on(0.15, -0.15, 0.9, 0.0095);
+  RemoteEngine engine(executable());
+  const Applied applied = engine.configure(pair, {}, 1 / kRate);
+  const double mass = pair.bodies[0].mass;
+  const std::string hooke =
+      fmt::format("pair_style gran/hooke {:.17g} NULL {:.17g} {:.17g} 0 1\npair_coeff * *\n",
+                  number(applied, "pair_stiffness"), number(applied, "pair_damping") / (mass / 2),
+                  number(applied, "pair_tangential_damping") / (mass / 2));
+  const double turn = pair.initial[0].angular_velocity.y();
+  expect_same_bits(
+      pair,
+      {{0.002, mass, -0.0095, 0, 0.002, 0.15, turn}, {0.002, mass, 0.0095, 0, 0.002, -0.15, -turn}},
+      hooke, 240);
+}
+
+TEST(Lammps, SpringsHaveTheRestitutionAndTheTime) {
+  RemoteEngine engine(executable());
+  const Scene scene = test::bouncing_ball();
+  const Applied applied = engine.configure(scene, {}, 1 / kRate);
+  // e = exp(−c t/(2 m)) and t = π/ω of the free oscillation.
+  const double m = scene.bodies[0].mass, time = 1e-4, c = -2 * m * std::log(0.8) / time;
+  const double k = m * (M_PI * M_PI / (time * time) + c * c / (4 * m * m));
+  EXPECT_NEAR(number(applied, "substrate_damping") / c, 1, 1e-13);
+  EXPECT_NEAR(number(applied, "substrate_stiffness") / k, 1, 1e-13);
+  EXPECT_EQ(number(applied, "substeps"), 2084);  // 50/(240 · 1e-4 s), rounded up
+}
+
+// --- maps ----------------------------------------------------------------------------------------
+
+TEST(Lammps, ABallSlidesIntoRolling) {
+  const Scene scene = test::slide_to_roll();
+  RemoteEngine engine(executable());
+  const auto frames = test::peer_run(engine, scene, {}, 1e-3, 120);
+  // t = 2 v/(7 μ g); the spring takes a few t_col to carry the weight, 0.1 ms each.
+  EXPECT_NEAR(test::sliding_end(frames, 0.005, 1e-3), 2 * 0.5 / (7 * 0.2 * 9.81), 2e-4);
+  EXPECT_NEAR(frames.back().bodies[0].velocity.x(), 5.0 / 7 * 0.5, 1e-9);
+  ASSERT_EQ(frames.back().touches.size(), 1u);
+  EXPECT_EQ(frames.back().touches[0].second, kSubstrate);
+  EXPECT_NEAR(frames.back().touches[0].normal_impulse, scene.bodies[0].mass * 9.81e-3, 1e-9);
+}
+
+TEST(Lammps, ABallReboundsWithItsRestitution) {
+  const Scene scene = test::bouncing_ball();
+  RemoteEngine engine(executable());
+  // A step of t_col/50 leaves 2 |ln e|/50 · ½ of the jump in the force out at most.
+  EXPECT_NEAR(test::rebound(test::peer_run(engine, scene, {}, 1e-3, 150), scene), 0.8, 8e-3);
+  const Settings fine = {{"collision_time", 2e-5}, {"steps_per_collision", 400.0}};
+  EXPECT_NEAR(test::rebound(test::peer_run(engine, scene, fine, 1e-3, 150), scene), 0.8, 1e-3);
+}
+
+TEST(Lammps, RollingFrictionSlowsByItsCoefficient) {
+  const Scene scene = test::roll_to_rest();
+  RemoteEngine engine(executable());
+  const auto frames = test::peer_run(engine, scene, {}, 1e-3, 1000);
+  const Vector3 v = frames.back().bodies[0].velocity;
+  EXPECT_NEAR((0.5 - v.norm()) / (0.02 * 9.81 * 1.0), 1, 1e-4);
+  EXPECT_NEAR(std::atan2(v.y(), v.x()), std::atan2(0.25, 0.4330127018922193), 1e-9);
+  // People type the coefficient as it stands; LAMMPS's torque is that of a lever R.
+  const auto naive =
+      test::peer_run(engine, scene, {{"coefficients", std::string("fields")}}, 1e-3, 1000);
+  EXPECT_NEAR((0.5 - naive.back().bodies[0].velocity.norm()) / (0.02 * 9.81 * 1.0), 5.0 / 7, 1e-3);
+}
+
+TEST(Lammps, DrillingFrictionSlowsTheSpin) {
+  Scene scene = test::slide_to_roll();
+  scene.initial[0].velocity.setZero();
+  scene.initial[0].angular_velocity = {0, 0, 50};
+  scene.substrate[0].drilling_length = 2e-5;
+  RemoteEngine engine(executable());
+  const auto frames = test::peer_run(engine, scene, {}, 1e-3, 500);
+  // I dΩ/dt = −length m g.
+  const double rate = 2e-5 * 9.81 / (0.4 * 0.005 * 0.005);
+  EXPECT_NEAR((50 - frames.back().bodies[0].angular_velocity.z()) / (rate * 0.5), 1, 1e-3);
+}
+
+TEST(Lammps, ABeltCarriesABallAsAStillPlaneBrakesIt) {
+  Scene still = test::slide_to_roll(), belt = still;
+  belt.motion = SubstrateMotion::constant({0.2, 0.1});
+  belt.initial[0].velocity += Vector3(0.2, 0.1, 0);
+  RemoteEngine engine(executable());
+  const auto a = test::peer_run(engine, still, {}, 1e-3, 50);
+  const auto b = test::peer_run(engine, belt, {}, 1e-3, 50);
+  const Vector3 way = 0.05 * Vector3(0.2, 0.1, 0);
+  EXPECT_LT((b.back().bodies[0].position - a.back().bodies[0].position - way).norm(), 1e-12);
+}
+
+TEST(Lammps, ABallCrossesTheEdgeOfAPeriodicPlane) {
+  Scene scene = test::slide_to_roll();
+  scene.substrate[0].kinetic_friction = scene.substrate[0].static_friction = 0;
+  scene.periodic = {0.05, 0.05};
+  scene.initial[0].position.x() = 0.04;
+  RemoteEngine engine(executable());
+  const auto frames = test::peer_run(engine, scene, {}, 1e-3, 100);
+  EXPECT_NEAR(frames.back().bodies[0].position.x(), 0.09, 1e-12);
+}
+
+TEST(Lammps, EveryStartIsTheSame) {
+  const Scene scene = test::head_on(0.15, -0.15, 0.9);
+  RemoteEngine engine(executable());
+  const auto first = test::peer_run(engine, scene, {}, 1 / kRate, 30);
+  std::vector<Frame> second;
+  engine.start(scene.initial);
+  engine.advance(30, [&](const Frame& frame) { second.push_back(frame); });
+  for (std::size_t n = 0; n < first.size(); ++n)
+    ASSERT_EQ(std::memcmp(first[n].bodies.data(), second[n].bodies.data(), 2 * 72), 0);
+}
+
+TEST(Lammps, TwoRanksGiveTheSame) {
+  const Scene scene = test::head_on(0.15, -0.15, 0.9);
+  RemoteEngine engine(executable());
+  const auto one = test::peer_run(engine, scene, {}, 1 / kRate, 30);
+  const auto two = test::peer_run(engine, scene, {{"ranks", 2.0}}, 1 / kRate, 30);
+  for (std::size_t n = 0; n < one.size(); ++n)
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_LT((one[n].bodies[i].velocity - two[n].bodies[i].velocity).norm(), 1e-12);
+}
+
+TEST(Lammps, CpuTimeIsThatOfTheSteps) {
+  const Scene scene = test::head_on(0.15, -0.15, 0.9);
+  RemoteEngine engine(executable());
+  engine.configure(scene, {}, 1 / kRate);
+  const auto short_runs = engine.time_steps(scene.initial, 0, 10, 3);
+  const auto long_runs = engine.time_steps(scene.initial, 0, 100, 3);
+  // 2084 steps of LAMMPS's in each, a tenth of a microsecond and more.
+  EXPECT_GT(short_runs[2], 10 * 2084 * 1e-7);
+  EXPECT_GT(long_runs[2], 4 * short_runs[2]);
+}
+
+// --- what LAMMPS cannot --------------------------------------------------------------------------
+
+TEST(Lammps, RefusesWithTheReason) {
+  RemoteEngine engine(executable());
+  const auto refusal = [&](const EngineScene& scene, const Settings& settings = {}) {
+    return test::refusal_of<Refused>([&] { engine.configure(scene, settings, 1e-3); });
+  };
+  Scene scene = test::slide_to_roll();
+  scene.bodies[0].shape_factor = 2.0 / 3;
+  EXPECT_TRUE(refusal(scene).starts_with("lammps: atoms of style sphere are solid"));
+  scene = test::slide_to_roll();
+  scene.motion = SubstrateMotion::oscillation({0.1, 0}, 5, 0);
+  EXPECT_EQ(refusal(scene), "lammps: a substrate that moves at other than constant velocity");
+  EXPECT_TRUE(refusal(test::slide_to_roll(), {{"collision_time", 0.0}})
+                  .starts_with("lammps: the scene has hard contacts"));
+  EngineScene soft(test::head_on(0.15, -0.15, 0.9));
+  soft.soft = SoftContacts{{SoftContact{PowerForce{1e9, 0, 1.4, 0.5}, ContactEnd::zero_overlap,
+                                        NoTangentialForce{}, false}},
+                           {}};
+  EXPECT_EQ(refusal(soft), "lammps: it has no normal force with a power of the overlap to choose");
+  soft.soft = SoftContacts{{SoftContact{ViscoelasticForce{1e9, 1e-6}, ContactEnd::zero_overlap,
+                                        ViscousForce{1, 0.5}, false}},
+                           {}};
+  EXPECT_TRUE(refusal(soft).starts_with("lammps: its tangential damping goes with its normal one"));
+}
+
+TEST(Lammps, SaysWhatIsNotRepresented) {
+  Scene scene = test::roll_to_rest();
+  scene.substrate[0].static_friction = 0.5;
+  RemoteEngine engine(executable());
+  const auto texts = texts_of(engine.configure(scene, {}, 1e-3).not_represented);
+  EXPECT_EQ(texts, (std::vector<std::string>{
+                       "static friction (one coefficient, and damping below its limit)",
+                       "rolling friction only while rolling (it acts while sliding too)",
+                       "restitution below 0.01",
+                       "contacts without duration (the substrate is a spring)"}));
+}
+
+}  // namespace
+}  // namespace slipcheck
