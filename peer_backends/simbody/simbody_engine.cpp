@@ -1,0 +1,148 @@
+#include "simbody/simbody_engine.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <optional>
+
+#include "common/momentum_touches.h"
+#include "common/moving_frame.h"
+#include "engine/scene_needs.h"
+#include "simbody/hunt_crossley.h"
+
+namespace slipcheck::simbody {
+namespace {
+
+/// There is a set of contacts for each two.
+constexpr std::size_t kMostBodies = 200;
+
+void refuse_unfit(const Scene& scene) {
+  if (scene.box)
+    throw Refused("simbody: the walls of a box move with its floor, and these are at rest");
+  if (scene.periodic != Vector2::Zero())
+    throw Refused(
+        "simbody: the substrate repeats itself, and a Simbody system has no periodic boundaries");
+  if (scene.bodies.size() > kMostBodies)
+    throw Refused(
+        fmt::format("simbody: {} bodies, and with a set of contacts for each two at most "
+                    "{} are feasible",
+                    scene.bodies.size(), kMostBodies));
+}
+
+std::vector<Lack> not_represented(const EngineScene& scene, const SimbodySettings& settings,
+                                  double time_step) {
+  const SceneNeeds needs = needs_of(scene, time_step);
+  bool any_hard = false;
+  for (const auto& [i, j] : material_pairs(scene)) any_hard |= !scene.soft_between(i, j);
+  LackList missing;
+  missing.note(needs.friction && needs.static_friction, lack::kStaticFriction,
+               settings.fields ? "one coefficient for sticking and sliding"
+                               : "what would stick creeps below the transition velocity");
+  missing.note(needs.rolling, lack::kRolling);
+  missing.note(needs.drilling || needs.coupled_drilling, lack::kDrilling);
+  if (needs.bounce)
+    missing.add(
+        {fmt::format("restitution at other speeds than {}",
+                     settings.impact_speed > 0 ? fmt::format("{:.3g} m/s", settings.impact_speed)
+                                               : "the first impact's"),
+         "restitution at other speeds than …"});
+  missing.note(needs.reversed_slip && any_hard, lack::kTangentialRestitution,
+               "friction only stops the slip");
+  missing.note(scene.confined, lack::kConfinement);
+  missing.note(true, "contacts without duration",
+               any_hard ? "hard ones and the substrate are Hertz's" : "the substrate is Hertz's");
+  return missing.take();
+}
+
+Settings applied(const EngineScene& scene, const SimbodySettings& settings) {
+  Settings all = setting_rows().write(settings);
+  const auto tell = [&](const std::string& of, const HuntCrossley& contact) {
+    all[of + "_modulus"] = contact.modulus;
+    all[of + "_dissipation"] = contact.dissipation;
+    all[of + "_static_friction"] = contact.static_friction;
+    all[of + "_dynamic_friction"] = contact.dynamic_friction;
+  };
+  tell("substrate", substrate_contact(scene, 0, settings));
+  if (scene.bodies.size() > 1) tell("pair", pair_contact(scene, 0, 1, settings));
+  return all;
+}
+
+SystemPlan plan_of(const EngineScene& scene, const SimbodySettings& settings,
+                   const std::vector<BodyState>& states) {
+  SystemPlan plan;
+  plan.bodies = scene.bodies;
+  plan.states = states;
+  plan.gravity = Vector3(scene.downhill.x(), scene.downhill.y(), -scene.gravity);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    plan.on_substrate.push_back(substrate_contact(scene, i, settings));
+    for (std::size_t j = i + 1; j < scene.bodies.size(); ++j)
+      plan.pairs.push_back(pair_contact(scene, i, j, settings));
+  }
+  plan.transition_velocity = settings.transition_velocity;
+  plan.integrator = settings.integrator;
+  plan.accuracy = settings.accuracy;
+  plan.interpolate = settings.interpolate;
+  return plan;
+}
+
+class SimbodyEngine final : public Engine {
+ public:
+  EngineInfo info() const override {
+    return {"simbody", SLIPCHECK_SIMBODY_VERSION, "double", setting_rows().infos()};
+  }
+
+  Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
+    refuse_unfit(scene);
+    const SimbodySettings settings = setting_rows().read(chosen);
+    setup_.emplace(Setup{scene, settings, time_step, MovingFrame(scene, "simbody")});
+    start(scene.initial, 0);
+    return {applied(scene, settings), not_represented(scene, settings, time_step), {}};
+  }
+
+  void start(std::span<const BodyState> states, double) override {
+    steps_ = 0;
+    blown_up_ = false;
+    before_ = after_ = setup_->frame.enter(states);
+    world_ = std::make_unique<System>(plan_of(setup_->scene, setup_->settings, after_));
+  }
+
+  void step() override {
+    ++steps_;
+    before_ = after_;
+    if (blown_up_) return;
+    try {
+      world_->advance_to(static_cast<double>(steps_) * setup_->time_step);
+      after_ = world_->states();
+    } catch (const std::exception&) {  // no step is small enough: the simulation has blown up
+      blown_up_ = true;
+      for (BodyState& state : after_)
+        state.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+
+  void read(Frame& frame) const override {
+    frame.bodies = after_;
+    frame.touches = blown_up_ ? std::vector<Touch>{}
+                              : momentum_touches(setup_->scene, before_, after_, setup_->time_step);
+    setup_->frame.leave(frame.bodies, static_cast<double>(steps_) * setup_->time_step);
+  }
+
+ private:
+  struct Setup {
+    EngineScene scene;
+    SimbodySettings settings;
+    double time_step;
+    MovingFrame frame;
+  };
+  std::optional<Setup> setup_;
+  std::unique_ptr<System> world_;
+  std::vector<BodyState> before_, after_;  // of the last step, as seen from the substrate
+  long steps_ = 0;
+  bool blown_up_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_simbody_engine() { return std::make_unique<SimbodyEngine>(); }
+
+}  // namespace slipcheck::simbody

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "physics/sphere.h"
+
+namespace slipcheck::simbody {
+
+/// A contact as HuntCrossleyForce has it, both surfaces alike.
+struct HuntCrossley {
+  double modulus = 0;      ///< plane-strain E* of each surface [Pa]
+  double dissipation = 0;  ///< c [s/m]
+  double static_friction = 0, dynamic_friction = 0;
+};
+
+enum class IntegratorKind { runge_kutta_merson, runge_kutta_3, verlet, cpodes };
+
+/// What a system is made of.
+struct SystemPlan {
+  std::vector<Sphere> bodies;
+  std::vector<BodyState> states;
+  std::vector<HuntCrossley> on_substrate;  ///< by body
+  std::vector<HuntCrossley> pairs;         ///< of bodies i < j, in the order of i, then of j
+  Vector3 gravity = Vector3::Zero();       ///< [m/s²]
+  double transition_velocity = 0;          ///< [m/s]
+  IntegratorKind integrator = IntegratorKind::runge_kutta_merson;
+  double accuracy = 0;
+  bool interpolate = true;
+};
+
+/// One system of Simbody's: free spheres, the ground below them, and a set of contacts of its own
+/// for each two, so that every pair has the coefficients that the scene states. All that includes
+/// Simbody, whose headers are C++17, is behind this.
+class System {
+ public:
+  explicit System(const SystemPlan& plan);
+  ~System();
+
+  /// To this time since the start [s]. Throws std::exception where no step is small enough.
+  void advance_to(double time);
+  std::vector<BodyState> states() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace slipcheck::simbody
