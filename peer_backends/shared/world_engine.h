@@ -35,7 +35,7 @@ class WorldEngine final : public Engine {
  public:
   EngineInfo info() const override { return World::info(); }
 
-  Applied configure(const Scene& scene, const Settings& chosen, double time_step) override {
+  Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
     Setup<typename World::Chosen> setup{scene, World::read(chosen), time_step};
     if (scene.periodic != Vector2::Zero())
       throw Refused(
