@@ -390,25 +390,48 @@ class JoltEngine {
     return states;
   }
 
-  /// Jolt tells no impulses: those that explain what is not gravity and damping.
-  #impulses(now) {
-    if (this.contacts.length === 0) return [];
+  /// Whether a contact can have acted in the step: the gap at its beginning is no larger than what the
+  /// bodies' approach, before or after, closes in it. Jolt tells of contacts far ahead.
+  #acted({ i, j, normal }, now) {
+    if (j < 0 && this.scene.box) return true;
+    const { before } = this;
     const { bodies } = this.scene;
+    const other = (states, k) => (j < 0 ? 0 : states[9 * j + k]);
+    const along = (states, first) => normal.reduce(
+      (sum, n, axis) => sum + n * (states[9 * i + first + axis] - other(states, first + axis)), 0);
+    const gap = along(before, 0) - bodies[i].radius - (j < 0 ? 0 : bodies[j].radius);
+    const fall = this.scene.gravity * this.timeStep; // of the one over the plane
+    const approach = Math.max(-along(before, 3) + (j < 0 ? fall : 0), -along(now, 3));
+    return approach * this.timeStep >= gap - 1e-4 * bodies[i].radius;
+  }
+
+  /// A body as Jolt has it, which may not have the inertia that it was given.
+  #asTaken({ radius, mass, shape_factor }) {
+    const inertia = shape_factor * mass * radius * radius;
+    return { radius, mass, shape_factor: inertia < LEAST_INERTIA ? 0.4 / (radius * radius) : shape_factor };
+  }
+
+  /// Jolt tells no impulses: those that explain what is not gravity, damping and the limits of speed.
+  #impulses(now) {
+    const contacts = distinct(this.contacts).filter((contact) => this.#acted(contact, now));
+    if (contacts.length === 0) return [];
+    const bodies = this.scene.bodies.map((body) => this.#asTaken(body));
     const { linear_damping, angular_damping, collision_steps } = this.chosen;
     const length = this.timeStep / collision_steps;
     const gravity = gravityOf(this.scene);
     const kept = [1 - linear_damping * length, 1 - angular_damping * length].map((x) => Math.max(0, x));
     const changes = new Float64Array(6 * bodies.length);
+    const { max_linear_velocity, max_angular_velocity } = this.chosen;
     bodies.forEach((_, i) => {
+      let v = Array.from(this.before.subarray(9 * i + 3, 9 * i + 6));
+      let w = Array.from(this.before.subarray(9 * i + 6, 9 * i + 9));
+      for (let n = 0; n < collision_steps; ++n) {
+        v = cut(v.map((value, axis) => (value + gravity[axis] * length) * kept[0]), max_linear_velocity);
+        w = cut(w.map((value) => value * kept[1]), max_angular_velocity);
+      }
       for (let axis = 0; axis < 3; ++axis) {
-        let v = this.before[9 * i + 3 + axis];
-        let w = this.before[9 * i + 6 + axis];
-        for (let n = 0; n < collision_steps; ++n) {
-          v = (v + gravity[axis] * length) * kept[0];
-          w *= kept[1];
-        }
-        changes[6 * i + axis] = now[9 * i + 3 + axis] - v;
-        changes[6 * i + 3 + axis] = now[9 * i + 6 + axis] - w;
+        changes[6 * i + axis] = now[9 * i + 3 + axis] - v[axis];
+        changes[6 * i + 3 + axis] = now[9 * i + 6 + axis] - w[axis];
       }
     });
     const rounding = (i) => {
@@ -417,7 +440,7 @@ class JoltEngine {
       return 1e-5 * bodies[i].mass * (speed + this.scene.gravity * this.timeStep);
     };
     const least = (i, j) => Math.max(rounding(i), j >= 0 ? rounding(j) : 0);
-    return explainedImpulses(bodies, distinct(this.contacts), changes, least);
+    return explainedImpulses(bodies, contacts, changes, least);
   }
 
   #ownLacks(scene) {
@@ -468,6 +491,12 @@ class JoltEngine {
       ...(x !== 0 || y !== 0 ? { downhill_x: x, downhill_y: y } : {}),
     };
   }
+}
+
+/// A vector no longer than a limit.
+function cut(vector, limit) {
+  const size = Math.hypot(...vector);
+  return size > limit ? vector.map((value) => (value * limit) / size) : vector;
 }
 
 const added = (a, b) => a.map((value, k) => value + b[k]);

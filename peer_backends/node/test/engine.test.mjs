@@ -109,6 +109,15 @@ test('what a plane pushes in a second is the weight', () => {
   assert.ok(Math.abs(pushed / weight / told - 1) < 2e-3, `${pushed / weight}`);
 });
 
+test('balls that are on their way to each other do not touch yet', () => {
+  // 15 mm at 0.3 m/s at most are 50 ms, 12 steps.
+  const frames = framesOf(sceneFor(scenes['symmetric-30cms']), {}, STEP, 11);
+  for (const { touches } of frames) {
+    const pairs = touches.map(([first, second]) => `${first} ${second}`);
+    assert.ok(!pairs.includes('0 1'), pairs.join());
+  }
+});
+
 test('a periodic substrate is refused, and the worker goes on', () => {
   const scene = sceneFor(scenes['slide-to-roll']);
   const configure = (periodic) => ({ type: 'configure', scene: { ...scene, periodic }, settings: {}, time_step: STEP });
