@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "app/commands.h"
 #include "app/output.h"
 #include "base/json_node.h"
+#include "base/not_finite.h"
 #include "convert/combine_rules.h"
 #include "convert/engine_contact.h"
 #include "convert/rolling_length.h"
@@ -29,16 +31,13 @@ constexpr Dimension kDamping{"damping", 1, 0, -1, 0, "N s/m", "dyn s/cm", "2 N s
 struct ConvertedRow {
   std::string of, name;
   std::optional<double> value;
-  std::string unit, remark;
+  std::string unit, formula, source;
 };
 
 /// What both outputs show.
 class Conversion {
  public:
-  void add(std::string of, std::string name, std::optional<double> value, std::string unit,
-           std::string remark) {
-    rows_.push_back({std::move(of), std::move(name), value, std::move(unit), std::move(remark)});
-  }
+  void add(ConvertedRow row) { rows_.push_back(std::move(row)); }
 
   void show(const std::string& what, const std::string& json_path, bool quiet) const {
     write_json(json_path, [&] { return json(what).dump(2) + "\n"; });
@@ -48,14 +47,12 @@ class Conversion {
  private:
   Json json(const std::string& what) const {
     Json all{{"schema", "slipcheck-conversion/1"}, {"what", what}, {"rows", Json::array()}};
-    for (const auto& [of, name, value, unit, remark] : rows_) {
+    for (const auto& [of, name, value, unit, formula, source] : rows_) {
       Json row{{"of", of}, {"name", name}};
-      if (value && std::isfinite(*value))
-        row["value"] = *value;
-      else
-        row["value"] = nullptr;
+      put_number(row, "value", value.value_or(NAN), formula);
       row["unit"] = unit;
-      (value && std::isfinite(*value) ? row["remark"] : row["reason"]) = remark;
+      row["formula"] = formula;
+      row["source"] = source;
       all["rows"].push_back(std::move(row));
     }
     return all;
@@ -63,13 +60,17 @@ class Conversion {
 
   TextTable table() const {
     TextTable table;
-    table.columns = {{"of"}, {"quantity"}, {"value", true}, {"unit"}, {"", false, 1}};
-    for (const auto& [of, name, value, unit, remark] : rows_)
+    table.columns = {{"of"}, {"quantity"}, {"value", true}, {"unit"}, {""}, {"source", false, 1}};
+    for (const auto& [of, name, value, unit, formula, source] : rows_)
       table.rows.push_back({{of},
                             {name},
                             {value ? fmt::format("{:.6g}", *value) : "–"},
                             {unit},
-                            {remark, Tone::faint}});
+                            {formula},
+                            {source, Tone::faint}});
+    const bool has_units =
+        std::ranges::any_of(rows_, [](const ConvertedRow& row) { return !row.unit.empty(); });
+    if (!has_units) return table.with({0, 1, 2, 4, 5});
     return table;
   }
 
@@ -163,43 +164,57 @@ LinearContact contact_of(const ContactArguments& arguments, double reduced_mass,
 void add_rebounds(Conversion& rows, const char* engine, const LinearContact& contact,
                   ContactStep step, double time_step) {
   const ReboundRange e = rebounds(contact, step, time_step);
-  const std::string remark =
-      fmt::format("{:.4f} … {:.4f} by the phase of the contact in the step", e.least, e.most);
-  rows.add(engine, "restitution in steps", e.median, "", remark);
+  rows.add({engine, "e in steps", e.median, "",
+            fmt::format("{:.4f} … {:.4f} over phases", e.least, e.most), "docs/conversions.md"});
+}
+
+/// Whether --solref has a timeconst that MuJoCo's refsafe takes for two steps.
+bool is_raised_solref(const ContactArguments& arguments, double time_step) {
+  if (arguments.solref.empty()) return false;
+  const double timeconst = parse_number(arguments.solref[0]);
+  return timeconst > 0 && timeconst < 2 * time_step;
 }
 
 void convert_contact(const ContactArguments& arguments) {
   const double time_step = quantity_of("--time-step", arguments.time_step, kTime, kTiny);
   const double mass = reduced_mass_of(arguments);
   const LinearContact contact = contact_of(arguments, mass, time_step);
+  const char* kondic = "Kondic 1999 (2)";
   Conversion rows;
-  rows.add("contact", "e", contact.restitution(), "", "exp(-gamma t_col/2), ends at zero force");
-  rows.add("contact", "t_col", contact.collision_time(), "s", "duration of a collision");
-  rows.add("contact", "gamma", contact.damping_rate(), "1/s", "damping rate");
-  rows.add("contact", "omega0", contact.contact_frequency(), "1/s", "sqrt(k/m)");
-  rows.add("contact", "m", mass, "kg", "reduced mass of the two");
-  rows.add("spring and dashpot", "k", contact.stiffness(), "N/m", "m omega0^2");
-  rows.add("spring and dashpot", "c", damping_constant(contact), "N s/m", "m gamma");
+  rows.add({"contact", "e", contact.restitution(), "", "exp(-γ t_col/2)", kondic});
+  rows.add({"contact", "t_col", contact.collision_time(), "s", "until the force is zero", kondic});
+  rows.add({"contact", "γ", contact.damping_rate(), "1/s", "c/m", kondic});
+  rows.add({"contact", "ω0", contact.contact_frequency(), "1/s", "√(k/m)", kondic});
+  rows.add({"contact", "m", mass, "kg", "reduced mass", kondic});
+  rows.add({"spring", "k", contact.stiffness(), "N/m", "m ω0²", kondic});
+  rows.add({"spring", "c", damping_constant(contact), "N s/m", "m γ", kondic});
 
   const SolRef by_time = time_solref(contact), by_stiffness = stiffness_solref(contact);
-  const bool raised = by_time.first < 2 * time_step;
-  rows.add("mujoco", "solref[0] timeconst", by_time.first, "s",
-           std::isinf(by_time.first) ? "none: without damping"
-           : raised                  ? "2/gamma; REFSAFE RAISES IT to two time steps"
-                                     : "2/gamma");
-  rows.add("mujoco", "solref[1] dampratio", by_time.second, "", "gamma/(2 omega0)");
-  rows.add("mujoco", "solref[0] -stiffness", by_stiffness.first, "1/s2", "-omega0^2, any mass");
-  rows.add("mujoco", "solref[1] -damping", by_stiffness.second, "1/s", "-gamma, any mass");
+  // Either MuJoCo will raise it, or it has been raised already.
+  const bool raised = by_time.first < 2 * time_step || is_raised_solref(arguments, time_step);
+  const char* mujoco = "MuJoCo, Solver parameters";
+  rows.add({"mujoco", "solref timeconst", by_time.first, "s",
+            std::isinf(by_time.first) ? "none without damping"
+            : raised                  ? "2/γ; RAISED to two steps"
+                                      : "2/γ",
+            mujoco});
+  rows.add({"mujoco", "solref dampratio", by_time.second, "", "γ/(2 ω0)", mujoco});
+  rows.add(
+      {"mujoco", "solref -stiffness", by_stiffness.first, "1/s2", "-ω0², of any mass", mujoco});
+  rows.add({"mujoco", "solref -damping", by_stiffness.second, "1/s", "-γ, of any mass", mujoco});
   add_rebounds(rows, "mujoco", contact, ContactStep::force_at_start, time_step);
 
   const ErpCfm both = erp_cfm(contact, time_step);
-  rows.add("ode", "soft_erp", both.erp, "", "h k/(h k + c)");
-  rows.add("ode", "soft_cfm", both.cfm, "s/kg", "1/(h k + c)");
+  const char* ode = "ODE manual, Soft constraint";
+  rows.add({"ode", "soft_erp", both.erp, "", "h k/(h k + c)", ode});
+  rows.add({"ode", "soft_cfm", both.cfm, "s/kg", "1/(h k + c)", ode});
   add_rebounds(rows, "ode", contact, ContactStep::force_at_end, time_step);
 
-  rows.add("bullet", "contact stiffness", contact.stiffness(), "N/m",
-           "of the pair, 1/(1/k0 + 1/k1)");
-  rows.add("bullet", "contact damping", damping_constant(contact), "N s/m", "of the pair, d0 + d1");
+  const char* bullet = "btManifoldResult";
+  rows.add({"bullet", "contact stiffness", contact.stiffness(), "N/m", "pair's: 1/(1/k1 + 1/k2)",
+            bullet});
+  rows.add(
+      {"bullet", "contact damping", damping_constant(contact), "N s/m", "pair's: c1 + c2", bullet});
   add_rebounds(rows, "bullet", contact, ContactStep::foreseen, time_step);
   rows.show("contact", arguments.output.json, arguments.output.quiet);
 }
@@ -223,13 +238,13 @@ void convert_rolling(const RollingArguments& arguments) {
   const double rho = rolling_length(sphere, mu_r);
   constexpr double kLeastOfMuJoCo = 1e-5;
   Conversion rows;
-  rows.add("scene", "rolling", mu_r, "", "mu_r: a rolling sphere slows by mu_r g");
-  rows.add("bullet", "setRollingFriction", rho, "m",
-           "of the pair, (1 + q) mu_r R; bodies combine as r0 f1 + r1 f0");
-  rows.add("ode", "rho", rho, "m", "dContactRolling");
-  rows.add("mujoco", "friction[2]", rho, "m",
-           rho < kLeastOfMuJoCo ? "condim 6; RAISED to 1e-5 by MuJoCo, which is in metres"
-                                : "condim 6, elliptic cone");
+  rows.add({"scene", "rolling", mu_r, "", "μ_r, slows what rolls by μ_r g", "Kondic 1999 (16)"});
+  rows.add({"bullet", "setRollingFriction", rho, "m", "(1 + q) μ_r R, of the pair: r1 f2 + r2 f1",
+            "btManifoldResult"});
+  rows.add({"ode", "rho", rho, "m", "(1 + q) μ_r R", "dContactRolling"});
+  rows.add({"mujoco", "friction[2]", rho, "m",
+            rho < kLeastOfMuJoCo ? "(1 + q) μ_r R; is RAISED to 1e-5" : "(1 + q) μ_r R",
+            "condim 6"});
   rows.show("rolling", arguments.output.json, arguments.output.quiet);
 }
 
@@ -239,10 +254,6 @@ struct CombineArguments {
   std::string first, second, pair, quantity = "friction";
   ConvertOutput output;
 };
-
-std::string bound_remark(const EngineRules& engine, CombineRule rule) {
-  return fmt::format("{}; {}", formula_of(rule), engine.source);
-}
 
 void convert_pair(const CombineArguments& arguments) {
   const auto number = [&](const char* option, const std::string& text) {
@@ -256,24 +267,22 @@ void convert_pair(const CombineArguments& arguments) {
   for (const EngineRules& engine : engine_rules()) {
     const std::optional<CombineRule> rule =
         arguments.quantity == "friction" ? engine.friction : engine.restitution;
+    const auto add = [&](const char* name, std::optional<double> value, const char* formula) {
+      rows.add({engine.engine, name, value, "", formula, engine.source});
+    };
     if (!rule) {
-      rows.add(engine.engine, arguments.quantity, std::nullopt, "", engine.source);
-      continue;
-    }
-    const std::string remark = bound_remark(engine, *rule);
-    if (arguments.pair.empty()) {
-      rows.add(
-          engine.engine, "of the pair",
-          combined(*rule, number("--first", arguments.first), number("--second", arguments.second)),
-          "", remark);
+      add("of a body", std::nullopt, "bodies have none");
+    } else if (arguments.pair.empty()) {
+      const double first = number("--first", arguments.first);
+      add("of the pair", combined(*rule, first, number("--second", arguments.second)),
+          formula_of(*rule));
     } else if (arguments.first.empty()) {
-      rows.add(engine.engine, "of both bodies",
-               both_of_pair(*rule, number("--pair", arguments.pair)), "", remark);
+      add("of both bodies", both_of_pair(*rule, number("--pair", arguments.pair)),
+          formula_of(*rule));
     } else {
       const auto other = other_of_pair(*rule, number("--first", arguments.first),
                                        number("--pair", arguments.pair));
-      rows.add(engine.engine, "of the other body", other, "",
-               other ? remark : "no value gives the pair this; " + remark);
+      add("of the other", other, other ? formula_of(*rule) : "no value does");
     }
   }
   rows.show("pair", arguments.output.json, arguments.output.quiet);

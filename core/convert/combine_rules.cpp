@@ -70,18 +70,13 @@ const char* formula_of(CombineRule rule) {
 
 const std::vector<EngineRules>& engine_rules() {
   static const std::vector<EngineRules> rules = {
-      {"bullet", product, product,
-       "btManifoldResult, calculateCombinedFriction and …Restitution; friction is clamped to 10"},
+      {"bullet", product, product, "btManifoldResult; clamped to 10"},
       {"dart", minimum, product, "constraint/ContactConstraint.cpp"},
-      {"jolt", geometric_mean, maximum,
-       "ContactConstraintManager, CombineFunction; a program may set another"},
-      {"mujoco", maximum, std::nullopt,
-       "documentation, Contact parameters; the geom of higher priority wins alone"},
-      {"physx", average, average, "PxCombineMode, eAVERAGE unless a material has a stronger one"},
-      {"rapier", average, average,
-       "CoefficientCombineRule, Average unless a collider has a stronger one"},
-      {"simbody", harmonic_mean, std::nullopt,
-       "HuntCrossleyForce.h, Friction Force; bodies have dissipation in place of restitution"},
+      {"jolt", geometric_mean, maximum, "ContactConstraintManager; or a program's own"},
+      {"mujoco", maximum, std::nullopt, "Contact parameters; or by priority"},
+      {"physx", average, average, "PxCombineMode; or a material's stronger one"},
+      {"rapier", average, average, "CoefficientCombineRule; or a stronger one"},
+      {"simbody", harmonic_mean, std::nullopt, "HuntCrossleyForce.h"},
   };
   return rules;
 }

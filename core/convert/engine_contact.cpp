@@ -39,7 +39,7 @@ SolRef time_solref(const LinearContact& contact) {
 }
 
 SolRef stiffness_solref(const LinearContact& contact) {
-  return {-contact.contact_frequency() * contact.contact_frequency(), -contact.damping_rate()};
+  return {-contact.contact_frequency() * contact.contact_frequency(), 0 - contact.damping_rate()};
 }
 
 LinearContact contact_of_solref(const SolRef& solref, double reduced_mass, double time_step) {

@@ -31,16 +31,23 @@ class Convert(unittest.TestCase):
         tables = [values("contact", *form, "--mass", "370 g") for form in forms]
         omega = math.sqrt(1e4 - 100)
         e = math.exp(-20 * math.atan(omega / 10) / omega)
-        expected = {("contact", "e"): e, ("spring and dashpot", "k"): 3700,
-                    ("spring and dashpot", "c"): 7.4, ("mujoco", "solref[0] timeconst"): 0.1,
-                    ("mujoco", "solref[1] dampratio"): 0.1,
-                    ("mujoco", "solref[0] -stiffness"): -1e4, ("ode", "soft_erp"): 1 / 3,
+        expected = {("contact", "e"): e, ("spring", "k"): 3700,
+                    ("spring", "c"): 7.4, ("mujoco", "solref timeconst"): 0.1,
+                    ("mujoco", "solref dampratio"): 0.1,
+                    ("mujoco", "solref -stiffness"): -1e4, ("ode", "soft_erp"): 1 / 3,
                     ("ode", "soft_cfm"): 1 / 11.1}
         again = values("contact", "--restitution", repr(e), "--stiffness", "3700 N/m", "--mass",
                        "0.37")
         for table in (*tables, again):
             for key, value in expected.items():
                 self.assertAlmostEqual(table[key] / value, 1, delta=1e-9, msg=key)
+
+    def test_what_mujoco_raises_is_told(self):
+        raised = convert("contact", "--solref", "0.001,0.5", "--time-step", "1 ms").stdout
+        left = convert("contact", "--solref", "0.002,0.5", "--time-step", "1 ms").stdout
+        self.assertIn("RAISED to two steps", raised)
+        self.assertNotIn("RAISED", left)
+        self.assertIn("MuJoCo, Solver parameters", left)
 
     def test_two_spheres_have_a_reduced_mass(self):
         table = values("contact", "--restitution", "0.8", "--collision-time", "1 ms", "--mass",
@@ -64,10 +71,10 @@ class Convert(unittest.TestCase):
             self.assertAlmostEqual(table[engine, "of the pair"], value, delta=1e-12)
         both = values("pair", "--quantity", "restitution", "--pair", "0.64")
         self.assertAlmostEqual(both["bullet", "of both bodies"], 0.8, delta=1e-12)
-        self.assertIsNone(both["mujoco", "restitution"])
+        self.assertIsNone(both["mujoco", "of a body"])
         other = values("pair", "--pair", "0.5", "--first", "0.3")
-        self.assertIsNone(other["dart", "of the other body"])
-        self.assertAlmostEqual(other["rapier", "of the other body"], 0.7, delta=1e-12)
+        self.assertIsNone(other["dart", "of the other"])
+        self.assertAlmostEqual(other["rapier", "of the other"], 0.7, delta=1e-12)
 
     def test_bad_input_is_refused(self):
         for arguments, words in [

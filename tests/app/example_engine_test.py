@@ -12,7 +12,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-SLIPCHECK, SOURCE = sys.argv[1], Path(sys.argv[2])
+SLIPCHECK, SOURCE = os.path.abspath(sys.argv[1]), Path(sys.argv[2]).absolute()
 FOLDER = SOURCE / "docs/example-engine"
 COARSE, FINE = 500, 4000
 # What the end of a step decides, or two errors of opposite sign, need not fall evenly.
@@ -94,6 +94,21 @@ class ExampleEngine(unittest.TestCase):
         four = run(text, "--phases", "1")["runs"][0]
         error = lambda r: r["errors"]["i-j.effective_restitution"]["max"]
         self.assertAlmostEqual(error(one), error(four), delta=1e-3)
+
+    def test_the_tutorials_commands_work_as_they_stand(self):
+        text = (SOURCE / "docs/your-own-engine.md").read_text()
+        script = "\n".join(re.findall(r"```sh\n(.*?)```", text, re.S))
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "build").mkdir()
+            (Path(folder) / "build/release").symlink_to(Path(SLIPCHECK).parent)
+            for name in ("docs", "scenarios"):
+                (Path(folder) / name).symlink_to(SOURCE / name)
+            result = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True,
+                                    text=True, timeout=600)
+        self.assertEqual(result.stderr, "")
+        for words in ("mine    double     1.0      default", "47 passed, 0 failed, 0 not judged",
+                      "✗  FAILED", "mine 1.0 double, profile default, 1000 Hz", "order 0.9"):
+            self.assertIn(words, result.stdout)
 
     def test_refusals_and_what_is_not_represented_are_told(self):
         box = run(with_example("box-one-ball", 1000))["runs"][0]

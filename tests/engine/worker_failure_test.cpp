@@ -292,5 +292,40 @@ TEST_F(WorkerFailureTest, ALargeSceneGoesBothWays) {
   EXPECT_EQ(bodies, 50'000u);
 }
 
+TEST_F(WorkerFailureTest, AWorkerThatIsLetGoEndsWell) {
+  const protocol::Bytes quit = protocol::encode(protocol::Request(protocol::Quit{}));
+  for (const bool by_request : {true, false}) {
+    WorkerProcess worker(faulty_engine(), {});
+    worker.exchange(protocol::encode(protocol::Request(protocol::Hello{})));
+    EXPECT_EQ(worker.unread(), 0u);
+    const WorkerEnd end = worker.finish(by_request ? quit : protocol::Bytes{}, !by_request, kSoon);
+    EXPECT_TRUE(end.exited);
+    EXPECT_TRUE(end.well);
+    EXPECT_EQ(end.how, "exited with code 0");
+    EXPECT_EQ(end.left_over, 0u);
+    EXPECT_FALSE(worker.alive());
+    EXPECT_THROW(worker.finish({}, true, 1), WorkerFailure);
+  }
+}
+
+TEST_F(WorkerFailureTest, AWorkerThatStaysIsEnded) {
+  WorkerProcess worker("/usr/bin/yes", {});  // writes for ever and reads nothing
+  const WorkerEnd end = worker.finish({}, true, 0.2);
+  EXPECT_FALSE(end.exited);
+  EXPECT_FALSE(end.well);
+  EXPECT_EQ(end.how, "went on");
+  EXPECT_GT(end.left_over, 0u);
+}
+
+TEST_F(WorkerFailureTest, TextOnTheReplyStreamIsRecognised) {
+  try {
+    RemoteEngine engine("/usr/bin/env", {});
+    FAIL();
+  } catch (const WorkerFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find(": a text that begins \""), std::string::npos)
+        << failure.what();
+  }
+}
+
 }  // namespace
 }  // namespace slipcheck
