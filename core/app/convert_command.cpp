@@ -362,6 +362,7 @@ void add_convert_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("convert", "A scene's coefficients in the units of engines, and back");
   command->require_subcommand(1);
+  accept_quiet(*command);
   add_contact(*command, exit_code);
   add_rolling(*command, exit_code);
   add_pair(*command, exit_code);

@@ -319,7 +319,7 @@ class CommandLine(unittest.TestCase):
         self.assertNotIn("\x1b", plain.stdout + plain.stderr)
 
     def test_every_command_has_help_with_an_example(self):
-        for command in ("run", "explain", "figures", "list", "schema"):
+        for command in ("run", "conformance", "convert", "explain", "figures", "list", "schema"):
             result = run(command, "--help")
             self.assertEqual(result.returncode, 0)
             self.assertRegex(result.stdout, r"Example")
