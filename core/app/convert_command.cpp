@@ -192,7 +192,7 @@ void convert_contact(const ContactArguments& arguments) {
   const SolRef by_time = time_solref(contact), by_stiffness = stiffness_solref(contact);
   // Either MuJoCo will raise it, or it has been raised already.
   const bool raised = by_time.first < 2 * time_step || is_raised_solref(arguments, time_step);
-  const char* mujoco = "MuJoCo, Solver parameters";
+  const char* mujoco = "MuJoCo documentation";
   rows.add({"mujoco", "solref timeconst", by_time.first, "s",
             std::isinf(by_time.first) ? "none without damping"
             : raised                  ? "2/γ; RAISED to two steps"
@@ -205,7 +205,7 @@ void convert_contact(const ContactArguments& arguments) {
   add_rebounds(rows, "mujoco", contact, ContactStep::force_at_start, time_step);
 
   const ErpCfm both = erp_cfm(contact, time_step);
-  const char* ode = "ODE manual, Soft constraint";
+  const char* ode = "ODE manual";
   rows.add({"ode", "soft_erp", both.erp, "", "h k/(h k + c)", ode});
   rows.add({"ode", "soft_cfm", both.cfm, "s/kg", "1/(h k + c)", ode});
   add_rebounds(rows, "ode", contact, ContactStep::force_at_end, time_step);
