@@ -87,6 +87,7 @@ class MujocoEngine {
 
   read(states, touches) {
     const { data, scene } = this;
+    this.#checkMemory();
     const factors = this.units.ofState;
     const position = data.qpos;
     const velocity = data.qvel;
@@ -211,6 +212,14 @@ class MujocoEngine {
     const time = this.startTime + this.steps * this.timeStep;
     const moves = body === FLOOR || scene.box.moving_walls;
     return [0, 0, 0, ...(moves ? this.motion.velocity(time) : [0, 0, 0])];
+  }
+
+  /// MuJoCo goes on without the contacts that it has no memory for.
+  #checkMemory() {
+    const { mjWARN_CONTACTFULL, mjWARN_CNSTRFULL } = this.mujoco.mjtWarning;
+    const warnings = this.data.warning; // the data's own, not a copy
+    const isFull = [mjWARN_CONTACTFULL, mjWARN_CNSTRFULL].some(({ value }) => warnings.get(value).number > 0);
+    if (isFull) throw new Error('MuJoCo had no memory for all contacts');
   }
 
   #findTouches(touches) {
