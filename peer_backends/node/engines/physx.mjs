@@ -144,7 +144,7 @@ class PhysxEngine {
   configure(scene, settings, timeStep) {
     if (scene.periodic.some((length) => length > 0))
       throw new Refused(
-        'physx: the substrate repeats itself, and a PhysX scene has no periodic boundaries',
+        'physx: the substrate repeats itself, and a PhysX world has no periodic boundaries',
       );
     this.#leave();
     this.units = new Units(scene, settings);
