@@ -19,6 +19,8 @@ const PACKAGE = '@babylonjs/havok';
 const FILTER_BITS = 31;
 const SLOW = 0.2; // length units/s; a ball that rolls slower is braked (docs/engines/havok.md)
 const ALL_EVENTS = 7;
+/// Havok's own modes cannot be read or set from JavaScript: those of Babylon.js's setMaterial().
+const AS_TYPED = { friction: 'smaller', restitution: 'larger' };
 const NO_TURN = [0, 0, 0, 1];
 
 export async function open(folder) {
@@ -140,7 +142,7 @@ class HavokEngine {
         'coefficients',
         ['fields', 'pair'],
         'pair',
-        "the scene's coefficients straight in the shapes' materials, which Havok combines by their geometric mean; or " +
+        "the scene's coefficients straight in the shapes' materials, of which Babylon.js has the smaller friction and the larger restitution; or " +
           'exactly, pair by pair, through combine modes and collision filters',
       ),
       number(
@@ -215,11 +217,18 @@ class HavokEngine {
     const { hp } = this;
     const shape = made(hp, created);
     this.handles.shapes.push(shape);
-    const shipped = made(hp, hp.HP_Shape_GetMaterial(shape));
     const mode = { smaller: hp.MaterialCombine.MINIMUM, larger: hp.MaterialCombine.MAXIMUM };
-    const modes =
-      rule === 'as shipped' ? shipped.slice(3) : [mode[rule.friction], mode[rule.restitution]];
-    done(hp, hp.HP_Shape_SetMaterial(shape, [friction, friction, restitution, ...modes]));
+    const modes = rule === 'as shipped' ? AS_TYPED : rule;
+    done(
+      hp,
+      hp.HP_Shape_SetMaterial(shape, [
+        friction,
+        friction,
+        restitution,
+        mode[modes.friction],
+        mode[modes.restitution],
+      ]),
+    );
     done(hp, hp.HP_Shape_SetFilterInfo(shape, [member, filter]));
     return shape;
   }

@@ -112,6 +112,13 @@ test('symmetric-30cms: as a bare program of Havok', async () => {
   assert.deepEqual(await worker.run(symmetric, {}, 1 / RATE, RATE), expected);
 });
 
+test('coefficients that are typed alike into ball and substrate are those of the pair', () => {
+  const [typed, exact] = ['naive', 'default'].map(
+    (name) => runHere(engine, slideToRoll, profile('havok', name), 1 / RATE, 100).frames,
+  );
+  assert.deepEqual(typed, exact);
+});
+
 test('the same states give the same frames', () => {
   const [first, second] = [0, 1].map(() => runHere(engine, symmetric, {}, 1 / RATE, 100).frames);
   assert.deepEqual(first, second);

@@ -121,6 +121,13 @@ test('solref in force is that of the map, to rounding', () => {
   }
 });
 
+test('coefficients that are typed alike into ball and plane are those of the pair', () => {
+  const [typed, exact] = ['naive', 'default'].map(
+    (name) => runHere(engine, slideToRoll, profile('mujoco', name), 1 / RATE, 100).frames,
+  );
+  assert.deepEqual(typed, exact);
+});
+
 test('the same states give the same frames', () => {
   const [first, second] = [0, 1].map(() => runHere(engine, symmetric, {}, 1 / RATE, 100).frames);
   assert.deepEqual(first, second);
