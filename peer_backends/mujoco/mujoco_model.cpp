@@ -5,7 +5,6 @@
 #include <array>
 #include <cstring>
 #include <iterator>
-#include <stdexcept>
 
 #include "peer_backends/mujoco/restitution_spring.h"
 #include "peer_backends/shared/surfaces.h"
@@ -138,6 +137,8 @@ void put_pairs(Text& text, const MujocoSetup& setup, const std::vector<peer::Sur
   }
 }
 
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
 }  // namespace
 
 std::string ball_name(std::size_t body) { return fmt::format("ball{}", body); }
@@ -179,7 +180,7 @@ Model compile(const std::string& mjcf) {
   std::array<char, 1000> error{};
   Model model(mj_loadXML("scene.xml", files.get(), error.data(), static_cast<int>(error.size())));
   mj_deleteVFS(files.get());
-  if (!model) throw std::runtime_error(fmt::format("mujoco: {}", error.data()));
+  if (!model) throw Refused(fmt::format("mujoco: {}", first_line(error.data())));
   return model;
 }
 

@@ -37,7 +37,7 @@ double stage_mass(const Scene& scene);
 /// as planes cannot move.
 std::string mjcf(const MujocoSetup& setup, std::span<const BodyState> states);
 
-/// Throws std::runtime_error with MuJoCo's reason where it does not compile.
+/// Throws Refused with MuJoCo's reason where it does not compile.
 Model compile(const std::string& mjcf);
 
 }  // namespace slipcheck::mujoco

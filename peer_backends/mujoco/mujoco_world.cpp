@@ -19,6 +19,16 @@ constexpr std::size_t kMostBodies = 300;
 
 [[noreturn]] void throw_error(const char* message) { throw std::runtime_error(message); }
 
+/// MuJoCo would write a file of its own; what matters is looked at after the step.
+void pass_over(const char*) {}
+
+/// A state that is not finite or beyond 1e10 makes MuJoCo start anew, without a word.
+bool started_anew(const mjData& data) {
+  for (const int kind : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC})
+    if (data.warning[kind].number > 0) return true;
+  return false;
+}
+
 }  // namespace
 
 struct MujocoWorld::Parts {
@@ -28,6 +38,7 @@ struct MujocoWorld::Parts {
         start_time(time),
         surfaces(peer::surfaces_of(setup.scene)) {
     mju_user_error = &throw_error;
+    mju_user_warning = &pass_over;
     model = compile(mjcf(setup, states));
     data.reset(mj_makeData(model.get()));
     for (std::size_t i = 0; i < states.size(); ++i) set_velocity(states[i], i);
@@ -98,6 +109,8 @@ struct MujocoWorld::Parts {
   void step() {
     move_stage();
     mj_step(model.get(), data.get());
+    if (started_anew(*data))
+      throw std::runtime_error("mujoco: a state that is not finite or beyond 1e10: it starts anew");
     ++steps;
     for (int k = 0; k < data->ncon; ++k) {
       const mjContact& contact = data->contact[k];

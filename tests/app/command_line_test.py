@@ -332,12 +332,13 @@ class CommandLine(unittest.TestCase):
         self.assertLessEqual({"default", "naive"}, set(shipped))
         self.assertEqual(engines[0]["profiles"], shipped)
         profiles = json.loads(run("list", "profiles", "--json").stdout)
-        self.assertEqual([(p["engine"], p["profile"]) for p in profiles],
-                         [("bullet", name) for name in shipped])
+        self.assertEqual([p["profile"] for p in profiles if p["engine"] == "bullet"], shipped)
         self.assertTrue(all(p["about"] for p in profiles))
         settings = json.loads(run("list", "settings", "--json").stdout)
-        self.assertEqual({s["engine"] for s in settings}, {"bullet"})
-        coefficients = [s for s in settings if s["name"] == "coefficients"]
+        installed = {e["engine"] for e in engines if e["status"] == "ok"}
+        self.assertEqual({s["engine"] for s in settings}, installed)
+        coefficients = [s for s in settings
+                        if s["engine"] == "bullet" and s["name"] == "coefficients"]
         self.assertEqual(len(coefficients), 1)
         self.assertEqual(coefficients[0]["precision"], ["double", "single"])
         self.assertIn("fields", coefficients[0]["takes"])

@@ -104,5 +104,14 @@ TEST(MujocoMaps, WhatItLacksIsSaid) {
                      "rolling friction ("));
 }
 
+TEST(MujocoMaps, WhatItCannotRunIsRefusedAndWhatItGivesUpIsNoResult) {
+  RemoteEngine worker(peer_executable(kMujoco));
+  const Scene dust = scene_of(steel_ball(1e-6), {rolling_along_x(1e-6, 0, 1)}, {});
+  EXPECT_THROW(worker.configure(dust, {}, 1e-3), Refused);
+  // MuJoCo resets a state beyond 1e10 to where it began.
+  const Scene beyond = scene_of(steel_ball(0.01), {sliding_ball(1e11)}, {});
+  EXPECT_THROW(run(worker, beyond, {}, 1000, 3), WorkerFailure);
+}
+
 }  // namespace
 }  // namespace slipcheck::test
