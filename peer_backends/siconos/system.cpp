@@ -1,0 +1,182 @@
+#include "siconos/system.h"
+
+#include <Eigen/Geometry>
+
+// clang-format off
+#include <NonSmoothDrivers.h>
+#include <SolverOptions.h>
+#include <SiconosKernel.hpp>
+#include <NewtonEuler5DR.hpp>
+#include <NewtonImpactRollingFrictionNSL.hpp>
+#include <RollingFrictionContact.hpp>
+// clang-format on
+
+namespace slipcheck::siconos {
+namespace {
+
+void set(SiconosVector& to, const Vector3& from) {
+  for (unsigned int k = 0; k < 3; ++k) to.setValue(k, from[k]);
+}
+
+/// The place of the first or second body [m]: seven coordinates each.
+Vector3 centre(const BlockVector& q, unsigned int body) {
+  return {q.getValue(7 * body), q.getValue(7 * body + 1), q.getValue(7 * body + 2)};
+}
+
+/// A sphere over the plane z = 0; Base: NewtonEuler3DR, or NewtonEuler5DR with rolling friction.
+template <class Base>
+class OnPlane : public Base {
+ public:
+  explicit OnPlane(double radius) : radius_(radius) {}
+  void computeh(double, const BlockVector& q, SiconosVector& y) override {
+    const Vector3 place = centre(q, 0);
+    y.setValue(0, place.z() - radius_);
+    set(*this->_Pc1, place - radius_ * Vector3::UnitZ());
+    set(*this->_Pc2, {place.x(), place.y(), 0});
+    set(*this->_Nc, Vector3::UnitZ());
+  }
+
+ private:
+  double radius_;
+};
+
+/// Two spheres.
+template <class Base>
+class OnSphere : public Base {
+ public:
+  OnSphere(double first, double second) : first_(first), second_(second) {}
+  void computeh(double, const BlockVector& q, SiconosVector& y) override {
+    const Vector3 a = centre(q, 0), b = centre(q, 1), apart = a - b;
+    const Vector3 normal = apart.normalized();
+    y.setValue(0, apart.norm() - first_ - second_);
+    set(*this->_Pc1, a - first_ * normal);
+    set(*this->_Pc2, b + second_ * normal);
+    set(*this->_Nc, normal);
+  }
+
+ private:
+  double first_, second_;
+};
+
+template <class Relation3, class Relation5, class... Radii>
+SP::Interaction make_interaction(const ImpactLaw& law, bool rolls, Radii... radii) {
+  if (rolls) {
+    SP::NonSmoothLaw five(new NewtonImpactRollingFrictionNSL(
+        law.restitution, law.tangential_restitution, law.friction, law.rolling_length, 5));
+    return SP::Interaction(new Interaction(five, SP::Relation(new Relation5(radii...))));
+  }
+  SP::NonSmoothLaw three(
+      new NewtonImpactFrictionNSL(law.restitution, law.tangential_restitution, law.friction, 3));
+  return SP::Interaction(new Interaction(three, SP::Relation(new Relation3(radii...))));
+}
+
+SP::LinearOSNS make_problem(const SystemPlan& plan) {
+  const bool nsgs = plan.solver == Solver::nsgs;
+  SP::LinearOSNS problem;
+  if (plan.rolls)
+    problem.reset(new RollingFrictionContact(
+        5, nsgs ? SICONOS_ROLLING_FRICTION_3D_NSGS : SICONOS_ROLLING_FRICTION_3D_ADMM));
+  else
+    problem.reset(
+        new FrictionContact(3, nsgs ? SICONOS_FRICTION_3D_NSGS : SICONOS_FRICTION_3D_ADMM));
+  problem->numericsSolverOptions()->dparam[SICONOS_DPARAM_TOL] = plan.tolerance;
+  problem->numericsSolverOptions()->iparam[SICONOS_IPARAM_MAX_ITER] = plan.iterations;
+  return problem;
+}
+
+}  // namespace
+
+struct System::Parts {
+  struct Link {
+    SP::Interaction interaction;
+    Impulse impulse;
+  };
+
+  explicit Parts(const SystemPlan& plan) : model(new NonSmoothDynamicalSystem(0, 1e30)) {
+    for (std::size_t i = 0; i < plan.bodies.size(); ++i) add_ball(plan, i);
+    std::size_t pair = 0;
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      const double radius = plan.bodies[i].radius;
+      link(make_interaction<OnPlane<NewtonEuler3DR>, OnPlane<NewtonEuler5DR>>(plan.on_substrate[i],
+                                                                              plan.rolls, radius),
+           i, Impulse::kPlane);
+      for (std::size_t j = i + 1; j < balls.size(); ++j)
+        if (const auto& law = plan.pairs[pair++])
+          link(make_interaction<OnSphere<NewtonEuler3DR>, OnSphere<NewtonEuler5DR>>(
+                   *law, plan.rolls, radius, plan.bodies[j].radius),
+               i, static_cast<int>(j));
+    }
+    SP::MoreauJeanOSI scheme(new MoreauJeanOSI(plan.theta));
+    scheme->setConstraintActivationThreshold(plan.activation_threshold);
+    SP::TimeDiscretisation clock(new TimeDiscretisation(0, plan.time_step));
+    stepping.reset(new TimeStepping(model, clock, scheme, make_problem(plan)));
+    stepping->setNewtonTolerance(plan.newton_tolerance);
+  }
+
+  void add_ball(const SystemPlan& plan, std::size_t i) {
+    const Sphere& sphere = plan.bodies[i];
+    SP::SiconosVector place(new SiconosVector(7)), twist(new SiconosVector(6));
+    place->zero();
+    set(*place, plan.states[i].position);
+    place->setValue(3, 1);  // a unit quaternion: body and space axes are alike at the start
+    for (unsigned int k = 0; k < 3; ++k) {
+      twist->setValue(k, plan.states[i].velocity[k]);
+      twist->setValue(3 + k, plan.states[i].angular_velocity[k]);
+    }
+    SP::SimpleMatrix inertia(new SimpleMatrix(3, 3));
+    inertia->eye();
+    *inertia *= sphere.moment_of_inertia();
+    SP::NewtonEulerDS ball(new NewtonEulerDS(place, twist, sphere.mass, inertia));
+    SP::SiconosVector weight(new SiconosVector(3));
+    set(*weight, sphere.mass * plan.gravity);
+    ball->setFExtPtr(weight);
+    model->insertDynamicalSystem(ball);
+    balls.push_back(ball);
+  }
+
+  void link(const SP::Interaction& interaction, std::size_t first, int second) {
+    if (second == Impulse::kPlane)
+      model->link(interaction, balls[first]);
+    else
+      model->link(interaction, balls[first], balls[static_cast<std::size_t>(second)]);
+    links.push_back({interaction, {static_cast<int>(first), second, 0}});
+  }
+
+  SP::NonSmoothDynamicalSystem model;
+  std::vector<SP::NewtonEulerDS> balls;
+  std::vector<Link> links;
+  SP::TimeStepping stepping;
+  std::vector<Impulse> impulses;
+};
+
+System::System(const SystemPlan& plan) : parts_(std::make_unique<Parts>(plan)) {}
+System::~System() = default;
+
+void System::step() {
+  parts_->stepping->computeOneStep();
+  parts_->impulses.clear();
+  for (Parts::Link& link : parts_->links) {
+    link.impulse.normal = link.interaction->lambda(1)->getValue(0);
+    if (link.impulse.normal > 0) parts_->impulses.push_back(link.impulse);
+  }
+  parts_->stepping->nextStep();
+}
+
+std::vector<BodyState> System::states() const {
+  std::vector<BodyState> states;
+  for (const SP::NewtonEulerDS& ball : parts_->balls) {
+    const SiconosVector &q = *ball->q(), &twist = *ball->twist();
+    // The twist's angular part is along the body's axes.
+    const Eigen::Quaterniond turn(q.getValue(3), q.getValue(4), q.getValue(5), q.getValue(6));
+    const Vector3 spin(twist.getValue(3), twist.getValue(4), twist.getValue(5));
+    BodyState& state = states.emplace_back();
+    state.position = {q.getValue(0), q.getValue(1), q.getValue(2)};
+    state.velocity = {twist.getValue(0), twist.getValue(1), twist.getValue(2)};
+    state.angular_velocity = turn.normalized() * spin;
+  }
+  return states;
+}
+
+const std::vector<Impulse>& System::impulses() const { return parts_->impulses; }
+
+}  // namespace slipcheck::siconos

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "physics/sphere.h"
+
+namespace slipcheck::siconos {
+
+/// What Siconos's nonsmooth laws take for a contact.
+struct ImpactLaw {
+  double restitution = 0;             ///< e_n
+  double tangential_restitution = 0;  ///< e_t, >= 0
+  double friction = 0;                ///< μ
+  double rolling_length = 0;          ///< largest rolling torque per normal force [m]
+};
+
+enum class Solver { nsgs, admm };
+
+/// Two bodies, or a body and the plane, and what they exchanged along their normal.
+struct Impulse {
+  static constexpr int kPlane = -1;
+  int first = 0, second = kPlane;
+  double normal = 0;  ///< [N s]
+};
+
+/// What a system is made of.
+struct SystemPlan {
+  std::vector<Sphere> bodies;
+  std::vector<BodyState> states;
+  std::vector<ImpactLaw> on_substrate;          ///< by body
+  std::vector<std::optional<ImpactLaw>> pairs;  ///< of bodies i < j, in the order of i, then of j
+  Vector3 gravity = Vector3::Zero();            ///< [m/s²]
+  double time_step = 0;                         ///< [s]
+  bool rolls = false;  ///< all contacts have five dimensions: a torque beside the force
+  double theta = 0.5;
+  Solver solver = Solver::nsgs;
+  double tolerance = 0;
+  int iterations = 0;
+  double newton_tolerance = 0;
+  double activation_threshold = 0;  ///< [m]
+};
+
+/// One nonsmooth system of Siconos's: spheres and the plane z = 0. All that includes Siconos, whose
+/// headers are C++17 at most, is behind this.
+class System {
+ public:
+  explicit System(const SystemPlan& plan);
+  ~System();
+
+  /// One step of Moreau and Jean's scheme.
+  void step();
+  std::vector<BodyState> states() const;
+  /// Those of the last step, > 0.
+  const std::vector<Impulse>& impulses() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace slipcheck::siconos
