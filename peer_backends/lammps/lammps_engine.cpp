@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "common/momentum_touches.h"
 #include "common/moving_frame.h"
@@ -116,18 +117,15 @@ class LammpsEngine final : public Engine {
 
   void step() override { ++run_->pending; }
 
-  void read(Frame& frame) const override {
-    const std::vector<BodyState> before = run_->states;
-    const double time = static_cast<double>(run_->pending) * setup_->time_step;
-    advance(true);
-    frame.bodies = run_->states;
-    frame.touches = run_->blown_up ? std::vector<Touch>{}
-                                   : momentum_touches(setup_->scene, before, run_->states, time);
-    setup_->frame.leave(frame.bodies, static_cast<double>(run_->frames) * setup_->time_step);
+  std::span<const Frame> parts() const override {
+    const std::vector<Frame>& shown = look();
+    return std::span(shown).first(shown.size() - 1);
   }
 
+  void read(Frame& frame) const override { frame = look().back(); }
+
   double cpu_seconds() const override {
-    if (run_) advance(false);
+    if (run_ && run_->pending > 0) advance(std::exchange(run_->pending, 0), 0);
     return cpu_seconds_;
   }
 
@@ -142,36 +140,69 @@ class LammpsEngine final : public Engine {
   /// A world in LAMMPS, as seen from the substrate.
   struct Run {
     std::vector<BodyState> states;  // in the last frame
+    std::vector<Frame> shown;       // of the last step
     long pending = 0;               // steps that are asked for and not taken
     long taken = 0;                 // of LAMMPS's
-    long frames = 0;                // steps of the engine's at the last frame
     bool blown_up = false;
   };
 
-  /// Takes the steps that are pending, all in one run: nothing comes between them.
-  void advance(bool look) const {
+  /// The frames of the step that is pending, which is taken here; those of the last one where none
+  /// is.
+  const std::vector<Frame>& look() const {
     Run& run = *run_;
-    if (run.pending == 0 || run.blown_up) {
-      run.pending = 0;
-      return;
+    if (run.pending == 0) return run.shown;
+    const long each = setup_->steps.count / setup_->settings.frames;
+    const double length = static_cast<double>(each) * setup_->steps.length;
+    if (run.pending > 1) {
+      advance(run.pending - 1, 0);
+      run.pending = 1;
     }
-    const long count = run.pending * setup_->steps.count;
-    run.taken += count;
-    run.frames += run.pending;
+    const long before = run.taken;
+    advance(1, each);
+    run.shown.clear();
+    for (int k = 1; k <= setup_->settings.frames; ++k) {
+      const std::vector<BodyState> last = run.states;
+      read_states(before + k * each);
+      Frame& frame = run.shown.emplace_back();
+      frame.bodies = run.states;
+      if (!run.blown_up) frame.touches = momentum_touches(setup_->scene, last, run.states, length);
+      frame.part = k == setup_->settings.frames ? 1.0 : k / double(setup_->settings.frames);
+      setup_->frame.leave(frame.bodies,
+                          static_cast<double>(before + k * each) * setup_->steps.length);
+    }
     run.pending = 0;
-    try {
-      // Of all steps on the way only the last is a multiple of itself.
+    return run.shown;
+  }
+
+  /// So many steps in one run of LAMMPS's, with a snapshot every so many of its own; 0: none.
+  void advance(long steps, long every) const {
+    Run& run = *run_;
+    if (run.blown_up) return;
+    const long count = steps * setup_->steps.count;
+    run.taken += count;
+    attempt([&] {
       process_->send(fmt::format("dump_modify frames every {}\nrun {} pre no\n",
-                                 look ? run.taken : 1000000000, count));
+                                 every > 0 ? every : 1000000000, count));
       cpu_seconds_ += process_->finish_run();
-      if (look) process_->read_snapshot(run.taken, run.states, run.states.size());
+    });
+  }
+
+  void read_states(long step) const {
+    attempt([&] { process_->read_snapshot(step, run_->states, run_->states.size()); });
+  }
+
+  /// A simulation that blows up is a result: from then on all places are NaN.
+  void attempt(const std::function<void()>& call) const {
+    if (run_->blown_up) return;
+    try {
+      call();
     } catch (const LammpsError& error) {
       const std::string reason = error.what();
       if (reason.find("Lost atoms") == std::string::npos &&
           reason.find("Non-numeric") == std::string::npos)
         throw;
-      run.blown_up = true;
-      for (BodyState& state : run.states)
+      run_->blown_up = true;
+      for (BodyState& state : run_->states)
         state.position.setConstant(std::numeric_limits<double>::quiet_NaN());
     }
   }

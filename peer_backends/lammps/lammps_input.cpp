@@ -203,7 +203,11 @@ constexpr std::size_t kBins = 400;
 }  // namespace
 
 InnerSteps inner_steps(const EngineScene& scene, const LammpsSettings& settings, double time_step) {
-  if (settings.substeps > 0) return {settings.substeps, time_step / settings.substeps};
+  const auto steps_of = [&](double least) {
+    const int count = settings.frames * static_cast<int>(std::ceil(least / settings.frames));
+    return InnerSteps{count, time_step / count};
+  };
+  if (settings.substeps > 0) return steps_of(settings.substeps);
   const AtomTypes types = atom_types(scene);
   const double speed = approach_speed(scene);
   double shortest = settings.collision_time > 0 ? settings.collision_time : time_step;
@@ -214,7 +218,7 @@ InnerSteps inner_steps(const EngineScene& scene, const LammpsSettings& settings,
   if (!(count < 1e8))
     throw Refused(
         fmt::format("lammps: {:.3g} steps of its own in each step of {} s", count, time_step));
-  return {std::max(1, static_cast<int>(count)), time_step / std::max(1.0, count)};
+  return steps_of(std::max(1.0, count));
 }
 
 std::string input(const EngineScene& scene, std::span<const BodyState> states,

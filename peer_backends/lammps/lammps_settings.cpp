@@ -26,6 +26,11 @@ const SettingRows<LammpsSettings>& setting_rows() {
     rows.count("substeps", &S::substeps)
         .within(0, 1e8)
         .about("steps of LAMMPS's in each step; 0: as many as steps_per_collision asks for");
+    rows.count("frames", &S::frames)
+        .within(1, 10000)
+        .about(
+            "states that are shown of each step, at equal parts of it: a collision is seen as "
+            "from so much closer; steps of LAMMPS's are rounded up to a multiple");
     rows.number("sticking", "", &S::sticking)
         .within(0, 1e6)
         .search(1, 20)

@@ -23,7 +23,7 @@ struct LammpsSettings {
   PairStyle pair_style = PairStyle::law;
   Coefficients coefficients = Coefficients::pair;
   double collision_time = 1e-4;  // [s]
-  int steps_per_collision = 50, substeps = 0;
+  int steps_per_collision = 50, substeps = 0, frames = 1;
   double sticking = 10, lowest_restitution = 0.01;
   double skin = 0.3;
   int ranks = 1;

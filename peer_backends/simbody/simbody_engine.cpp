@@ -107,25 +107,23 @@ class SimbodyEngine final : public Engine {
   }
 
   void step() override {
-    ++steps_;
-    before_ = after_;
-    if (blown_up_) return;
-    try {
-      world_->advance_to(static_cast<double>(steps_) * setup_->time_step);
-      after_ = world_->states();
-    } catch (const std::exception&) {  // no step is small enough: the simulation has blown up
-      blown_up_ = true;
-      for (BodyState& state : after_)
-        state.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+    const int frames = setup_->settings.frames;
+    shown_.resize(static_cast<std::size_t>(frames));
+    for (int k = 1; k <= frames; ++k) {
+      const double part = k == frames ? 1.0 : k / double(frames);
+      advance_to((static_cast<double>(steps_) + part) * setup_->time_step);
+      shown_[static_cast<std::size_t>(k) - 1] = {part, before_, after_};
     }
+    ++steps_;
   }
 
-  void read(Frame& frame) const override {
-    frame.bodies = after_;
-    frame.touches = blown_up_ ? std::vector<Touch>{}
-                              : momentum_touches(setup_->scene, before_, after_, setup_->time_step);
-    setup_->frame.leave(frame.bodies, static_cast<double>(steps_) * setup_->time_step);
+  std::span<const Frame> parts() const override {
+    frames_.clear();
+    for (const Shown& each : shown_) frames_.push_back(frame_of(each));
+    return std::span(frames_).first(frames_.size() - 1);
   }
+
+  void read(Frame& frame) const override { frame = frame_of(shown_.back()); }
 
  private:
   struct Setup {
@@ -134,9 +132,42 @@ class SimbodyEngine final : public Engine {
     double time_step;
     MovingFrame frame;
   };
+  /// What was seen in a part of a step, from the substrate.
+  struct Shown {
+    double part;
+    std::vector<BodyState> before, after;
+  };
+
+  void advance_to(double time) {
+    before_ = after_;
+    if (blown_up_) return;
+    try {
+      world_->advance_to(time);
+      after_ = world_->states();
+    } catch (const std::exception&) {  // no step is small enough: the simulation has blown up
+      blown_up_ = true;
+      for (BodyState& state : after_)
+        state.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+
+  Frame frame_of(const Shown& seen) const {
+    Frame frame;
+    frame.bodies = seen.after;
+    frame.part = seen.part;
+    if (!blown_up_)
+      frame.touches = momentum_touches(setup_->scene, seen.before, seen.after,
+                                       setup_->time_step / setup_->settings.frames);
+    const double time = (static_cast<double>(steps_) - 1 + seen.part) * setup_->time_step;
+    setup_->frame.leave(frame.bodies, time);
+    return frame;
+  }
+
   std::optional<Setup> setup_;
   std::unique_ptr<System> world_;
-  std::vector<BodyState> before_, after_;  // of the last step, as seen from the substrate
+  std::vector<Shown> shown_;
+  mutable std::vector<Frame> frames_;
+  std::vector<BodyState> before_, after_;  // of the last part, as seen from the substrate
   long steps_ = 0;
   bool blown_up_ = false;
 };

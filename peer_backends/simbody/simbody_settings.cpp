@@ -35,6 +35,11 @@ const SettingRows<SimbodySettings>& setting_rows() {
         .about(
             "what people type: dissipation 1 − e per metre a second, dynamic friction for "
             "static too");
+    rows.count("frames", &S::frames)
+        .within(1, 10000)
+        .about(
+            "states that are shown of each step, at equal parts of it: a collision is seen as "
+            "from so much closer");
     return rows;
   }();
   return table;

@@ -17,6 +17,7 @@ struct SimbodySettings {
   double impact_speed = 0;            // [m/s]
   double lowest_restitution = 0.05;
   bool fields = false;
+  int frames = 1;
 };
 
 const SettingRows<SimbodySettings>& setting_rows();
