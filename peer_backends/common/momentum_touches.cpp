@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 
 namespace slipcheck {
 namespace {
@@ -73,6 +74,20 @@ std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyStat
     if (impulses[c] > 1e-9 * largest) touches.push_back({each.first, each.second, impulses[c]});
   }
   return touches;
+}
+
+bool in_impact(const Scene& scene, std::span<const BodyState> states, double time) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double radius = scene.bodies[i].radius;
+    if (states[i].position.z() < radius &&
+        std::abs(states[i].velocity.z()) > 10 * scene.gravity * time)
+      return true;
+    for (std::size_t j = i + 1; j < states.size(); ++j) {
+      const Vector3 apart = scene.to_nearest_image(states[i].position - states[j].position);
+      if (apart.norm() < radius + scene.bodies[j].radius) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace slipcheck

@@ -16,4 +16,9 @@ namespace slipcheck {
 std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyState> before,
                                     std::span<const BodyState> after, double time_step);
 
+/// Whether bodies are in the middle of an impact: two overlap, or one overlaps the substrate and
+/// moves up or down faster than gravity makes it in ten times `time` [s]. A state in there is
+/// neither before nor after the impact.
+bool in_impact(const Scene& scene, std::span<const BodyState> states, double time);
+
 }  // namespace slipcheck

@@ -160,15 +160,21 @@ class LammpsEngine final : public Engine {
     const long before = run.taken;
     advance(1, each);
     run.shown.clear();
+    std::vector<BodyState> last = run.states;
+    int parts = 0;  // since `last`
     for (int k = 1; k <= setup_->settings.frames; ++k) {
-      const std::vector<BodyState> last = run.states;
       read_states(before + k * each);
+      ++parts;
+      if (k < setup_->settings.frames && in_impact(setup_->scene, run.states, length)) continue;
       Frame& frame = run.shown.emplace_back();
       frame.bodies = run.states;
-      if (!run.blown_up) frame.touches = momentum_touches(setup_->scene, last, run.states, length);
+      if (!run.blown_up)
+        frame.touches = momentum_touches(setup_->scene, last, run.states, parts * length);
       frame.part = k == setup_->settings.frames ? 1.0 : k / double(setup_->settings.frames);
       setup_->frame.leave(frame.bodies,
                           static_cast<double>(before + k * each) * setup_->steps.length);
+      last = run.states;
+      parts = 0;
     }
     run.pending = 0;
     return run.shown;

@@ -29,7 +29,8 @@ const SettingRows<LammpsSettings>& setting_rows() {
     rows.count("frames", &S::frames)
         .within(1, 10000)
         .about(
-            "states that are shown of each step, at equal parts of it: a collision is seen as "
+            "states that are shown of each step, at equal parts of it, but for those "
+            "in the middle of an impact: a collision is seen as "
             "from so much closer; steps of LAMMPS's are rounded up to a multiple");
     rows.number("sticking", "", &S::sticking)
         .within(0, 1e6)

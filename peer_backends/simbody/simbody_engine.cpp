@@ -102,17 +102,23 @@ class SimbodyEngine final : public Engine {
   void start(std::span<const BodyState> states, double) override {
     steps_ = 0;
     blown_up_ = false;
-    before_ = after_ = setup_->frame.enter(states);
-    world_ = std::make_unique<System>(plan_of(setup_->scene, setup_->settings, after_));
+    states_ = setup_->frame.enter(states);
+    world_ = std::make_unique<System>(plan_of(setup_->scene, setup_->settings, states_));
   }
 
   void step() override {
     const int frames = setup_->settings.frames;
-    shown_.resize(static_cast<std::size_t>(frames));
+    const double length = setup_->time_step / frames;
+    shown_.clear();
+    std::vector<BodyState> last = states_;
+    double since = 0;  // `last`, in parts of the step
     for (int k = 1; k <= frames; ++k) {
       const double part = k == frames ? 1.0 : k / double(frames);
       advance_to((static_cast<double>(steps_) + part) * setup_->time_step);
-      shown_[static_cast<std::size_t>(k) - 1] = {part, before_, after_};
+      if (k < frames && in_impact(setup_->scene, states_, length)) continue;
+      shown_.push_back({part, part - since, last, states_});
+      last = states_;
+      since = part;
     }
     ++steps_;
   }
@@ -134,19 +140,19 @@ class SimbodyEngine final : public Engine {
   };
   /// What was seen in a part of a step, from the substrate.
   struct Shown {
-    double part;
+    double part;    // of the step, that has passed
+    double length;  // since the state before, likewise
     std::vector<BodyState> before, after;
   };
 
   void advance_to(double time) {
-    before_ = after_;
     if (blown_up_) return;
     try {
       world_->advance_to(time);
-      after_ = world_->states();
+      states_ = world_->states();
     } catch (const std::exception&) {  // no step is small enough: the simulation has blown up
       blown_up_ = true;
-      for (BodyState& state : after_)
+      for (BodyState& state : states_)
         state.position.setConstant(std::numeric_limits<double>::quiet_NaN());
     }
   }
@@ -156,8 +162,8 @@ class SimbodyEngine final : public Engine {
     frame.bodies = seen.after;
     frame.part = seen.part;
     if (!blown_up_)
-      frame.touches = momentum_touches(setup_->scene, seen.before, seen.after,
-                                       setup_->time_step / setup_->settings.frames);
+      frame.touches =
+          momentum_touches(setup_->scene, seen.before, seen.after, seen.length * setup_->time_step);
     const double time = (static_cast<double>(steps_) - 1 + seen.part) * setup_->time_step;
     setup_->frame.leave(frame.bodies, time);
     return frame;
@@ -167,7 +173,7 @@ class SimbodyEngine final : public Engine {
   std::unique_ptr<System> world_;
   std::vector<Shown> shown_;
   mutable std::vector<Frame> frames_;
-  std::vector<BodyState> before_, after_;  // of the last part, as seen from the substrate
+  std::vector<BodyState> states_;  // as seen from the substrate
   long steps_ = 0;
   bool blown_up_ = false;
 };

@@ -38,7 +38,8 @@ const SettingRows<SimbodySettings>& setting_rows() {
     rows.count("frames", &S::frames)
         .within(1, 10000)
         .about(
-            "states that are shown of each step, at equal parts of it: a collision is seen as "
+            "states that are shown of each step, at equal parts of it, but for those "
+            "in the middle of an impact: a collision is seen as "
             "from so much closer");
     return rows;
   }();

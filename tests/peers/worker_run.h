@@ -25,6 +25,11 @@ inline std::vector<Frame> peer_run(RemoteEngine& engine, const EngineScene& scen
   return frames;
 }
 
+inline Settings with(Settings base, const Settings& others) {
+  for (const auto& [name, value] : others) base[name] = value;
+  return base;
+}
+
 /// One steel ball of this radius [m] on a substrate.
 inline Scene ball_on(const SubstrateContact& ground, double radius, const Vector3& position,
                      const Vector3& velocity, const Vector3& spin = Vector3::Zero()) {
