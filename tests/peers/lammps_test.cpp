@@ -200,6 +200,22 @@ TEST(Lammps, ABallCrossesTheEdgeOfAPeriodicPlane) {
   EXPECT_NEAR(frames.back().bodies[0].position.x(), 0.09, 1e-12);
 }
 
+TEST(Lammps, StatesInsideAStepAreThoseOfShorterSteps) {
+  const Scene scene = test::bouncing_ball();
+  RemoteEngine engine(executable());
+  const Settings inner = {{"substeps", 2000.0}}, outer = {{"substeps", 500.0}};
+  const auto shown = test::peer_run(engine, scene, test::with(inner, {{"frames", 4.0}}), 4e-3, 40);
+  const auto apart = test::peer_run(engine, scene, outer, 1e-3, 160);
+  // Those in the middle of the impact, which takes a tenth of a millisecond, are left out.
+  EXPECT_GE(shown.size(), 159u);
+  std::size_t n = 0;
+  for (const Frame& frame : shown) {
+    while (n < apart.size() && apart[n].bodies[0].position != frame.bodies[0].position) ++n;
+    ASSERT_LT(n, apart.size());
+    EXPECT_EQ(frame.part, n % 4 == 3 ? 1.0 : static_cast<double>(n % 4 + 1) / 4);
+  }
+}
+
 TEST(Lammps, EveryStartIsTheSame) {
   const Scene scene = test::head_on(0.15, -0.15, 0.9);
   RemoteEngine engine(executable());
