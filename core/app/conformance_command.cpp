@@ -28,7 +28,7 @@ struct ConformanceArguments {
 };
 
 /// The worker at a path, or those of an engine's name.
-std::vector<fs::path> chosen_workers(const ConformanceArguments& arguments) {
+std::vector<WorkerCommand> chosen_workers(const ConformanceArguments& arguments) {
   const std::string& engine = arguments.engine;
   std::error_code ignored;
   if (engine.find('/') != std::string::npos || fs::is_regular_file(engine, ignored)) {
@@ -38,15 +38,16 @@ std::vector<fs::path> chosen_workers(const ConformanceArguments& arguments) {
           fmt::format("ENGINE: must be an engine or a worker's file, there is no {}", engine));
     if (access(path.c_str(), X_OK) != 0)
       throw BadOption(fmt::format("ENGINE: must be executable (chmod +x), {} is not", engine));
-    return {path};
+    return {WorkerCommand(path)};
   }
-  std::vector<fs::path> workers;
+  std::vector<WorkerCommand> workers;
   std::string known;
   for (const EngineExecutable& each : find_engines()) {
     known += fmt::format("{}{} {}", known.empty() ? "" : ", ", each.engine, each.precision);
     const bool same_precision =
         arguments.precision.empty() || each.precision == arguments.precision;
-    if (each.engine == engine && same_precision) workers.push_back(each.path);
+    if ((each.engine == engine || engine_family(each.engine) == engine) && same_precision)
+      workers.push_back(each.path);
   }
   if (workers.empty())
     throw BadOption(fmt::format("ENGINE: must be the path of a worker or one of {}, got {}{}",
@@ -57,10 +58,10 @@ std::vector<fs::path> chosen_workers(const ConformanceArguments& arguments) {
 
 void print(const ConformanceReport& report) {
   if (report.no_start.empty())
-    fmt::print("{}  {} {} {}\n\n", report.executable.string(), report.engine, report.version,
-               report.precision);
+    fmt::print("{}  {} {} {}\n\n", report.executable.program.string(), report.engine,
+               report.version, report.precision);
   else
-    fmt::print("{}  the worker cannot start\n\n", report.executable.string());
+    fmt::print("{}  the worker cannot start\n\n", report.executable.program.string());
   if (!report.no_start.empty()) {
     const char* mend =
         "It must be an executable file: a program, or a script whose first line names its "
@@ -89,10 +90,10 @@ int exit_code_of(const std::vector<ConformanceReport>& reports) {
 
 int ask_all(const ConformanceArguments& arguments) {
   check_output("--json", arguments.json, false);
-  const std::vector<fs::path> workers = chosen_workers(arguments);
+  const std::vector<WorkerCommand> workers = chosen_workers(arguments);
   watch_for_interrupts();
   std::vector<ConformanceReport> reports;
-  for (const fs::path& worker : workers) {
+  for (const WorkerCommand& worker : workers) {
     ProgressBar bar("asking", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
     ConformanceOptions options;
     options.limits.reply = arguments.reply_limit;

@@ -14,7 +14,7 @@ void describe(Fields& f, ConformanceCheck& check) {
 
 template <class Fields>
 void describe(Fields& f, ConformanceReport& report) {
-  std::string executable = report.executable.string();
+  std::string executable = report.executable.program.string();
   f("executable", executable);
   f.if_any("engine", report.engine);
   f.if_any("version", report.version);

@@ -81,7 +81,7 @@ std::size_t ConformanceReport::count(CheckVerdict verdict) const {
   return static_cast<std::size_t>(std::ranges::count(checks, verdict, &ConformanceCheck::verdict));
 }
 
-ConformanceReport check_conformance(const std::filesystem::path& executable,
+ConformanceReport check_conformance(const WorkerCommand& executable,
                                     const ConformanceOptions& options) {
   const Trial trial(executable, options.limits, options.stop);
   ConformanceReport report;

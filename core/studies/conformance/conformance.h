@@ -25,7 +25,7 @@ struct ConformanceCheck {
 
 /// What a worker keeps of docs/engine-protocol.md, and of what every engine of spheres does.
 struct ConformanceReport {
-  std::filesystem::path executable;
+  WorkerCommand executable;
   std::string engine, version, precision;  ///< as it greets; empty where it does not
   std::string no_start;                    ///< why there is no worker to ask; empty where there is
   std::vector<ConformanceCheck> checks;    ///< in the order of the list
@@ -43,7 +43,7 @@ struct ConformanceOptions {
 
 /// Asks a worker everything, each check in worker processes of its own, so that no fault hides
 /// another. Throws Interrupted.
-ConformanceReport check_conformance(const std::filesystem::path& executable,
+ConformanceReport check_conformance(const WorkerCommand& executable,
                                     const ConformanceOptions& options = {});
 
 /// The names of all checks, in their order.

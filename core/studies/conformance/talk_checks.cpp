@@ -49,7 +49,7 @@ std::string greeting(const Trial& trial) {
                     precision = text("precision");
   if (precision != "single" && precision != "double")
     throw Breach(fmt::format("the precision is \"{}\"", precision));
-  expect_own_name(trial.executable().filename().string(), engine, precision);
+  expect_own_name(trial.executable().program.filename().string(), engine, precision);
   return fmt::format("{} {}, {} precision", engine, version, precision);
 }
 

@@ -28,17 +28,17 @@ class NotJudged : public std::runtime_error {
 /// What the checks of one worker share: how to start it, and how it greeted.
 class Trial {
  public:
-  Trial(std::filesystem::path executable, const WorkerLimits& limits, const std::atomic<bool>* stop)
+  Trial(WorkerCommand executable, const WorkerLimits& limits, const std::atomic<bool>* stop)
       : executable_(std::move(executable)), limits_(limits), stop_(stop) {}
 
-  const std::filesystem::path& executable() const { return executable_; }
+  const WorkerCommand& executable() const { return executable_; }
   /// A worker that nothing has been said to.
   WorkerProcess process() const { return WorkerProcess(executable_, limits_, stop_); }
   /// One that has greeted.
   RemoteEngine engine() const { return RemoteEngine(executable_, limits_, stop_); }
 
  private:
-  std::filesystem::path executable_;
+  WorkerCommand executable_;
   WorkerLimits limits_;
   const std::atomic<bool>* stop_;
 };
