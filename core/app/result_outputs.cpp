@@ -43,8 +43,9 @@ void write_motions(const fs::path& folder, const std::vector<SceneRecord>& scene
     for (const EngineRecord& run : scene.runs)
       for (const RecordedMotion& motion : run.motions)
         write(scene.scenario, motion,
-              fmt::format("{}-{}-{}-{}-{:g}Hz-{}", name, run.engine, run.precision, run.profile,
-                          run.rate, motion.role));
+              fmt::format("{}-{}-{}-{}-{:g}Hz{}-{}", name, run.engine, run.precision, run.profile,
+                          run.rate, run.scale == 1 ? "" : fmt::format("-scale{:g}", run.scale),
+                          motion.role));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/commands.h"
 #include "app/interrupt.h"
@@ -14,6 +15,8 @@
 #include "app/progress_bar.h"
 #include "app/result_outputs.h"
 #include "app/set_option.h"
+#include "engine/profile.h"
+#include "harness/run/engine_grid.h"
 #include "harness/run/scene_run.h"
 #include "report/files/files.h"
 #include "report/files/result_csv.h"
@@ -32,6 +35,9 @@ namespace fs = std::filesystem;
 struct RunArguments {
   std::vector<std::string> files, settings;
   std::string json, directory;
+  EngineChoice engines;
+  std::optional<std::size_t> headings;
+  std::vector<double> scales;
   ResultOutputs outputs;
   RunOptions options;
   std::size_t memory_limit = 2048;  // MiB
@@ -73,8 +79,39 @@ void print_warnings(const std::vector<SceneRecord>& scenes) {
   for (const SceneRecord& scene : scenes)
     for (const EngineRecord& run : scene.runs)
       if (run.status != EngineRecord::Status::ok && run.verdict() != Verdict::within)
-        fmt::print(stderr, "{}: {} {} {} at {:g} Hz {}: {}\n", scene.scenario.name, run.engine,
-                   run.precision, run.profile, run.rate, name_of(run.status), run.reason);
+        fmt::print(stderr, "{}: {} {} {} at {} {}: {}\n", scene.scenario.name, run.engine,
+                   run.precision, run.profile, run.rate_text(), name_of(run.status), run.reason);
+}
+
+/// What is asked for in place of what the scenes say. Profiles that are paths are taken from the
+/// working directory.
+void choose(const RunArguments& arguments, std::vector<Scenario>& scenarios) {
+  EngineChoice engines = arguments.engines;
+  for (std::string& profile : engines.profiles)
+    if (is_profile_path(profile)) profile = fs::absolute(profile).string();
+  for (Scenario& scenario : scenarios) {
+    choose_engines(scenario, engines);
+    if (arguments.headings) scenario.compare.headings = *arguments.headings;
+    if (!arguments.scales.empty()) scenario.compare.scales = arguments.scales;
+  }
+}
+
+/// The command that gives these results again, but for where they are written.
+std::string command_of(const RunArguments& arguments) {
+  std::string command = fmt::format("slipcheck run {} --phases {}", fmt::join(arguments.files, " "),
+                                    arguments.options.phases);
+  const auto add = [&](const char* option, const auto& list) {
+    if (!list.empty()) command += fmt::format(" {} {}", option, fmt::join(list, ","));
+  };
+  add("--engines", arguments.engines.engines);
+  add("--precision", arguments.engines.precisions);
+  add("--profiles", arguments.engines.profiles);
+  add("--rates", arguments.engines.rates);
+  if (arguments.headings) command += fmt::format(" --headings {}", *arguments.headings);
+  add("--scales", arguments.scales);
+  for (const std::string& setting : arguments.settings) command += " --set " + setting;
+  if (arguments.options.general) command += " --general";
+  return command;
 }
 
 int run(RunArguments& arguments) {
@@ -84,6 +121,7 @@ int run(RunArguments& arguments) {
   arguments.options.settings = parse_settings(arguments.settings);
   watch_for_interrupts();
   std::vector<Scenario> scenarios = load_files(arguments.files);
+  choose(arguments, scenarios);
 
   arguments.options.stop = &interrupted();
   arguments.options.record_motion = arguments.outputs.show_motion() || !arguments.directory.empty();
@@ -97,11 +135,7 @@ int run(RunArguments& arguments) {
     arguments.options.progress = [&](std::size_t done, std::size_t total) { bar.set(done, total); };
     content.scenes = run_scenes(std::move(scenarios), arguments.options);
   }
-  std::string command = fmt::format("slipcheck run {} --phases {}", fmt::join(arguments.files, " "),
-                                    arguments.options.phases);
-  for (const std::string& setting : arguments.settings) command += " --set " + setting;
-  if (arguments.options.general) command += " --general";
-  content.commands = {command};
+  content.commands = {command_of(arguments)};
   write_results(arguments, content);
   const std::vector<SceneRecord>& scenes = content.scenes;
   if (!arguments.quiet) {
@@ -137,6 +171,33 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command
+      ->add_option("--headings", arguments->headings,
+                   "Run each phase in so many headings around the vertical; else as scenes say")
+      ->check(CLI::Range(1, kMostHeadings));
+  command
+      ->add_option("--scales", arguments->scales,
+                   "Run similar scenes too, all lengths times these; with commas; 1 is the scene")
+      ->delimiter(',')
+      ->check(CLI::Range(1e-9, 1e9));
+  command
+      ->add_option("--engines", arguments->engines.engines,
+                   "In place of the scenes' engines these, with commas, or all that are installed")
+      ->delimiter(',');
+  command
+      ->add_option("--precision", arguments->engines.precisions,
+                   "In place of the scenes' precision single, double, or both with a comma")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"single", "double"}));
+  command
+      ->add_option("--profiles", arguments->engines.profiles,
+                   "In place of the scenes' profiles these, names or paths, with commas")
+      ->delimiter(',');
+  command
+      ->add_option("--rates", arguments->engines.rates,
+                   "In place of the scenes' rates these [Hz], with commas")
+      ->delimiter(',')
+      ->check(CLI::Range(1e-6, 1e12));
+  command
       ->add_option("--workers", arguments->options.workers,
                    "Engines at work at once; 0: one for each core")
       ->check(CLI::Range(0, 256))
@@ -160,6 +221,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  slipcheck run scenarios/symmetric-30cms.yaml --phases 64\n"
       "  slipcheck run scenarios/*.yaml --out results/today\n"
+      "  slipcheck run scenarios/*.yaml --engines all --rates 240,1000 --headings 8\n"
+      "  slipcheck run scenarios/symmetric-steel.yaml --scales 0.01,1,100\n"
       "  slipcheck run scene.yaml --set erp2=0.4 --html what-if.html\n"
       "  slipcheck run scene.yaml --json - | jq .verdict");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });

@@ -102,6 +102,11 @@ class FieldWriter {
   void if_any(const std::string& key, const Value& value, const std::string& why = {}) {
     if (value != Value{}) (*this)(key, value, why);
   }
+  /// Left out where it is what it usually is, and then keeps what it has.
+  template <class Value>
+  void unless(const std::string& key, const Value& value, const Value& usual) {
+    if (value != usual) (*this)(key, value);
+  }
   /// Left out where it is not finite, and then keeps what it has.
   void if_finite(const std::string& key, double value) {
     if (std::isfinite(value)) (*this)(key, value);
@@ -221,6 +226,10 @@ class BasicFieldReader {
   template <class Value>
   void if_any(const std::string& key, Value& value, const std::string& = {}) {
     if (has(key)) read(node_[key], value);
+  }
+  template <class Value>
+  void unless(const std::string& key, Value& value, const Value&) {
+    if_any(key, value);
   }
   void if_finite(const std::string& key, double& value) { if_any(key, value); }
   void or_null(const std::string& key, std::optional<double>& value, const std::string& = {}) {

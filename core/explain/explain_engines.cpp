@@ -8,6 +8,7 @@
 
 #include "engine/engine_registry.h"
 #include "engine/remote_engine.h"
+#include "harness/run/engine_grid.h"
 
 namespace slipcheck {
 namespace {
@@ -51,15 +52,17 @@ ExplainSections explain_engines(const Scenario& scenario, const EngineScene& sce
                                 const std::vector<EngineRecord>& runs,
                                 const std::atomic<bool>* stop) {
   ExplainSections sections;
-  std::size_t first = 0;
-  for (const EngineRequest& request : scenario.compare.engines) {
-    const EngineRecord& run = runs[first];
+  auto run = runs.begin();
+  for (const EngineRequest& request : requests_of(scenario)) {
     ExplainSection& section = sections.emplace_back();
-    section.title = fmt::format("Engine {} {}, profile {}, {} Hz", run.engine, run.precision,
-                                run.profile, fmt::join(request.rates, ", "));
+    section.title = fmt::format("Engine {} {}, profile {}, {} Hz", run->engine, run->precision,
+                                run->profile, fmt::join(request.rates, ", "));
+    if (run->headings > 1) section.title += fmt::format(", {} headings", run->headings);
+    if (const auto& scales = scenario.compare.scales; scales != std::vector<double>{1})
+      section.title += fmt::format(", scales {}", fmt::join(scales, ", "));
     section.label_width = 36;
-    ask(section, run, scene, stop);
-    first += request.rates.size();
+    ask(section, *run, scene, stop);
+    run += static_cast<std::ptrdiff_t>(request.rates.size() * scenario.compare.scales.size());
   }
   return sections;
 }

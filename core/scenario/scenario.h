@@ -258,7 +258,7 @@ struct Expectation {
 struct EngineRequest {
   enum class Precision { single_, double_ };
   std::string engine;
-  Precision precision = Precision::double_;
+  std::optional<Precision> precision;  ///< none: that which is installed, of both the double one
   std::string profile = "default";
   std::vector<double> rates;  ///< steps per second [Hz], > 0
   std::optional<Expectation> expect;
@@ -266,11 +266,25 @@ struct EngineRequest {
   bool of_grid = false;
 };
 
+/// Every engine that is installed, in each of its precisions. An extension.
+struct AllEngines {
+  bool all = true;
+  std::vector<std::string> profiles;  ///< where an engine has them; empty: default and physical
+  std::vector<double> rates = {240, 1000};  ///< steps per second [Hz], > 0
+};
+
+inline constexpr int kMostHeadings = 360;
+
 struct Compare {
   enum class Reference { automatic, event, contact, steps };  ///< steps: an extension
   Reference reference = Reference::automatic;
   double steps_per_contact = 200;  ///< of the reference `steps` [-], >= 10; an extension
   std::vector<EngineRequest> engines;
+  std::optional<AllEngines> all_engines;  ///< in place of `engines`
+  /// Headings in which each phase is run, evenly around the vertical, >= 1; an extension.
+  std::size_t headings = 1;
+  /// Lengths of the scenes that engines run over those of this one, > 0; an extension.
+  std::vector<double> scales = {1};
   /// By what they judge: "restitution", or as an extension of one owner or of those that match,
   /// "i-j.restitution", "*-substrate.restitution". Which one holds is tolerance_of's to say.
   std::map<std::string, Tolerance> tolerance;

@@ -239,6 +239,9 @@ TEST(ResultCsv, ARowForEachObservableOfEachRun) {
   EXPECT_EQ(at(rows, 1, "phases"), "4");
   EXPECT_EQ(at(rows, 1, "missing"), "0");
   EXPECT_EQ(at(rows, 1, "steps"), "100");
+  EXPECT_EQ(at(rows, 1, "scale"), "1");
+  EXPECT_EQ(at(rows, 1, "headings"), "1");
+  EXPECT_EQ(at(rows, 1, "heading_spread"), "");
   // What the engine does not show.
   EXPECT_EQ(at(rows, 2, "observable"), "i-j.restitution");
   EXPECT_EQ(at(rows, 2, "median"), "");

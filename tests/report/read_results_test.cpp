@@ -62,6 +62,26 @@ TEST(ReadResult, KeepsWhatTheFileSays) {
   EXPECT_EQ(reference.warnings[1], "j \"rocks\"");
 }
 
+TEST(ReadResult, KeepsHeadingsAndScales) {
+  SceneRecord scene = rich_record();
+  scene.runs[0].scale = 0.01;
+  scene.runs[0].headings = 5;
+  scene.runs[0].phases = 1;
+  scene.runs[0].observables["i-j.restitution"].headings = {.spread = 0.25, .phase = 3};
+  const SceneRecord read = read_back(scene);
+  EXPECT_EQ(json_of(read).dump(2), json_of(scene).dump(2));
+  EXPECT_EQ(read.runs[0].scale, 0.01);
+  EXPECT_EQ(read.runs[0].headings, 5u);
+  ASSERT_TRUE(read.runs[0].observables.at("i-j.restitution").headings);
+  EXPECT_EQ(read.runs[0].observables.at("i-j.restitution").headings->spread, 0.25);
+  EXPECT_EQ(read.runs[0].observables.at("i-j.restitution").headings->phase, 3u);
+  // What has one heading and the scene's own size says nothing of either.
+  EXPECT_FALSE(json_of(scene)["runs"][1].contains("scale"));
+  EXPECT_FALSE(json_of(scene)["runs"][1].contains("headings"));
+  EXPECT_EQ(read.runs[1].scale, 1);
+  EXPECT_EQ(read.runs[1].headings, 1u);
+}
+
 TEST(ReadResult, KeepsWhatTheFileSaysOfRuns) {
   const SceneRecord scene = read_back(rich_record());
   ASSERT_EQ(scene.runs.size(), 5u);

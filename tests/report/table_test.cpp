@@ -50,6 +50,25 @@ TEST(Table, ShowsReferenceSpreadErrorAndVerdict) {
   EXPECT_TRUE(contains(table, "not represented: static friction, coupled drilling"));
 }
 
+TEST(Table, SetsTheHeadingsBesideTheSpread) {
+  SceneRecord scene = lottery_scene();
+  EngineRecord& run = scene.runs[0];
+  run.scale = 0.01;
+  run.phases = 8;
+  run.headings = 8;
+  run.observables["i-j.effective_restitution"].headings = {.spread = 0.07, .phase = 2};
+  run.observables["i.sliding_time"].headings = {.spread = 0.1 / 3.6 / 50, .phase = 0};
+  const std::string table = table_of(scene, {.colour = false, .width = 140});
+  EXPECT_TRUE(contains(
+      table, "bullet 3.24 double, profile default, 240 Hz, scale 0.01, 8 phases × 8 headings"));
+  EXPECT_TRUE(contains(table, "over headings"));
+  // Absolute of a restitution, else relative to the reference.
+  EXPECT_TRUE(
+      contains(line_with(table.substr(table.find("240 Hz")), "effective_restitution"), "0.07"));
+  EXPECT_TRUE(contains(line_with(table.substr(table.find("240 Hz")), "i.sliding_time"), "2.00 %"));
+  EXPECT_FALSE(contains(table_of(lottery_scene(), kWide), "over headings"));
+}
+
 TEST(Table, SetsTheClosedFormBesideTheReference) {
   SceneRecord scene = lottery_scene();
   EXPECT_TRUE(contains(table_of(scene, kWide), "0.3571428571, the same to the last bit"));

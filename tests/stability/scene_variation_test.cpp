@@ -8,7 +8,6 @@
 #include "../support/bundled.h"
 #include "harness/run/prepared_scene.h"
 #include "scenario/load.h"
-#include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
@@ -21,70 +20,6 @@ ReferenceResult reference_of(const Scenario& scenario) {
 
 double value(const ReferenceResult& reference, const std::string& name) {
   return reference.observables.at(name).value;
-}
-
-/// What the scaled scene's reference should show, by the dimension of each observable that these
-/// scenes have; every one is compared.
-void expect_similar(const Scenario& scenario, double lambda, double tolerance) {
-  const ReferenceResult before = reference_of(scenario);
-  const ReferenceResult after = reference_of(scaled_lengths(scenario, lambda));
-  const double time = std::sqrt(lambda);
-  ASSERT_EQ(before.observables.size(), after.observables.size());
-  std::size_t compared = 0;
-  const auto expect = [&](const std::string& name, double factor) {
-    for (const auto& [full, seen] : before.observables) {
-      if (observable_key(full).observable != name) continue;
-      ++compared;
-      const double scaled = seen.value * factor;
-      // What is zero but for rounding is so on the scale of what happens.
-      EXPECT_NEAR(value(after, full), scaled, tolerance * std::max(std::abs(scaled), factor))
-          << full << " at " << lambda;
-    }
-  };
-  for (const char* name : {"restitution", "tangential_restitution", "effective_restitution"})
-    expect(name, 1);
-  for (const char* name : {"sliding_time", "stopping_time", "spin_stopping_time", "contact_time",
-                           "flight_time", "sliding_onset"})
-    expect(name, time);
-  for (const char* name : {"sliding_distance", "stopping_distance", "final_position", "jump_height",
-                           "max_overlap", "energy_change_sliding"})
-    expect(name, lambda);
-  for (const char* name : {"velocity_after_collision", "slip_after_collision", "rolling_velocity",
-                           "final_velocity", "lift_off_speed", "momentum_change_sliding"})
-    expect(name, lambda / time);
-  for (const char* name : {"angular_velocity_after_collision", "final_angular_velocity"})
-    expect(name, 1 / time);
-  EXPECT_EQ(compared, before.observables.size()) << scenario.name;
-}
-
-TEST(SceneVariation, ScaledScenesAreSimilarInTheReference) {
-  // Exact phases: rounding alone, and what it moves a root by.
-  for (const char* name :
-       {"symmetric-30cms", "rolling-friction-table", "bouncing-ball", "oblique", "spin-to-rest"})
-    for (const double lambda : {1e-6, 7.3, 1e3}) expect_similar(bundled(name), lambda, 1e-9);
-}
-
-TEST(SceneVariation, ScaledForcesAreSimilarInTheReference) {
-  // Integrated at a relative tolerance of 1e-13 in metres; the worst scene asks for ten digits.
-  for (const char* name : {"jump-resolved", "power-law", "ice-viscoelastic", "asperities-passive"})
-    expect_similar(bundled(name), 3.7, 1e-7);
-}
-
-TEST(SceneVariation, WhatHasAUnitScalesToo) {
-  Scenario scenario = bundled("symmetric-30cms");
-  scenario.compare.tolerance["sliding_time"] = {0.002, true};
-  scenario.compare.tolerance["sliding_distance"] = {0.003, true};
-  scenario.compare.tolerance["effective_restitution"] = {0.004, false};
-  scenario.compare.engines[0].expect.emplace();
-  const Scenario scaled = scaled_lengths(scenario, 4);
-  EXPECT_DOUBLE_EQ(scaled.compare.tolerance.at("sliding_time").value, 0.004);
-  EXPECT_DOUBLE_EQ(scaled.compare.tolerance.at("sliding_distance").value, 0.012);
-  EXPECT_DOUBLE_EQ(scaled.compare.tolerance.at("effective_restitution").value, 0.004);
-  EXPECT_DOUBLE_EQ(scaled.run.limit, 10);
-  EXPECT_DOUBLE_EQ(scaled.compare.engines[0].rates.at(1), 120);
-  EXPECT_FALSE(scaled.compare.engines[0].expect);
-  EXPECT_DOUBLE_EQ(scaled.gravity.z(), scenario.gravity.z());
-  EXPECT_DOUBLE_EQ(scaled.bodies[0].sphere.mass, 64 * scenario.bodies[0].sphere.mass);
 }
 
 TEST(SceneVariation, MassRatioChangesTheSharesOfTheImpulse) {

@@ -83,6 +83,26 @@ std::map<std::string, EnsembleValue> ensemble_values(
   return ensemble;
 }
 
+void note_heading_spreads(std::map<std::string, EnsembleValue>& ensemble, std::size_t headings) {
+  if (headings < 2) return;
+  for (auto& [name, value] : ensemble) {
+    const std::size_t phases = value.values.size() / headings;
+    for (std::size_t p = 0; p < phases; ++p) {
+      double low = kNotObserved, high = kNotObserved;
+      std::size_t shown = 0;
+      for (std::size_t h = 0; h < headings; ++h) {
+        const double seen = value.values[h * phases + p];
+        shown += std::isnan(seen) ? 0 : 1;
+        low = std::fmin(low, seen);
+        high = std::fmax(high, seen);
+      }
+      if (shown < 2) continue;
+      if (!value.headings || high - low > value.headings->spread)
+        value.headings = {.spread = high - low, .phase = p};
+    }
+  }
+}
+
 std::vector<ExpectationResult> expectation_results(
     const Expectation& expectation, const std::map<std::string, EnsembleValue>& ensemble) {
   using Statistic = ExpectationResult::Statistic;

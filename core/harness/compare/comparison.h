@@ -20,7 +20,11 @@ double root_mean_square(std::span<const double> values);
 std::map<std::string, EnsembleValue> ensemble_values(
     const std::vector<std::map<std::string, double>>& phases);
 
-/// "1 of 3 phases do not show it"
+/// Notes how far the headings are apart in each observable of an ensemble whose values are those of
+/// `headings` >= 1 headings, one after the other, each with as many phases. Nothing of one heading.
+void note_heading_spreads(std::map<std::string, EnsembleValue>& ensemble, std::size_t headings);
+
+/// "1 of 3 phases do not show it", or "runs" where a phase has several headings.
 std::string missing_phases(const EnsembleValue& value);
 
 /// Why a tolerance judges nothing, where the reference shows nothing of what it names.

@@ -211,7 +211,8 @@ class Judge {
 }  // namespace
 
 std::string missing_phases(const EnsembleValue& value) {
-  return fmt::format("{} of {} phases do not show it", value.missing, value.values.size());
+  return fmt::format("{} of {} {} do not show it", value.missing, value.values.size(),
+                     value.headings ? "runs" : "phases");
 }
 
 std::map<std::string, Deviation> deviations(const Scenario& scenario,

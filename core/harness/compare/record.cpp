@@ -1,5 +1,7 @@
 #include "harness/compare/record.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "harness/compare/comparison.h"
@@ -8,6 +10,11 @@
 #include "scenario/fault.h"
 
 namespace slipcheck {
+
+std::string EngineRecord::rate_text() const {
+  return scale == 1 ? fmt::format("{:g} Hz", rate)
+                    : fmt::format("{:g} Hz, scale {:g}", rate, scale);
+}
 
 std::vector<ExpectationResult> EngineRecord::expectations() const {
   if (!expect) return {};

@@ -14,11 +14,20 @@
 
 namespace slipcheck {
 
-/// One observable over the phases of an engine's ensemble.
+/// How far the headings of one phase are apart in an observable: of a law that knows no direction
+/// not at all.
+struct HeadingSpread {
+  double spread = 0;  ///< largest less smallest value over the headings, in the observable's unit
+  std::size_t phase = 0;  ///< in which they are the farthest apart
+};
+
+/// One observable over the phases of an engine's ensemble, and over its headings.
 struct EnsembleValue {
   double median = 0, min = 0, max = 0;
-  std::vector<double> values;  ///< by phase; NaN where a phase has none
+  std::vector<double> values;  ///< by heading, then phase; NaN where a run has none
   std::size_t missing = 0;     ///< how many phases have none; median, min, max are of the others
+  std::optional<HeadingSpread> headings =
+      std::nullopt;  ///< where two headings or more show it in some phase
 };
 
 /// What a comparison comes to, from the best to the worst. unjudged: no tolerance asks for it.
@@ -67,11 +76,15 @@ struct EngineRecord {
   std::string profile;  ///< as the scenario names it: a name or a path
   Settings settings;    ///< that the profile chooses
   double rate = 0;      ///< [Hz]
+  /// Lengths of the similar scene that the engine ran over those of the scene, > 0; its own steps
+  /// are √scale/rate. What it showed there is told in the scene's own lengths, times and masses.
+  double scale = 1;
+  std::size_t headings = 1;  ///< in which each phase was run, >= 1
   Status status = Status::skipped;
   std::string reason;      ///< why not ok
   double cpu_seconds = 0;  ///< of the stepping alone, all phases
   std::size_t steps = 0;   ///< of all phases
-  std::size_t phases = 0;
+  std::size_t phases = 0;  ///< in each heading
   std::map<std::string, EnsembleValue> observables;
   std::map<std::string, Deviation> errors;
   Applied applied;
@@ -80,6 +93,8 @@ struct EngineRecord {
   /// Where motion is recorded, the phases nearest to the reference, in the middle and worst.
   std::vector<RecordedMotion> motions;
 
+  /// "240 Hz", with its scale where that is not 1: "240 Hz, scale 0.01".
+  std::string rate_text() const;
   /// Of each statistic that is expected, in the order of names, then min, median, max.
   std::vector<ExpectationResult> expectations() const;
   /// Whether it does what is expected or, where nothing is, the worst of its errors; undecided

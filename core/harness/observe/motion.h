@@ -26,6 +26,7 @@ struct RecordedMotion {
   /// Largest deviation of an observable in its tolerance [-]; NaN where nothing has one.
   double error = std::numeric_limits<double>::quiet_NaN();
   std::vector<MotionFrame> frames;  ///< times rise; the first is where the run began
+  std::size_t heading = 0;          ///< of the phase's headings, from 0
 };
 
 }  // namespace slipcheck

@@ -129,7 +129,8 @@ std::vector<RecordedMotion> MotionRecorder::picked(const std::vector<double>& er
   const auto pick = [&](const char* role, std::size_t phase) {
     for (const RecordedMotion& motion : motions)
       if (motion.phase == phase) return;
-    motions.push_back({role, phase, kNotObserved, phases_[phase].finish()});
+    motions.push_back(
+        {.role = role, .phase = phase, .error = kNotObserved, .frames = phases_[phase].finish()});
     if (phase < errors.size()) motions.back().error = errors[phase];
   };
   std::vector<std::size_t> order;  // of the phases that have an error
@@ -151,7 +152,10 @@ std::vector<RecordedMotion> MotionRecorder::picked(const std::vector<double>& er
 std::vector<RecordedMotion> MotionRecorder::last_seen() {
   std::vector<RecordedMotion> motions;
   if (!phases_.empty())
-    motions.push_back({"worst", phases_.size() - 1, kNotObserved, phases_.back().finish()});
+    motions.push_back({.role = "worst",
+                       .phase = phases_.size() - 1,
+                       .error = kNotObserved,
+                       .frames = phases_.back().finish()});
   phases_.clear();
   return motions;
 }

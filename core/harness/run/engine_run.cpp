@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "base/stop_scope.h"
 #include "harness/compare/comparison.h"
 #include "harness/run/phase_run.h"
 #include "harness/run/phases.h"
+#include "scene/similarity.h"
 
 namespace slipcheck {
 namespace {
@@ -26,13 +28,36 @@ std::size_t steps_at_once(double expected_time, double step) {
   return static_cast<std::size_t>(std::clamp(expected_time / step / 16, 16.0, 4096.0));
 }
 
+std::vector<BodyState> similar_states(std::vector<BodyState> states, const Similarity& similarity) {
+  for (BodyState& state : states) state = similarity.of(state);
+  return states;
+}
+
+/// What lasts between bodies knows no heading.
+EngineScene in_heading(EngineScene scene, const Vector2& heading) {
+  static_cast<Scene&>(scene) = turned(scene, heading);
+  return scene;
+}
+
+/// Shows a run a frame of the similar scene as one of the scene.
+void show(const Frame& frame, const Similarity& similarity, PhaseRun& run) {
+  if (similarity.is_identity()) return run.take(frame);
+  Frame seen = frame;
+  similarity.take_back(seen);
+  run.take(seen);
+}
+
 }  // namespace
 
-std::vector<PhaseShare> phase_shares(std::size_t phases, std::size_t count) {
-  std::vector<PhaseShare> shares(std::clamp<std::size_t>(count, 1, phases));
+std::size_t phase_count(const EnsembleTask& task, double rate) {
+  return starts_of(task, 1 / rate).size();
+}
+
+std::vector<PhaseShare> phase_shares(std::size_t runs, std::size_t count) {
+  std::vector<PhaseShare> shares(std::clamp<std::size_t>(count, 1, runs));
   for (std::size_t k = 0; k < shares.size(); ++k) {
-    shares[k].first = phases * k / shares.size();
-    shares[k].last = phases * (k + 1) / shares.size();
+    shares[k].first = runs * k / shares.size();
+    shares[k].last = runs * (k + 1) / shares.size();
   }
   return shares;
 }
@@ -40,19 +65,32 @@ std::vector<PhaseShare> phase_shares(std::size_t phases, std::size_t count) {
 void run_phases(RemoteEngine& engine, const EnsembleTask& task, const EngineRecord& record,
                 PhaseShare& share) {
   const double step = 1 / record.rate;
+  const EngineScene scene(task.scaled ? *task.scaled : task.solver->scene());
   share.version = engine.info().version;
-  share.applied = engine.configure(EngineScene(task.solver->scene()), record.settings, step);
 
   const std::vector<double> starts = starts_of(task, step);
   const std::size_t chunk = steps_at_once(task.reference->run.end_time, step);
+  Similarity similarity{record.scale};
+  std::optional<std::size_t> configured;  // for this heading
   try {
-    for (std::size_t p = share.first; p < std::min(share.last, starts.size()); ++p) {
+    for (std::size_t k = share.first; k < std::min(share.last, starts.size() * record.headings);
+         ++k) {
+      const double start = starts[k % starts.size()];
+      const std::size_t heading = k / starts.size();
+      if (configured != heading) {
+        configured = heading;
+        similarity.heading = even_heading(heading, record.headings);
+        share.applied =
+            engine.configure(heading == 0 ? scene : in_heading(scene, similarity.heading),
+                             record.settings, step * similarity.time());
+      }
       const StopScope limit(task.time_limit);
-      const std::vector<BodyState> states = task.solver->states_at(starts[p]);
-      const std::unique_ptr<PhaseRun> run = make_phase_run(task, step, starts[p], states);
-      engine.start(states, starts[p]);
+      const std::vector<BodyState> states = task.solver->states_at(start);
+      const std::unique_ptr<PhaseRun> run = make_phase_run(task, step, start, states);
+      engine.start(similar_states(states, similarity), start * similarity.time());
       while (!run->ended() || run->wants_more()) {
-        share.cpu_seconds += engine.advance(chunk, [&](const Frame& frame) { run->take(frame); });
+        share.cpu_seconds +=
+            engine.advance(chunk, [&](const Frame& frame) { show(frame, similarity, *run); });
         share.steps += chunk;
       }
       if (!run->reached()) ++share.unfinished;
@@ -63,10 +101,10 @@ void run_phases(RemoteEngine& engine, const EnsembleTask& task, const EngineReco
   }
 }
 
-void finish_ensemble(const EnsembleTask& task, const std::vector<PhaseShare>& shares,
-                     EngineRecord& record) {
+std::size_t finish_ensemble(const EnsembleTask& task, const std::vector<PhaseShare>& shares,
+                            EngineRecord& record) {
   const double step = 1 / record.rate, first_contact = task.reference->first_contact;
-  const std::size_t phases = starts_of(task, step).size();
+  const std::size_t phases = phase_count(task, record.rate), runs = phases * record.headings;
   std::vector<std::map<std::string, double>> seen;
   std::size_t unfinished = 0;
   record.version = shares.front().version;
@@ -76,25 +114,28 @@ void finish_ensemble(const EnsembleTask& task, const std::vector<PhaseShare>& sh
     record.steps += share.steps;
     unfinished += share.unfinished;
     seen.insert(seen.end(), share.seen.begin(), share.seen.end());
-    record.phases = seen.size();
+    record.phases = std::min(seen.size(), phases);
     if (!share.unstable.empty()) {
       record.status = EngineRecord::Status::unstable;
       record.reason = share.unstable;
-      return;
+      return seen.size();
     }
-    if (seen.size() < std::min(share.last, phases)) return;  // the worker failed
+    if (seen.size() < std::min(share.last, runs)) return seen.size();  // the worker failed
   }
   record.status = EngineRecord::Status::ok;
   record.observables = ensemble_values(seen);
+  note_heading_spreads(record.observables, record.headings);
   record.errors = deviations(*task.scenario, *task.reference, record.observables);
   if (unfinished > 0)
-    record.warnings.push_back(fmt::format("{} of {} phases had not ended at the limit of {} s",
-                                          unfinished, seen.size(), task.scenario->run.limit));
+    record.warnings.push_back(
+        fmt::format("{} of {} {} had not ended at the limit of {} s", unfinished, seen.size(),
+                    record.headings > 1 ? "runs" : "phases", task.scenario->run.limit));
   if (first_contact == 0)
     record.warnings.push_back("the first contact is there from the start: it has one phase only");
   else if (std::isfinite(first_contact) && first_contact < step)
     record.warnings.push_back(
         "the first contact falls inside the first step: its phases cover a part of a step only");
+  return seen.size();
 }
 
 }  // namespace slipcheck

@@ -9,10 +9,12 @@
 #include <optional>
 #include <set>
 #include <utility>
+#include <variant>
 
 #include "engine/engine_registry.h"
 #include "engine/profile.h"
 #include "engine/remote_engine.h"
+#include "harness/run/engine_grid.h"
 #include "scenario/fault.h"
 #include "scenario/file_text.h"
 #include "scenario/rules/rules.h"
@@ -34,8 +36,28 @@ std::vector<std::string> engine_names() {
   return {names.begin(), names.end()};
 }
 
-std::string precision_name(EngineRequest::Precision precision) {
-  return precision == EngineRequest::Precision::single_ ? "single" : "double";
+/// Where a request leaves it open, the one that the engine has, of both the double one.
+std::string precision_of(const EngineRequest& request) {
+  if (request.precision)
+    return *request.precision == EngineRequest::Precision::single_ ? "single" : "double";
+  const bool has_single_alone =
+      !find_engine(request.engine, "double") && find_engine(request.engine, "single");
+  return has_single_alone ? "single" : "double";
+}
+
+/// What has no headings, because its surroundings have directions of their own; "" where it has.
+std::string without_headings(const Scenario& scenario) {
+  if (std::holds_alternative<Container>(scenario.surroundings)) return "a box";
+  return std::get<Substrate>(scenario.surroundings).periodic ? "a periodic plane" : "";
+}
+
+/// Notes in how many headings a record's phases are run.
+void choose_headings(const Scenario& scenario, EngineRecord& record) {
+  const std::string without = without_headings(scenario);
+  if (without.empty())
+    record.headings = scenario.compare.headings;
+  else if (scenario.compare.headings > 1)
+    record.warnings.push_back("headings are left out: " + without + " has directions of its own");
 }
 
 /// Finds, reads and checks the profiles of all scenes, each file and each engine once.
@@ -74,7 +96,9 @@ class Profiles {
   /// Notes a scene that no engine can be told of.
   void check_size(const Scenario& scenario) {
     const std::size_t bodies = scenario.bodies.size();
-    if (scenario.compare.engines.empty() || bodies <= kMostBodies) return;
+    if ((scenario.compare.engines.empty() && !scenario.compare.all_engines) ||
+        bodies <= kMostBodies)
+      return;
     note(
         fault_at(scenario, "compare.engines",
                  fmt::format("must be [] with more than {} bodies, the reference alone: no message "
@@ -93,12 +117,12 @@ class Profiles {
     std::vector<std::string> names;
     for (const EngineExecutable& engine : find_engines())
       for (const std::string& name : profile_names(engine)) names.push_back(name);
-    for (const std::string& profile : lacking)
-      note({scenario.file,
-            {},
-            "--profiles",
-            "must be profiles of the engines" + did_you_mean(profile, names),
-            profile});
+    for (const std::string& profile : lacking) {
+      std::string rule = "must be profiles of the engines" + did_you_mean(profile, names);
+      note(scenario.compare.all_engines
+               ? fault_at(scenario, "compare.engines.profiles", std::move(rule), profile)
+               : Fault{scenario.file, {}, "--profiles", std::move(rule), profile});
+    }
   }
 
   void throw_faults() const {
@@ -209,6 +233,14 @@ class Profiles {
   std::set<std::string> noted_;
 };
 
+/// What is expected is known of the scene's own size alone.
+EngineRecord at_rate(EngineRecord record, double rate, double scale) {
+  record.rate = rate;
+  record.scale = scale;
+  if (scale != 1) record.expect.reset();
+  return record;
+}
+
 }  // namespace
 
 std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario>& scenarios,
@@ -220,15 +252,19 @@ std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario
   for (const Scenario& scenario : scenarios) {
     std::vector<EngineRecord>& records = runs.emplace_back();
     profiles.check_size(scenario);
-    for (std::size_t k = 0; k < scenario.compare.engines.size(); ++k) {
-      const EngineRequest& request = scenario.compare.engines[k];
+    const std::vector<EngineRequest> requests = requests_of(scenario);
+    for (std::size_t k = 0; k < requests.size(); ++k) {
+      const EngineRequest& request = requests[k];
       EngineRecord record;
       record.engine = request.engine;
-      record.precision = precision_name(request.precision);
+      record.precision = precision_of(request);
       record.profile = request.profile;
       record.expect = request.expect;
+      choose_headings(scenario, record);
       profiles.choose(scenario, fmt::format("compare.engines[{}]", k), request.of_grid, record);
-      for (const double rate : request.rates) records.emplace_back(record).rate = rate;
+      for (const double rate : request.rates)
+        for (const double scale : scenario.compare.scales)
+          records.push_back(at_rate(record, rate, scale));
     }
     profiles.check_grid(scenario, records);
   }

@@ -8,7 +8,7 @@
 
 namespace slipcheck {
 
-/// The runs that these scenes ask for in compare.engines, each engine at each of its rates, with
+/// The runs that these scenes ask for in compare, each engine at each of its rates and scales, with
 /// the settings that their profiles choose, and these `settings` over them. `general`: engines that
 /// have the setting `leaves_out` are to leave out nothing. One of a grid whose profile its engine
 /// has not is skipped with that reason; a profile that no engine of the grid has is a fault.

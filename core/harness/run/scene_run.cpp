@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "harness/run/engine_run.h"
 #include "harness/run/reference_motion.h"
 #include "harness/run/requested_runs.h"
+#include "scenario/scaled_lengths.h"
 
 namespace slipcheck {
 namespace {
@@ -37,6 +39,15 @@ bool is_recorded(const PreparedScene& scene) {
   return !scene.contact->hard.box && scene.scenario.bodies.size() <= kMostRecordedBodies;
 }
 
+/// The scene at another scale, as engines are given it; null at its own. Throws Unsupported where
+/// there is none.
+std::shared_ptr<const ContactScene> scene_at(const Scenario& scenario, double scale) {
+  if (scale == 1) return nullptr;
+  auto scaled = solved_scene(scaled_lengths(scenario, scale));
+  if (!scaled) throw Unsupported(fmt::format("the scene has no similar one at scale {:g}", scale));
+  return scaled;
+}
+
 /// A task as its workers see it: the phases of one ensemble are shared where nobody looks at all of
 /// them and there are more workers than tasks.
 class EngineWork {
@@ -44,10 +55,17 @@ class EngineWork {
   EngineWork(const EngineTask& task, const RunOptions& options, std::size_t workers)
       : task_(&task),
         options_(&options),
-        ensemble_{&task.scene->solver, &task.scene->reference, &task.scene->scenario,
-                  options.phases,      options.time_limit,     task.watch},
+        scaled_(scene_at(task.scene->scenario, task.record->scale)),
+        ensemble_{.solver = &task.scene->solver,
+                  .reference = &task.scene->reference,
+                  .scenario = &task.scene->scenario,
+                  .scaled = scaled_.get(),
+                  .phases = options.phases,
+                  .time_limit = options.time_limit,
+                  .watch = task.watch},
         records_motion_(options.record_motion && !task.watch && is_recorded(*task.scene)),
-        shares_(phase_shares(options.phases, task.watch || records_motion_ ? 1 : workers)) {}
+        shares_(phase_shares(options.phases * task.record->headings,
+                             task.watch || records_motion_ ? 1 : workers)) {}
 
   std::size_t parts() const { return shares_.size(); }
   EngineRecord& record() const { return *task_->record; }
@@ -62,42 +80,52 @@ class EngineWork {
 
   /// All parts have come to an end, one way or another.
   void finish() {
-    finish_ensemble(ensemble_, shares_, record());
+    ended_ = finish_ensemble(ensemble_, shares_, record());
     if (!recorder_) return;
     record().motions = record().status == EngineRecord::Status::ok
                            ? recorder_->picked(phase_errors(
                                  *ensemble_.scenario, *ensemble_.reference, record().observables))
                            : recorder_->last_seen();
+    const std::size_t phases = phase_count(ensemble_, record().rate);
+    for (RecordedMotion& motion : record().motions) {
+      motion.heading = motion.phase / phases;
+      motion.phase %= phases;
+    }
+  }
+
+  /// Of a part that did not come to its end.
+  void note_failure(const JobResult& result) {
+    if (result.status == JobResult::Status::ok) return;
+    record().status = status_of(result.status);
+    record().errors.clear();
+    record().reason = result.status == JobResult::Status::failed
+                          ? "it could not be compared: " + result.reason
+                          : result.reason;
+    if (ended_ == 0) return;
+    const std::size_t phases = phase_count(ensemble_, record().rate);
+    record().reason += fmt::format(" (in phase {} of {}", ended_ % phases + 1, phases);
+    if (record().headings > 1)
+      record().reason += fmt::format(", heading {} of {}", ended_ / phases + 1, record().headings);
+    record().reason += ")";
   }
 
  private:
   const EngineTask* task_;
   const RunOptions* options_;
+  std::shared_ptr<const ContactScene> scaled_;
+  std::size_t ended_ = 0;  ///< runs
   EnsembleTask ensemble_;
   bool records_motion_;
   std::vector<PhaseShare> shares_;
   std::optional<MotionRecorder> recorder_;
 };
 
-/// The first part that did not come to its end tells the record's status.
-void note_failure(const JobResult& result, std::size_t phases, EngineRecord& record) {
-  if (result.status == JobResult::Status::ok) return;
-  record.status = status_of(result.status);
-  record.errors.clear();
-  record.reason = result.status == JobResult::Status::failed
-                      ? "it could not be compared: " + result.reason
-                      : result.reason;
-  if (record.phases > 0)
-    record.reason += fmt::format(" (in phase {} of {})", record.phases + 1, phases);
-}
-
 /// Deviations of a run that came to its end; a fault in them is no result of the engine.
 void finish(EngineWork& work) {
   try {
     work.finish();
   } catch (const std::exception& fault) {
-    note_failure({JobResult::Status::failed, fault.what(), std::current_exception()}, 0,
-                 work.record());
+    work.note_failure({JobResult::Status::failed, fault.what(), std::current_exception()});
   }
 }
 
@@ -127,7 +155,13 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
       record.reason = not_installed_text(record.engine, record.precision);
       continue;
     }
-    EngineWork& work = works.emplace_back(task, options, workers);
+    try {
+      works.emplace_back(task, options, workers);
+    } catch (const std::exception& fault) {
+      record.reason = fault.what();
+      continue;
+    }
+    EngineWork& work = works.back();
     for (std::size_t part = 0; part < work.parts(); ++part)
       jobs.push_back(
           {executable->command, [&work, part](RemoteEngine& engine) { work.run(engine, part); }});
@@ -142,7 +176,7 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
         result, end, [](const JobResult& each) { return each.status != JobResult::Status::ok; });
     // What an unstable phase before it says stands.
     if (failed != end && work.record().status != EngineRecord::Status::unstable)
-      note_failure(*failed, options.phases, work.record());
+      work.note_failure(*failed);
     result = end;
   }
 }

@@ -80,6 +80,14 @@ AxisRange axis_of(const PhaseSpread& spread) {
   return {range.low - (room > 0 ? room : 1), range.high + (room > 0 ? room : 1)};
 }
 
+/// "phase 3 of 32", "phase 3 of 32, heading 2 of 8"
+std::string note_of(std::size_t k, const RunSpread& run) {
+  const std::size_t headings = run.run->headings, phases = run.values.size() / headings;
+  std::string note = fmt::format("phase {} of {}", k % phases + 1, phases);
+  if (headings > 1) note += fmt::format(", heading {} of {}", k / phases + 1, headings);
+  return note;
+}
+
 Chart phase_chart(const SceneRecord& scene, const PhaseSpread& spread, const std::string& caption,
                   std::set<std::string>& taken) {
   const AxisRange axis = axis_of(spread);
@@ -120,7 +128,7 @@ Chart phase_chart(const SceneRecord& scene, const PhaseSpread& spread, const std
       const double depth = (static_cast<double>(phase) + 0.5) / phases - 0.5;
       curve.x.push_back(value / unit);
       curve.y.push_back(static_cast<double>(k) + kSpread * depth);
-      curve.notes.push_back(fmt::format("phase {} of {}", phase + 1, run.values.size()));
+      curve.notes.push_back(note_of(phase, run));
     }
   }
   panel.curves = {reference};

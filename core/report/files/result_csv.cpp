@@ -58,6 +58,12 @@ std::vector<CsvValue> error_of(const EngineRecord& run, const std::string& name)
           judged ? truth(error->verdict == Verdict::within) : CsvValue(std::string())};
 }
 
+/// scale … heading_spread
+std::vector<CsvValue> similarity_of(const EngineRecord& run, const EnsembleValue* value) {
+  return {run.scale, count_of(run.headings),
+          value && value->headings ? CsvValue(value->headings->spread) : CsvValue(std::string())};
+}
+
 std::string reason_of(const EngineRecord& run, const std::string& name,
                       const std::map<std::string, std::string>& absent) {
   if (const Deviation* error = find(run.errors, name); error && !error->reason.empty())
@@ -103,6 +109,7 @@ class ResultRows {
       const std::string* reason = find(absent_, name);
       append(row, {CsvValue(std::string()), CsvValue(reason ? *reason : std::string()),
                    CsvValue(scene_.reference.cpu_seconds), count_of(scene_.reference.run.steps)});
+      append(row, empty(3));
       rows.add(row);
     }
   }
@@ -116,6 +123,7 @@ class ResultRows {
       append(row, error_of(run, name));
       append(row, {count_of(run.phases), CsvValue(reason_of(run, name, absent_)),
                    CsvValue(run.cpu_seconds), count_of(run.steps)});
+      append(row, similarity_of(run, find(run.observables, name)));
       rows.add(row);
     }
   }
@@ -126,6 +134,7 @@ class ResultRows {
     append(row, empty(13));
     append(row, {count_of(run.phases), CsvValue(run.reason), CsvValue(run.cpu_seconds),
                  count_of(run.steps)});
+    append(row, similarity_of(run, nullptr));
     rows.add(row);
   }
 
@@ -136,26 +145,30 @@ class ResultRows {
 }  // namespace
 
 std::string results_csv(const std::vector<SceneRecord>& scenes) {
-  CsvRows rows({"scene",     "engine",     "version",   "precision",    "profile",     "rate",
-                "status",    "observable", "reference", "uncertainty",  "closed_form", "median",
-                "min",       "max",        "missing",   "median_error", "max_error",   "absolute",
-                "tolerance", "within",     "phases",    "reason",       "cpu_seconds", "steps"});
+  CsvRows rows({"scene",        "engine",        "version",     "precision", "profile",
+                "rate",         "status",        "observable",  "reference", "uncertainty",
+                "closed_form",  "median",        "min",         "max",       "missing",
+                "median_error", "max_error",     "absolute",    "tolerance", "within",
+                "phases",       "reason",        "cpu_seconds", "steps",     "scale",
+                "headings",     "heading_spread"});
   for (const SceneRecord& scene : scenes) ResultRows(scene).add_to(rows);
   return rows.text();
 }
 
 std::string phases_csv(const std::vector<SceneRecord>& scenes) {
   CsvRows rows({"scene", "engine", "version", "precision", "profile", "rate", "observable",
-                "reference", "phase", "value"});
+                "reference", "phase", "value", "scale", "heading"});
   for (const SceneRecord& scene : scenes)
     for (const EngineRecord& run : scene.runs)
       for (const auto& [name, ensemble] : run.observables) {
         if (!has_tolerance(scene.scenario, name)) continue;
         const UncertainValue* right = find(scene.reference.observables, name);
-        for (std::size_t phase = 0; phase < ensemble.values.size(); ++phase) {
+        const std::size_t phases = ensemble.values.size() / run.headings;
+        for (std::size_t k = 0; k < ensemble.values.size(); ++k) {
           std::vector<CsvValue> row = names_of(scene, run);
           append(row, {CsvValue(name), CsvValue(right ? right->value : kNotObserved),
-                       count_of(phase), CsvValue(ensemble.values[phase])});
+                       count_of(k % phases), CsvValue(ensemble.values[k]), CsvValue(run.scale),
+                       count_of(k / phases)});
           rows.add(row);
         }
       }

@@ -48,7 +48,7 @@ std::string html_run(const SceneRecord& scene, std::size_t k, const std::vector<
       class_of(tone_of(verdict)), symbol_of(verdict), escaped(outcome_text(run)),
       escaped(worst_text(rows)));
   if (ok) {
-    std::string cost = counted(run.phases, "phase");
+    std::string cost = ensemble_text(run);
     if (const std::string each = step_cost(run); !each.empty()) cost += ", " + each;
     html += html_paragraph("faint", "", cost) +
             noted_part(comparison_table(std::move(rows), kMostRows)) +

@@ -16,8 +16,8 @@ using Json = nlohmann::json;
 namespace {
 
 Json run_data(const EngineRecord& run, std::size_t k) {
-  return {{"label", printable(fmt::format("{} {} {} {:g} Hz", run.engine, run.precision,
-                                          run.profile, run.rate))},
+  return {{"label", printable(fmt::format("{} {} {} {}", run.engine, run.precision, run.profile,
+                                          run.rate_text()))},
           {"engine", printable(run.engine)},
           {"precision", printable(run.precision)},
           {"profile", printable(run.profile)},

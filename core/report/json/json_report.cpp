@@ -110,9 +110,11 @@ void add_expectations(const Scenario& scenario, std::vector<EngineRecord>& runs)
     for (const double rate : request.rates) requests.push_back({&request, rate, false});
   for (EngineRecord& run : runs)
     for (auto& [request, rate, taken] : requests) {
-      const bool is_single = request->precision == EngineRequest::Precision::single_;
-      if (taken || rate != run.rate || request->engine != run.engine ||
-          request->profile != run.profile || run.precision != (is_single ? "single" : "double"))
+      const bool is_single = run.precision == "single";
+      if (taken || rate != run.rate || run.scale != 1 || request->engine != run.engine ||
+          request->profile != run.profile ||
+          (request->precision &&
+           is_single != (*request->precision == EngineRequest::Precision::single_)))
         continue;
       taken = true;
       run.expect = request->expect;
@@ -186,11 +188,18 @@ void describe_reference(Fields& f, SceneRecord& scene) {
 }
 
 template <class Fields>
+void describe(Fields& f, HeadingSpread& headings) {
+  f("spread", headings.spread);
+  f("phase", headings.phase);
+}
+
+template <class Fields>
 void describe(Fields& f, EnsembleValue& ensemble) {
   f("median", ensemble.median);
   f("min", ensemble.min);
   f("max", ensemble.max);
   f.if_any("missing", ensemble.missing);
+  f("headings", ensemble.headings);
   f.if_any("values", ensemble.values, "null where a phase does not show it");
 }
 
@@ -235,11 +244,13 @@ void describe(Fields& f, EngineRecord& run) {
   f("profile", run.profile);
   f("settings", run.settings);
   f("rate", run.rate);
+  f.unless("scale", run.scale, 1.0);
   f("status", run.status);
   if (run.status != RunStatus::ok) f.reason(run.reason, "not known");
   f("cpu_seconds", run.cpu_seconds);
   f("steps", run.steps);
   f("phases", run.phases);
+  f.unless("headings", run.headings, std::size_t{1});
   f("observables", run.observables);
   f("errors", run.errors);
   if (run.expect && run.expect->status)

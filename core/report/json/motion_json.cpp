@@ -44,6 +44,7 @@ Json states_json(const RecordedMotion& motion, Vector3 BodyState::*member) {
 void put_motion(Json& json, const RecordedMotion& motion) {
   json["role"] = motion.role;
   json["phase"] = motion.phase;
+  if (motion.heading > 0) json["heading"] = motion.heading;
   json["error"] = std::isinf(motion.error) ? Json(kInfinite) : rounded(motion.error);
   json["time"] = Json::array();
   json["substrate"] = Json::array();
@@ -94,6 +95,7 @@ RecordedMotion read_motion(const JsonNode& node, std::size_t bodies) {
   RecordedMotion motion;
   motion.role = node["role"].text();
   motion.phase = node["phase"].count(1'000'000'000);
+  if (node.has("heading")) motion.heading = node["heading"].count(kMostHeadings - 1);
   motion.error = read_error(node["error"]);
 
   const std::vector<JsonNode> times = node["time"].items();
@@ -124,9 +126,10 @@ EngineRecord& run_of(const JsonNode& node, const std::string& role,
   const std::string engine = node["engine"].text(), precision = node["precision"].text();
   const std::string profile = node["profile"].text();
   const double rate = node["rate"].number();
+  const double scale = node.has("scale") ? node["scale"].number() : 1;
   for (EngineRecord& run : runs)
     if (valid_utf8(run.engine) == engine && run.precision == precision &&
-        valid_utf8(run.profile) == profile && run.rate == rate &&
+        valid_utf8(run.profile) == profile && run.rate == rate && run.scale == scale &&
         std::ranges::none_of(run.motions, [&](const auto& other) { return other.role == role; }))
       return run;
   node.fault_alone(fmt::format("must be of a run of the result, is of {} {} {} at {} Hz", engine,
@@ -156,6 +159,7 @@ Json motion_json_of(const SceneRecord& scene) {
                {"precision", run.precision},
                {"profile", valid_utf8(run.profile)},
                {"rate", run.rate}};
+      if (run.scale != 1) entry["scale"] = run.scale;
       put_motion(entry, motion);
     }
   return json;

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "engine/engine_registry.h"
+#include "harness/compare/observable_scale.h"
 #include "report/rows/selection.h"
 #include "report/rows/verdict_look.h"
 #include "report/terminal/text.h"
@@ -44,6 +45,17 @@ void add_error(const Deviation& deviation, const Dimension& dimension, bool coun
   // What is not shown at all is worse than any number.
   if (row.verdict == Verdict::deviates && (std::isnan(row.severity) || row.severity <= 1))
     row.severity = std::numeric_limits<double>::infinity();
+}
+
+/// Relative as errors are, where the reference tells what to.
+Cell heading_cell(const SceneRecord& scene, const std::string& name, const EnsembleValue& ensemble,
+                  bool absolute) {
+  if (!ensemble.headings) return {};
+  const double spread = ensemble.headings->spread;
+  const double scale = observable_scale(scene.scenario, scene.reference.observables, name);
+  const bool is_relative = !absolute && scale > 0;
+  return {error_text(is_relative ? spread / scale : spread, !is_relative, dimension_of(name)),
+          Tone::plain, spread};
 }
 
 /// "0.03", "4", "400": one significant digit, without a power of ten while it stays readable.
@@ -126,6 +138,7 @@ std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const Engin
       row.median = {in_reference ? format.number(median) : format.text(median), Tone::plain,
                     median};
       row.spread = spread_cell(*ensemble, format);
+      row.headings = heading_cell(scene, name, *ensemble, deviation && deviation->absolute);
     }
     row.severity = std::numeric_limits<double>::quiet_NaN();
     if (deviation) {
@@ -171,9 +184,13 @@ std::vector<Cell> comparison_cells(const ComparisonRow& row, std::vector<Cell> w
 TextTable comparison_table(std::vector<ComparisonRow> rows, std::size_t most) {
   const std::size_t count = rows.size();
   TextTable table{comparison_columns()};
+  const bool has_headings = std::ranges::any_of(
+      rows, [](const ComparisonRow& row) { return !row.headings.text.empty(); });
+  if (has_headings) table.columns.push_back({"over headings", true});
   table.columns.push_back({"verdict", false, 3});
   for (const ComparisonRow& row : most_severe(std::move(rows), most)) {
     table.rows.push_back(comparison_cells(row));
+    if (has_headings) table.rows.back().push_back(row.headings);
     table.rows.back().push_back(verdict_cell(row.verdict, word_of(row.verdict)));
     if (!row.note.empty()) table.notes.push_back({row.name, row.note});
   }
@@ -202,8 +219,14 @@ TextTable reference_table(const SceneRecord& scene, const std::vector<std::strin
 
 std::string run_name(const EngineRecord& run) {
   const std::string version = run.version.empty() ? "" : " " + run.version;
-  return printable(fmt::format("{}{} {}, profile {}, {:g} Hz", engine_family(run.engine), version,
-                               run.precision, run.profile, run.rate));
+  return printable(fmt::format("{}{} {}, profile {}, {}", engine_family(run.engine), version,
+                               run.precision, run.profile, run.rate_text()));
+}
+
+std::string ensemble_text(const EngineRecord& run) {
+  std::string text = counted(run.phases, "phase");
+  if (run.headings > 1) text += fmt::format(" × {} headings", run.headings);
+  return text;
 }
 
 std::string reference_summary(const ReferenceResult& reference) {

@@ -15,6 +15,7 @@ struct ComparisonRow {
   Cell reference;    ///< "27.67 ms", with "± …" where the uncertainty matters
   Cell median;       ///< in the reference's unit, "29.20"; with it where there is no reference
   Cell spread;       ///< "29.00 … 30.50", or one number where all phases agree
+  Cell headings;     ///< how far the headings of a phase are apart, of several: "0.41 %"
   Cell worst;        ///< largest error: "10.2 %", "0.141", "1.2 mm"
   Cell tolerance;    ///< in the same form
   Verdict verdict = Verdict::unjudged;
@@ -67,6 +68,9 @@ inline constexpr std::size_t kMostRows = 20;
 
 /// "bullet 3.24 double, profile default, 240 Hz"
 std::string run_name(const EngineRecord& run);
+
+/// "32 phases", "32 phases × 8 headings"
+std::string ensemble_text(const EngineRecord& run);
 
 /// "event solver, 1 collision, ends at 83.01 ms, 2.1 µs of CPU time", for a box with what follows.
 std::string reference_summary(const ReferenceResult& reference);

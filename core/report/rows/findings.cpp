@@ -34,7 +34,7 @@ std::string run_label(const EngineRecord& run) {
   std::string label;
   for (const std::string& part : {run.engine, run.precision, run.profile})
     if (!part.empty()) label += part + " ";
-  return printable(fmt::format("{}{:g} Hz", label, run.rate));
+  return printable(fmt::format("{}{}", label, run.rate_text()));
 }
 
 std::optional<ComparisonRow> worst_deviation(const SceneRecord& scene, const EngineRecord& run) {

@@ -65,12 +65,13 @@ double worst_error(const PhaseSpread& spread, const RunSpread& run) {
 
 bool same_engine(const EngineRecord& a, const EngineRecord& b) {
   return a.engine == b.engine && a.version == b.version && a.precision == b.precision &&
-         a.profile == b.profile;
+         a.profile == b.profile && a.scale == b.scale;
 }
 
-std::string phases(std::size_t count, std::size_t of) {
-  return count == of ? fmt::format("all {} phases are", of)
-                     : fmt::format("{} of {} phases {}", count, of, count == 1 ? "is" : "are");
+/// `what`: "phases", or "runs" where a phase has several.
+std::string so_many(std::size_t count, std::size_t of, const char* what) {
+  return count == of ? fmt::format("all {} {} are", of, what)
+                     : fmt::format("{} of {} {} {}", count, of, what, count == 1 ? "is" : "are");
 }
 
 }  // namespace
@@ -136,7 +137,11 @@ std::string words_of(const PhaseSpread& spread, const RunSpread& run) {
   const double magnitude = spread.is_distance ? run.max : spread.reference;
   const QuantityFormat format(magnitude != 0 ? magnitude : run.max, spread.dimension);
   const std::size_t count = run.values.size();
-  const std::string over = count > 1 ? fmt::format("Over {} phases ", count) : "";
+  const char* what = run.run->headings > 1 ? "runs" : "phases";
+  const std::string over =
+      count > 1 ? fmt::format("Over {} ", run.run->headings > 1 ? ensemble_text(*run.run)
+                                                                : fmt::format("{} phases", count))
+                : "";
   const std::string low = format.number(run.min), high = format.text(run.max);
   const bool is_one = format.text(run.min) == high;
   std::string text = over + spread.name;
@@ -152,7 +157,7 @@ std::string words_of(const PhaseSpread& spread, const RunSpread& run) {
   } else if (run.outside == 0) {
     text += fmt::format("all {} are within the tolerance of {}.", run.shown, spread.tolerance);
   } else {
-    text += fmt::format("{} outside the tolerance of {}", phases(run.outside, run.shown),
+    text += fmt::format("{} outside the tolerance of {}", so_many(run.outside, run.shown, what),
                         spread.tolerance);
     // More of the same where the tolerance is as wide.
     const bool says_more = spread.high - spread.reference < 0.99 * kFarOff * spread.scale;
@@ -163,7 +168,7 @@ std::string words_of(const PhaseSpread& spread, const RunSpread& run) {
     text += ".";
   }
   if (run.shown < count)
-    text += fmt::format(" {} of {} phases do not show it.", count - run.shown, count);
+    text += fmt::format(" {} of {} {} do not show it.", count - run.shown, count, what);
   return text;
 }
 
@@ -186,10 +191,11 @@ std::vector<std::string> words_on_convergence(const PhaseSpread& spread) {
       continue;
     const QuantityFormat format(coarse, spread.dimension, 3);
     result.push_back(fmt::format(
-        "A smaller step does not help {} {} ({}): from {:g} to {:g} Hz the largest error goes from "
-        "{} to {}.",
-        first.engine, first.precision, first.profile, lowest->run->rate, highest->run->rate,
-        format.text(coarse), format.text(fine)));
+        "A smaller step does not help {} {} ({}{}): from {:g} to {:g} Hz the largest error goes "
+        "from {} to {}.",
+        first.engine, first.precision, first.profile,
+        first.scale == 1 ? "" : fmt::format(", scale {:g}", first.scale), lowest->run->rate,
+        highest->run->rate, format.text(coarse), format.text(fine)));
   }
   return result;
 }

@@ -35,7 +35,7 @@ Worst worst_of(const SceneRecord& scene) {
 
 /// "bullet double tuned 240 Hz"
 std::string short_name(const EngineRecord& run) {
-  return fmt::format("{} {} {} {:g} Hz", run.engine, run.precision, run.profile, run.rate);
+  return fmt::format("{} {} {} {}", run.engine, run.precision, run.profile, run.rate_text());
 }
 
 /// "undecided: flight_time", "skipped"

@@ -63,7 +63,7 @@ std::string run_block(const SceneRecord& scene, const EngineRecord& run,
                       const std::vector<std::string>& names, const TableStyle& style) {
   const bool ok = run.status == RunStatus::ok;
   std::string head = run_name(run);
-  if (ok) head += ", " + counted(run.phases, "phase");
+  if (ok) head += ", " + ensemble_text(run);
   if (const std::string cost = step_cost(run); ok && !cost.empty()) head += ", " + cost;
 
   std::string result = "\n";

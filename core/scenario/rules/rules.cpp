@@ -53,19 +53,40 @@ bool is_no_text(const YamlNode& node) {
 
 constexpr std::size_t kLongestName = 64;
 
-bool is_name(const std::string& text, NameStyle style) {
-  bool after_word = false;
-  for (const char c : text) {
-    const bool lower = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    const bool other = (c >= 'A' && c <= 'Z') || c == '_';
-    if (style == NameStyle::lower_case ? !lower && c != '-' : !lower && !other && c != '-') {
-      return false;
-    }
-    if (style == NameStyle::any_case && c == '-' && !after_word) return false;
-    after_word = c != '-';
+/// What names of a style may be made of, for people and as a pattern of the schema.
+struct NameForm {
+  const char* rule;
+  const char* pattern;
+};
+
+NameForm form_of(NameStyle style) {
+  switch (style) {
+    case NameStyle::lower_case:
+      return {"must be a name of a-z, 0-9 and -, up to 64", "^[a-z0-9-]+$"};
+    case NameStyle::engine:
+      return {"must be a name of a-z, 0-9, -, _, . and @, up to 64", "^[a-z0-9][a-z0-9_.@-]*$"};
+    case NameStyle::any_case:
+      break;
   }
-  return !text.empty() && text.size() <= kLongestName &&
-         (style == NameStyle::lower_case || after_word);
+  return {"must be a name of letters, digits and _, joined by -, up to 64",
+          "^[A-Za-z0-9_]+(-[A-Za-z0-9_]+)*$"};
+}
+
+bool may_stand_in(NameStyle style, char c) {
+  const bool lower = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+  if (lower || c == '-') return true;
+  if (style == NameStyle::engine) return c == '_' || c == '.' || c == '@';
+  return style == NameStyle::any_case && ((c >= 'A' && c <= 'Z') || c == '_');
+}
+
+bool is_name(const std::string& text, NameStyle style) {
+  if (text.empty() || text.size() > kLongestName) return false;
+  for (const char c : text)
+    if (!may_stand_in(style, c)) return false;
+  if (style == NameStyle::engine)
+    return may_stand_in(NameStyle::lower_case, text[0]) && text[0] != '-';
+  return style == NameStyle::lower_case ||
+         (text.front() != '-' && text.back() != '-' && text.find("--") == std::string::npos);
 }
 
 }  // namespace
@@ -188,21 +209,18 @@ Rule<std::string> free_text() {
 }
 
 Rule<std::string> name_text(NameStyle style) {
-  const bool lower = style == NameStyle::lower_case;
-  return {[=](const YamlNode& node, Reading& reading, std::string& target) {
+  return {[style](const YamlNode& node, Reading& reading, std::string& target) {
             if (!is_scalar(node) || is_no_text(node) || !is_name(node.text, style)) {
-              reading.fault(
-                  node, lower ? "must be a name of a-z, 0-9 and -, up to 64"
-                              : "must be a name of letters, digits and _, joined by -, up to 64");
+              reading.fault(node, form_of(style).rule);
               return false;
             }
             target = node.text;
             return true;
           },
-          [=] {
+          [style] {
             json schema = {{"type", {"string", "integer"}}, {"maxLength", kLongestName}};
-            schema["pattern"] = lower ? "^[a-z0-9-]+$" : "^[A-Za-z0-9_]+(-[A-Za-z0-9_]+)*$";
-            if (!lower) schema["minimum"] = 0;  // a leading '-' joins nothing
+            schema["pattern"] = form_of(style).pattern;
+            if (style != NameStyle::lower_case) schema["minimum"] = 0;  // no name begins with '-'
             return schema;
           }};
 }

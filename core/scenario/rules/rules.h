@@ -46,8 +46,9 @@ Rule<bool> boolean();
 
 /// Any text that is not empty.
 Rule<std::string> free_text();
-/// A name: words of letters, digits and '_', joined by '-'; `lower_case` without capitals and '_'.
-enum class NameStyle { any_case, lower_case };
+/// A name: words of letters, digits and '_', joined by '-'; `lower_case` without capitals and '_',
+/// `engine` as that and with a version, "rapier@0.19.3".
+enum class NameStyle { any_case, lower_case, engine };
 Rule<std::string> name_text(NameStyle style);
 
 /// [x, y], [x, y, z]: a list of numbers with as many entries as one of the counts.

@@ -6,30 +6,80 @@
 namespace slipcheck {
 namespace {
 
-Rule<EngineRequest> engine_rule() {
-  using Precision = EngineRequest::Precision;
+/// Steps per second, one or several.
+Rule<std::vector<double>> rates_rule() {
   using Rates = std::vector<double>;
   // From a step of days to one shorter than light crosses a grain: beyond is a slip of the
   // keyboard.
   const Rule<double> rate = number(kFrequency, {1e-6, {}, 1e12, {}});
+  return one_form_of<Rates>(
+      "must be a frequency or a list of them",
+      {{[](const YamlNode& node) { return is_list(node); }, list(rate, 1)},
+       {is_scalar, made_from<Rates>(rate, [](double value) { return Rates{value}; })}});
+}
+
+Rule<EngineRequest> engine_rule() {
+  using Precision = EngineRequest::Precision;
   Record<EngineRequest> engine;
   engine
-      .key("engine", &EngineRequest::engine, name_text(NameStyle::lower_case), required,
+      .key("engine", &EngineRequest::engine, name_text(NameStyle::engine), required,
            "an engine's name")
       .key("precision", &EngineRequest::precision,
            choice<Precision>({{"single", Precision::single_}, {"double", Precision::double_}}),
-           optional, "of its floating-point numbers")
+           optional, "of its floating-point numbers; else what is installed, of both double")
       .key("profile", &EngineRequest::profile, free_text(), optional,
            "its settings, by name or by the path of a YAML file")
-      .key("rate", &EngineRequest::rates,
-           one_form_of<Rates>(
-               "must be a frequency or a list of them",
-               {{[](const YamlNode& node) { return is_list(node); }, list(rate, 1)},
-                {is_scalar, made_from<Rates>(rate, [](double value) { return Rates{value}; })}}),
-           required, "steps per second, one or several")
+      .key("rate", &EngineRequest::rates, rates_rule(), required,
+           "steps per second, one or several")
       .key("expect", &EngineRequest::expect, expectation_rule(), optional,
            "what it is known to do; judged by this in place of the tolerances");
   return engine.rule();
+}
+
+/// The word true alone.
+Rule<bool> true_rule() {
+  return {[rule = boolean()](const YamlNode& node, Reading& reading, bool& target) {
+            if (!rule.read(node, reading, target)) return false;
+            if (!target) reading.fault(node, "must be true, or engines a list");
+            return target;
+          },
+          [] {
+            return nlohmann::json{{"const", true}};
+          }};
+}
+
+/// A list of engines, or all that are installed.
+Rule<Compare> engines_rule() {
+  Record<AllEngines> all;
+  all.key("all", &AllEngines::all, true_rule(), required, "every engine that is installed")
+      .key("profiles", &AllEngines::profiles, list(free_text(), 1), optional,
+           "of each, where it has them; else default and physical")
+      .key("rate", &AllEngines::rates, rates_rule(), optional,
+           "steps per second, one or several; else 240 and 1000");
+  const Rule<std::vector<EngineRequest>> listed = list(engine_rule(), 0);
+  const Rule<std::size_t> word_all = word({"all"});
+  const Rule<AllEngines> in_part = all.rule();
+  const Rule<Compare> as_word = {
+      [word_all](const YamlNode& node, Reading& reading, Compare& compare) {
+        std::size_t index = 0;
+        compare.all_engines.emplace();
+        return word_all.read(node, reading, index);
+      },
+      word_all.schema};
+  const Rule<Compare> as_mapping = {
+      [in_part](const YamlNode& node, Reading& reading, Compare& compare) {
+        return in_part.read(node, reading, compare.all_engines.emplace());
+      },
+      in_part.schema};
+  const Rule<Compare> as_list = {
+      [listed](const YamlNode& node, Reading& reading, Compare& compare) {
+        return listed.read(node, reading, compare.engines);
+      },
+      listed.schema};
+  return one_form_of<Compare>("must be a list of engines, or all",
+                              {{[](const YamlNode& node) { return is_list(node); }, as_list},
+                               {[](const YamlNode& node) { return is_mapping(node); }, as_mapping},
+                               {is_scalar, as_word}});
 }
 
 /// Periods to leave out, or until the state is steady.
@@ -130,8 +180,14 @@ Rule<Compare> compare_rule() {
            optional, "solver of the reference; auto: event where all contacts are hard")
       .key("steps_per_contact", &Compare::steps_per_contact, number(kPureNumber, {10, {}, 1e6, {}}),
            optional, "steps in the shortest collision, of the reference steps")
-      .key("engines", &Compare::engines, list(engine_rule(), 0), optional,
-           "what is held against it")
+      .whole("engines", engines_rule(), optional,
+             "what is held against it; all: every engine that is installed")
+      .key("headings", &Compare::headings,
+           made_from<std::size_t>(integer(1, kMostHeadings),
+                                  [](std::int64_t count) { return std::size_t(count); }),
+           optional, "in which engines run the scene, evenly around the vertical")
+      .key("scales", &Compare::scales, list(number(kPureNumber, {1e-9, {}, 1e9, {}}), 1), optional,
+           "lengths of the similar scenes that engines run, over those of this one")
       .key("tolerance", &Compare::tolerance, tolerances_rule(), optional,
            "largest error of an observable, by its name or by that of its owner too");
   return compare.rule();

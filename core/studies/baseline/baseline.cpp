@@ -18,6 +18,8 @@ BaselineRun run_of(const Scenario& scenario, const EngineRecord& record) {
   run.precision = record.precision;
   run.profile = record.profile;
   run.rate = record.rate;
+  run.scale = record.scale;
+  run.headings = record.headings;
   run.status = record.status;
   run.verdict = record.verdict();
   run.phases = record.phases;
@@ -52,7 +54,11 @@ SceneBaseline baseline_of(const SceneRecord& scene, std::size_t phases,
 }
 
 std::string run_label(const BaselineRun& run) {
-  return fmt::format("{} {} {} {:g} Hz", run.engine, run.precision, run.profile, run.rate);
+  std::string label =
+      fmt::format("{} {} {} {:g} Hz", run.engine, run.precision, run.profile, run.rate);
+  if (run.scale != 1) label += fmt::format(", scale {:g}", run.scale);
+  if (run.headings > 1) label += fmt::format(", {} headings", run.headings);
+  return label;
 }
 
 }  // namespace slipcheck

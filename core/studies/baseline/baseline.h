@@ -22,7 +22,9 @@ struct BaselineSpread {
 /// What is kept of an engine at one rate on one scene.
 struct BaselineRun {
   std::string engine, version, precision, profile;
-  double rate = 0;  ///< [Hz], > 0
+  double rate = 0;           ///< [Hz], > 0
+  double scale = 1;          ///< of lengths, > 0
+  std::size_t headings = 1;  ///< in which each phase was run
   RunStatus status = RunStatus::skipped;
   std::optional<Verdict> verdict;  ///< none in older files, of a run that was skipped
   std::size_t phases = 0;

@@ -48,6 +48,8 @@ void describe(Fields& f, BaselineRun& run) {
   f("precision", run.precision);
   f("profile", run.profile);
   f("rate", run.rate, kAboveZero);
+  f.unless("scale", run.scale, 1.0);
+  f.unless("headings", run.headings, std::size_t{1});
   f("status", run.status);
   f("verdict", run.verdict);
   f("phases", run.phases);

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "scenario/scaled_lengths.h"
 #include "studies/stability/limit_scenes.h"
 #include "studies/stability/limit_search.h"
 #include "studies/stability/scene_variation.h"

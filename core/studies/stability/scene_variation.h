@@ -7,12 +7,6 @@ namespace slipcheck {
 // The same scene with something changed. Expectations of engines are dropped: they are of the scene
 // as it was.
 
-/// All lengths times lambda, > 0, at the same gravity and densities (Froude's similarity): times
-/// and speeds times √λ, masses times λ³, and every quantity of the scene by its dimension, contact
-/// laws, limits of the run, tolerances with a unit and rates of engines included. What happens is
-/// exactly similar; what an engine shows otherwise comes from lengths, speeds or times of its own.
-Scenario scaled_lengths(Scenario scenario, double lambda);
-
 /// The second body's mass times q, > 0, its radius as before. The scene has two bodies or more.
 Scenario with_mass_ratio(Scenario scenario, double q);
 

@@ -1,0 +1,149 @@
+#include "scenario/scaled_lengths.h"
+
+#include <cassert>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "scenario/observable_key.h"
+
+namespace slipcheck {
+namespace {
+
+template <class... Cases>
+struct Match : Cases... {
+  using Cases::operator()...;
+};
+template <class... Cases>
+Match(Cases...) -> Match<Cases...>;
+
+/// The factors of Froude's similarity, for all that a scene holds.
+class Scale {
+ public:
+  explicit Scale(double lambda) : length(lambda), time(std::sqrt(lambda)) {}
+
+  /// Of a quantity of this dimension.
+  double of(double masses, double lengths, double times) const {
+    return std::pow(length, 3 * masses + lengths + 0.5 * times);
+  }
+  double of(const Dimension& d) const { return of(d.mass, d.length, d.time); }
+
+  void operator()(Material& material) const {
+    times(material.young_modulus, of(kPressure));
+    times(material.dissipation_time, time);
+  }
+  void operator()(BodyContact& contact) const {
+    std::visit(*this, contact.normal);
+    std::visit(*this, contact.tangential);
+  }
+
+  void operator()(HardNormal& model) const {
+    if (auto* law = std::get_if<BridgesRestitution>(&model.restitution)) law->speed *= speed();
+  }
+  void operator()(LinearNormal& model) const {
+    times(model.damping_rate, 1 / time);
+    times(model.collision_time, time);
+    times(model.stiffness, of(kStiffness));
+  }
+  void operator()(HertzNormal&) const {}
+  void operator()(PowerNormal& model) const {
+    model.modulus *= of(1, 1 - model.alpha, -2);
+    times(model.viscosity, of(1, -model.gamma, -1));
+    times(model.at_speed, speed());
+  }
+  void operator()(ViscoelasticNormal& model) const {
+    times(model.dissipation_time, time);
+    if (model.viscosity) {
+      model.viscosity->first *= of(kViscosity);
+      model.viscosity->second *= of(kViscosity);
+    }
+    times(model.at_speed, speed());
+  }
+
+  void operator()(NoTangential&) const {}
+  void operator()(ViscousTangential& model) const { times(model.damping_rate, 1 / time); }
+  void operator()(AsperityTangential& model) const {
+    times(model.roughness_factor, of(kPerRootLength));
+    times(model.asperity_size, length);
+  }
+  void operator()(HardTangential&) const {}
+
+  void operator()(MaterialOnSubstrate& contact) const {
+    for (auto& point : contact.rolling.table) point.first *= speed();
+    times(contact.drilling.contact_radius, length);
+  }
+  void operator()(Substrate& substrate) const {
+    if (substrate.periodic) *substrate.periodic *= length;
+    std::visit(*this, substrate.motion);
+  }
+  void operator()(StillMotion&) const {}
+  void operator()(ConstantMotion& motion) const { motion.velocity *= speed(); }
+  void operator()(OscillatingMotion& motion) const {
+    motion.amplitude *= length;
+    motion.frequency /= time;
+  }
+  void operator()(TableMotion& motion) const {
+    for (TableMotion::Point& point : motion.table) {
+      point.time *= time;
+      point.position *= length;
+    }
+  }
+  void operator()(Container& box) const {
+    box.width *= length;
+    box.floor_amplitude *= length;
+    box.floor_frequency /= time;
+    times(box.height, length);
+  }
+
+  void operator()(Body& body) const {
+    body.sphere.radius *= length;
+    body.sphere.mass *= of(kMass);
+    body.initial.position *= length;
+    body.initial.velocity *= speed();
+    body.initial.angular_velocity /= time;
+  }
+  void operator()(Run& run) const {
+    run.time *= time;
+    run.limit *= time;
+    run.most_events /= time;
+    std::visit(Match{[](SlowestRebound&) {}, [this](auto& model) { model.contact_time *= time; }},
+               run.collapse);
+  }
+  void operator()(Compare& compare) const {
+    if (compare.all_engines)
+      for (double& rate : compare.all_engines->rates) rate /= time;
+    for (EngineRequest& request : compare.engines)
+      for (double& rate : request.rates) rate /= time;
+    for (auto& [name, tolerance] : compare.tolerance)
+      if (const ObservableName* observable = observable_key(name).known();
+          observable && tolerance.absolute)
+        tolerance.value *= of(observable->dimension);
+  }
+
+ private:
+  static void times(std::optional<double>& quantity, double factor) {
+    if (quantity) *quantity *= factor;
+  }
+  double speed() const { return time; }  // λ/√λ
+
+  double length, time;
+};
+
+}  // namespace
+
+Scenario scaled_lengths(Scenario scenario, double lambda) {
+  assert(lambda > 0);
+  const Scale scale(lambda);
+  for (EngineRequest& request : scenario.compare.engines) request.expect.reset();
+  for (auto& [name, material] : scenario.materials) scale(material);
+  for (BodyContact& contact : scenario.contacts) scale(contact);
+  for (MaterialOnSubstrate& contact : scenario.substrate_contacts) scale(contact);
+  std::visit(scale, scenario.surroundings);
+  for (Body& body : scenario.bodies) scale(body);
+  scale(scenario.run);
+  scale(scenario.compare);
+  return scenario;
+}
+
+}  // namespace slipcheck
