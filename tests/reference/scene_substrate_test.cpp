@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "bundled_scenes.h"
 #include "physics/closed_forms.h"
@@ -126,6 +127,46 @@ TEST(Scene, BouncesOnABeltEndAtTwoSeventhsToo) {
   const Played scene = play("bounce-on-belt");
   EXPECT_NEAR(scene["ball.final_velocity.x"], 0.5 / 3.5, 1e-9);
   EXPECT_NEAR(scene["ball-substrate.restitution"], 0.6, 1e-9);
+}
+
+TEST(Scene, AThrownBallRollsWithFiveSeventhsWhateverItsBounces) {
+  // Every impulse acts at the point of contact: v + (2/5) R Ω_y stays, and v = R Ω_y in the end.
+  for (const double restitution : {0.0, 0.5, 0.9})
+    for (const double friction : {0.05, 0.2, 0.8}) {
+      Scenario scenario = bundled("bounce-slide-roll");
+      scenario.substrate_contacts[0].restitution = restitution;
+      scenario.substrate_contacts[0].friction = {friction, friction};
+      scenario.run.limit = 60;
+      const Played scene = play(scenario);
+      EXPECT_NEAR(scene["ball.final_velocity.x"], 10.0 / 7, 1e-9) << restitution << " " << friction;
+      EXPECT_NEAR(scene["ball.final_angular_velocity.y"], 10.0 / 7 / 0.05, 1e-8);
+    }
+}
+
+TEST(Scene, BallsFromAllHeightsReboundWithTheirRestitution) {
+  // They land at √(2 g h) after 14 ms and rise for the 16 ms that are left.
+  const double g = 9.80665, rise = 0.03 - 0.014;
+  const Played scene = play("restitution-over-height");
+  for (const auto& [ball, h] :
+       {std::pair{"mm", 1e-3}, {"cm", 1e-2}, {"dm", 0.1}, {"m", 1.0}, {"dam", 10.0}}) {
+    const double v = std::sqrt(2 * g * h);
+    EXPECT_NEAR(scene[ball + std::string("-substrate.restitution")], 0.8, 1e-12) << ball;
+    EXPECT_NEAR(scene[ball + std::string(".final_velocity.z")], 0.8 * v - g * rise, 1e-12 * 14);
+    EXPECT_NEAR(scene[ball + std::string(".final_position.z")],
+                0.01 + 0.8 * v * rise - g * rise * rise / 2, 1e-12);
+  }
+}
+
+TEST(Scene, AllHeadingsRollEquallyFarK16) {
+  const double deceleration = 0.02 * 9.80665, way = 0.25 / (2 * deceleration);
+  const Played scene = play("heading-ring");
+  for (int k = 0; k < 8; ++k) {
+    const std::string ball = "h" + std::to_string(45 * k);
+    EXPECT_NEAR(scene[ball + ".stopping_time"], 0.5 / deceleration, 1e-12) << ball;
+    EXPECT_NEAR(scene[ball + ".stopping_distance"], way, 1e-12) << ball;
+    EXPECT_NEAR(scene[ball + ".final_position.x"], (0.5 + way) * std::cos(k * M_PI / 4), 1e-12);
+    EXPECT_NEAR(scene[ball + ".final_position.y"], (0.5 + way) * std::sin(k * M_PI / 4), 1e-12);
+  }
 }
 
 // --- slopes --------------------------------------------------------------------------------------
