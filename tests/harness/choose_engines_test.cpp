@@ -70,7 +70,7 @@ TEST(AllEngines, AProfileThatNoneHasIsAFault) {
   const auto faults = test::faults_of([&] { requested_runs({scene}); });
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].message(),
-            "ball.yaml:10:44: compare.engines.profiles: must be profiles of the engines (did you "
+            "ball.yaml:10:32: compare.engines.profiles: must be profiles of the engines (did you "
             "mean hang?), got hnag");
 }
 
