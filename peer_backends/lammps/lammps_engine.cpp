@@ -1,4 +1,4 @@
-#include "lammps/lammps_engine.h"
+#include "peer_backends/lammps/lammps_engine.h"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 #include <string>
 #include <utility>
 
-#include "common/momentum_touches.h"
-#include "common/moving_frame.h"
 #include "engine/scene_needs.h"
-#include "lammps/lammps_input.h"
-#include "lammps/lammps_process.h"
-#include "lammps/springs.h"
+#include "peer_backends/lammps/lammps_input.h"
+#include "peer_backends/lammps/lammps_process.h"
+#include "peer_backends/lammps/springs.h"
+#include "peer_backends/shared/momentum_touches.h"
+#include "peer_backends/shared/moving_frame.h"
 
 namespace slipcheck::lammps {
 namespace {
@@ -87,11 +87,11 @@ class LammpsEngine final : public Engine {
  public:
   EngineInfo info() const override {
     static const std::string version = lammps_version();
-    return {"lammps", version, "double", setting_rows().infos()};
+    return {"lammps", version, "double", infos_of(setting_rows())};
   }
 
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
-    const LammpsSettings settings = setting_rows().read(chosen);
+    const LammpsSettings settings = read_rows(setting_rows(), chosen);
     refuse_what_cannot_be(scene);
     const MovingFrame frame(scene, "lammps");
     const InnerSteps steps = inner_steps(scene, settings, time_step);

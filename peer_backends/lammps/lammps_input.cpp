@@ -1,4 +1,4 @@
-#include "lammps/lammps_input.h"
+#include "peer_backends/lammps/lammps_input.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/engine.h"
-#include "lammps/springs.h"
+#include "peer_backends/lammps/springs.h"
 
 namespace slipcheck::lammps {
 namespace {
@@ -248,7 +248,7 @@ std::string dump_command(const Scene& scene, const std::string& file) {
 
 Settings applied(const EngineScene& scene, const LammpsSettings& settings,
                  const InnerSteps& steps) {
-  Settings all = setting_rows().write(settings);
+  Settings all = write_rows(setting_rows(), settings);
   all["substeps"] = static_cast<double>(steps.count);
   all["timestep"] = steps.length;
   const auto tell = [&](const std::string& of, const Spring& spring) {

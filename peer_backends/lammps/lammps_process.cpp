@@ -1,4 +1,4 @@
-#include "lammps/lammps_process.h"
+#include "peer_backends/lammps/lammps_process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

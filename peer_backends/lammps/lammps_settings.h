@@ -1,6 +1,8 @@
 #pragma once
 
-#include "common/setting_rows.h"
+#include <vector>
+
+#include "engine/setting_rows.h"
 
 namespace slipcheck::lammps {
 
@@ -29,6 +31,6 @@ struct LammpsSettings {
   int ranks = 1;
 };
 
-const SettingRows<LammpsSettings>& setting_rows();
+const std::vector<SettingRow<LammpsSettings>>& setting_rows();
 
 }  // namespace slipcheck::lammps

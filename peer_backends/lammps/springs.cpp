@@ -1,4 +1,4 @@
-#include "lammps/springs.h"
+#include "peer_backends/lammps/springs.h"
 
 #include <fmt/format.h>
 

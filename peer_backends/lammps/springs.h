@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/engine_scene.h"
-#include "lammps/lammps_settings.h"
+#include "peer_backends/lammps/lammps_settings.h"
 
 namespace slipcheck::lammps {
 

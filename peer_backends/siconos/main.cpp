@@ -1,4 +1,4 @@
 #include "engine/worker.h"
-#include "siconos/siconos_engine.h"
+#include "peer_backends/siconos/siconos_engine.h"
 
 int main() { return slipcheck::run_worker(*slipcheck::siconos::make_siconos_engine()); }

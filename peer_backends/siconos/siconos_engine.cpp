@@ -1,4 +1,4 @@
-#include "siconos/siconos_engine.h"
+#include "peer_backends/siconos/siconos_engine.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "common/moving_frame.h"
 #include "engine/scene_needs.h"
-#include "siconos/siconos_settings.h"
+#include "peer_backends/shared/moving_frame.h"
+#include "peer_backends/siconos/siconos_settings.h"
 
 namespace slipcheck::siconos {
 namespace {
@@ -101,7 +101,7 @@ std::vector<Lack> not_represented(const Scene& scene, double time_step) {
 }
 
 Settings applied(const Scene& scene, const SiconosSettings& settings) {
-  Settings all = setting_rows().write(settings);
+  Settings all = write_rows(setting_rows(), settings);
   const auto tell = [&](const std::string& of, const ImpactLaw& law) {
     all[of + "_restitution"] = law.restitution;
     all[of + "_friction"] = law.friction;
@@ -116,12 +116,12 @@ Settings applied(const Scene& scene, const SiconosSettings& settings) {
 class SiconosEngine final : public Engine {
  public:
   EngineInfo info() const override {
-    return {"siconos", SLIPCHECK_SICONOS_VERSION, "double", setting_rows().infos()};
+    return {"siconos", SLIPCHECK_SICONOS_VERSION, "double", infos_of(setting_rows())};
   }
 
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
     refuse_unfit(scene);
-    const SiconosSettings settings = setting_rows().read(chosen);
+    const SiconosSettings settings = read_rows(setting_rows(), chosen);
     setup_.emplace(Setup{scene, settings, time_step, MovingFrame(scene, "siconos")});
     start(scene.initial, 0);
     return {applied(scene, settings), not_represented(scene, time_step), {}};

@@ -1,7 +1,9 @@
 #pragma once
 
-#include "common/setting_rows.h"
-#include "siconos/system.h"
+#include <vector>
+
+#include "engine/setting_rows.h"
+#include "peer_backends/siconos/system.h"
 
 namespace slipcheck::siconos {
 
@@ -24,6 +26,6 @@ struct SiconosSettings {
   int substeps = 1;
 };
 
-const SettingRows<SiconosSettings>& setting_rows();
+const std::vector<SettingRow<SiconosSettings>>& setting_rows();
 
 }  // namespace slipcheck::siconos

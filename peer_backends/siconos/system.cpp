@@ -1,4 +1,4 @@
-#include "siconos/system.h"
+#include "peer_backends/siconos/system.h"
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-#include "simbody/hunt_crossley.h"
+#include "peer_backends/simbody/hunt_crossley.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/engine_scene.h"
-#include "simbody/simbody_settings.h"
-#include "simbody/system.h"
+#include "peer_backends/simbody/simbody_settings.h"
+#include "peer_backends/simbody/system.h"
 
 namespace slipcheck::simbody {
 

@@ -1,4 +1,4 @@
 #include "engine/worker.h"
-#include "simbody/simbody_engine.h"
+#include "peer_backends/simbody/simbody_engine.h"
 
 int main() { return slipcheck::run_worker(*slipcheck::simbody::make_simbody_engine()); }

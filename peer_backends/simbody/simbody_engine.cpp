@@ -1,14 +1,14 @@
-#include "simbody/simbody_engine.h"
+#include "peer_backends/simbody/simbody_engine.h"
 
 #include <fmt/format.h>
 
 #include <limits>
 #include <optional>
 
-#include "common/momentum_touches.h"
-#include "common/moving_frame.h"
 #include "engine/scene_needs.h"
-#include "simbody/hunt_crossley.h"
+#include "peer_backends/shared/momentum_touches.h"
+#include "peer_backends/shared/moving_frame.h"
+#include "peer_backends/simbody/hunt_crossley.h"
 
 namespace slipcheck::simbody {
 namespace {
@@ -55,7 +55,7 @@ std::vector<Lack> not_represented(const EngineScene& scene, const SimbodySetting
 }
 
 Settings applied(const EngineScene& scene, const SimbodySettings& settings) {
-  Settings all = setting_rows().write(settings);
+  Settings all = write_rows(setting_rows(), settings);
   const auto tell = [&](const std::string& of, const HuntCrossley& contact) {
     all[of + "_modulus"] = contact.modulus;
     all[of + "_dissipation"] = contact.dissipation;
@@ -88,12 +88,12 @@ SystemPlan plan_of(const EngineScene& scene, const SimbodySettings& settings,
 class SimbodyEngine final : public Engine {
  public:
   EngineInfo info() const override {
-    return {"simbody", SLIPCHECK_SIMBODY_VERSION, "double", setting_rows().infos()};
+    return {"simbody", SLIPCHECK_SIMBODY_VERSION, "double", infos_of(setting_rows())};
   }
 
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
     refuse_unfit(scene);
-    const SimbodySettings settings = setting_rows().read(chosen);
+    const SimbodySettings settings = read_rows(setting_rows(), chosen);
     setup_.emplace(Setup{scene, settings, time_step, MovingFrame(scene, "simbody")});
     start(scene.initial, 0);
     return {applied(scene, settings), not_represented(scene, settings, time_step), {}};

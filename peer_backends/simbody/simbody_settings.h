@@ -1,7 +1,9 @@
 #pragma once
 
-#include "common/setting_rows.h"
-#include "simbody/system.h"
+#include <vector>
+
+#include "engine/setting_rows.h"
+#include "peer_backends/simbody/system.h"
 
 namespace slipcheck::simbody {
 
@@ -20,6 +22,6 @@ struct SimbodySettings {
   int frames = 1;
 };
 
-const SettingRows<SimbodySettings>& setting_rows();
+const std::vector<SettingRow<SimbodySettings>>& setting_rows();
 
 }  // namespace slipcheck::simbody

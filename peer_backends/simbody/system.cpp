@@ -1,4 +1,4 @@
-#include "simbody/system.h"
+#include "peer_backends/simbody/system.h"
 
 #include <Simbody.h>
 

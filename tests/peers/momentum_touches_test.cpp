@@ -1,4 +1,4 @@
-#include "common/momentum_touches.h"
+#include "peer_backends/shared/momentum_touches.h"
 
 #include <gtest/gtest.h>
 
