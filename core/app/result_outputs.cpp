@@ -77,6 +77,9 @@ constexpr Writer kWriters[] = {
      [](const auto& content, const auto&) { return phases_csv(content.scenes); }},
     {"--markdown", "Write a summary that fits a pull request's comment", &ResultOutputs::markdown,
      [](const auto& content, const auto&) { return markdown_of(content.scenes); }},
+    {"--engines-markdown", "Write scenes by engines, with a score for each",
+     &ResultOutputs::engines,
+     [](const auto& content, const auto&) { return engines_markdown(content.scenes); }},
     {"--junit", "Write JUnit XML: a test for each run", &ResultOutputs::junit,
      [](const auto& content, const auto& outputs) {
        return junit_xml(test_outcomes(content.scenes, outputs.allow_undecided));

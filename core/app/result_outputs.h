@@ -10,8 +10,8 @@ namespace slipcheck {
 
 /// The files that `run` and `report` make of results; an empty path is not written.
 struct ResultOutputs {
-  std::string html, csv, phases_csv, markdown, junit;  ///< files
-  std::string svg, xyz, vtk;                           ///< folders
+  std::string html, csv, phases_csv, markdown, engines, junit;  ///< files
+  std::string svg, xyz, vtk;                                    ///< folders
   bool without_script = false;
   bool allow_undecided = false;  ///< is no failure
 

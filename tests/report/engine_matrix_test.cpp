@@ -8,6 +8,7 @@
 
 #include "records.h"
 #include "report/charts/engine_charts.h"
+#include "report/files/markdown.h"
 
 namespace slipcheck {
 namespace {
@@ -108,6 +109,14 @@ TEST(EngineMatrix, WhatTheRunLacksIsFartherThanAnyNumber) {
   const EngineMatrix matrix = engine_matrix(scenes);
   EXPECT_TRUE(std::isinf(matrix.rows[0].cells[0].error));
   EXPECT_EQ(matrix_table(matrix).rows[0][1].text, "∞");
+}
+
+TEST(EngineMatrix, StandsInMarkdown) {
+  const std::string text = engines_markdown(two_scenes());
+  for (const char* part : {"- Best: a 3.24 physical 240 Hz", "| a 3.24 physical 240 Hz | 2 |",
+                           "| first | 0.5 | 0.1 | 20 |", "| second | 3 | 0.9 | ✗ |"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  EXPECT_NE(engines_markdown({}).find("not two scenes"), std::string::npos);
 }
 
 TEST(EngineMatrix, TheChartHasALineForEachEngineAndProfile) {

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "report/rows/engine_matrix.h"
 #include "report/rows/expectation_rows.h"
 #include "report/rows/findings.h"
 #include "report/rows/selection.h"
@@ -168,6 +169,19 @@ std::string markdown_of(const std::vector<SceneRecord>& scenes, std::size_t most
         counted(parts.size() - shown, "more scene"));
   const std::string good = good_part(scenes);
   return text.size() + good.size() <= most ? text + good : text;
+}
+
+std::string engines_markdown(const std::vector<SceneRecord>& scenes) {
+  const EngineMatrix matrix = engine_matrix(scenes);
+  std::string text = "## Engines over all scenes\n\n";
+  if (matrix.methods.empty()) return text + "There are not two scenes and two engines.\n";
+  for (const std::string& finding : matrix_findings(matrix))
+    text += "- " + markdown_escaped(finding) + "\n";
+  text += "\n" + markdown_table(score_table(matrix));
+  text +=
+      "\n### Scene by engine\n\nThe worst phase's largest error in tolerances, 1 is just within; ✗ "
+      "failed, – cannot run it, · nothing is judged.\n\n";
+  return text + markdown_table(matrix_table(matrix));
 }
 
 }  // namespace slipcheck

@@ -19,4 +19,8 @@ std::string markdown_table(const TextTable& table);
 /// comment); what does not fit is counted.
 std::string markdown_of(const std::vector<SceneRecord>& scenes, std::size_t most = 60000);
 
+/// Engines beside each other over all scenes: what that comes to, a score for each, and scenes by
+/// engines; one line that says so where there are not two scenes and two engines.
+std::string engines_markdown(const std::vector<SceneRecord>& scenes);
+
 }  // namespace slipcheck
