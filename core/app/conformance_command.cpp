@@ -47,7 +47,7 @@ std::vector<WorkerCommand> chosen_workers(const ConformanceArguments& arguments)
     const bool same_precision =
         arguments.precision.empty() || each.precision == arguments.precision;
     if ((each.engine == engine || engine_family(each.engine) == engine) && same_precision)
-      workers.push_back(each.path);
+      workers.push_back(each.command);
   }
   if (workers.empty())
     throw BadOption(fmt::format("ENGINE: must be the path of a worker or one of {}, got {}{}",

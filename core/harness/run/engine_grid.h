@@ -20,10 +20,10 @@ struct EngineGrid {
 
 /// What is asked for in place of what a scene says; what is empty stays as the scene has it.
 struct EngineChoice {
-  std::vector<std::string> engines;     ///< "all" alone: all that are installed
-  std::vector<std::string> precisions;  ///< "single", "double"
-  std::vector<std::string> profiles;
-  std::vector<double> rates;  ///< [Hz], > 0
+  std::vector<std::string> engines = {};     ///< "all" alone: all that are installed
+  std::vector<std::string> precisions = {};  ///< "single", "double"
+  std::vector<std::string> profiles = {};
+  std::vector<double> rates = {};  ///< [Hz], > 0
 };
 
 /// What the grid asks for at these rates [Hz], > 0, in the order of engine, precision and profile;

@@ -79,8 +79,7 @@ TimedWork timed_run(const PreparedScene& scene, MethodCurve::Kind kind, WorkPrec
 
 RemoteEngine& TimingWorkers::worker(const std::string& engine, const std::string& precision) {
   const auto found = find_engine(engine, precision, installed_);
-  if (!found)
-    throw std::runtime_error(not_installed_text(engine, precision));
+  if (!found) throw std::runtime_error(not_installed_text(engine, precision));
   std::unique_ptr<RemoteEngine>& worker = workers_[found->command];
   if (!worker || !worker->alive()) {
     worker.reset();
