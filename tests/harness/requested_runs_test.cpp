@@ -1,13 +1,17 @@
 #include "harness/run/requested_runs.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "../support/in_folder.h"
 #include "../support/refusal.h"
+#include "engine/engine_registry.h"
 #include "engine/protocol.h"
 #include "harness/run/engine_grid.h"
 #include "scenario/fault.h"
@@ -158,9 +162,12 @@ TEST_F(RequestedRunsTest, EverythingThatIsWrongIsToldAtOnceAndOnce) {
       "    - {engine: faulty, rate: 60, profile: ./other.yaml}\n"
       // Not installed here, but what it names is looked at all the same.
       "    - {engine: faulty, precision: single, rate: 60, profile: none.yaml}\n");
+  std::set<std::string> engines = {"faulty"};
+  for (const KnownEngine& known : known_engines()) engines.insert(known.name);
   const std::vector<std::string> expected = {
-      "scenes/ball.yaml:12:8: compare.engines[0].engine: must be one of the engines bullet, "
-      "faulty (did you mean bullet?), got bulet",
+      fmt::format("scenes/ball.yaml:12:8: compare.engines[0].engine: must be one of the engines {} "
+                  "(did you mean bullet?), got bulet",
+                  fmt::join(engines, ", ")),
       "scenes/ball.yaml:13:34: compare.engines[1].profile: scenes/none.yaml must be a readable "
       "file: No such file or directory, got none.yaml",
       "scenes/typo.yaml:3:1: nam: is not a key here (did you mean name?)",

@@ -215,7 +215,7 @@ TEST(SceneRun, WhatAnEngineIsKnownToDoIsWithin) {
 TEST(SceneRun, WhatIsNotThereIsSkippedWithAReason) {
   const auto scenes = run(pair_scene("{engine: faulty, precision: single, rate: 240}"));
   EXPECT_EQ(scenes[0].runs[0].status, EngineRecord::Status::skipped);
-  EXPECT_EQ(scenes[0].runs[0].reason, "slipcheck-engine-faulty-single is not installed");
+  EXPECT_EQ(scenes[0].runs[0].reason, "faulty (single) is not installed");
   EXPECT_EQ(scenes[0].verdict(), Verdict::undecided);
 }
 
@@ -236,7 +236,7 @@ TEST(SceneRun, APreparedSceneServesAnySettings) {
   options.phases = 8;
   run_engines(tasks, options);
   EXPECT_EQ(missing.status, EngineRecord::Status::skipped);
-  EXPECT_EQ(missing.reason, "slipcheck-engine-bullet-half is not installed");
+  EXPECT_EQ(missing.reason, "bullet (half) is not installed: Debian package libbullet-dev");
 
   const auto whole =
       run(pair_scene("{engine: bullet, precision: double, profile: naive, rate: 240}"));

@@ -32,7 +32,7 @@ constexpr std::size_t kMostBodies = 400'000;
 std::vector<std::string> engine_names() {
   std::set<std::string> names;
   for (const KnownEngine& known : known_engines()) names.insert(known.name);
-  for (const EngineExecutable& found : find_engines()) names.insert(found.engine);
+  for (const EngineExecutable& found : find_engines()) names.insert(engine_family(found.engine));
   return {names.begin(), names.end()};
 }
 
