@@ -13,8 +13,10 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/load_files.h"
+#include "app/number_range.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
+#include "app/say.h"
 #include "app/set_option.h"
 #include "app/update_baselines.h"
 #include "harness/run/scene_run.h"
@@ -132,18 +134,22 @@ void update(const CheckArguments& arguments, const Baselines& old,
     write_update(update, arguments.baselines, arguments.changes,
                  changes_line(update, report, engines_of(scenes), arguments.why));
   if (arguments.quiet) return;
-  FILE* const out = arguments.json == "-" ? stderr : stdout;
   // Scenes that are new or gone are counted below.
   CheckReport compared = report;
   std::erase_if(compared.scenes, [](const SceneCheck& scene) { return scene.compared == 0; });
-  if (!compared.scenes.empty())
-    fmt::print(out, "{}\n", check_table(compared, table_style(arguments.all)));
-  fmt::print(out, "{}: {} new, {} changed, {} removed, {} as they were\n", arguments.baselines,
-             update.added.size(), update.changed.size(), update.removed.size(), update.unchanged);
-  if (update.empty()) return;
-  fmt::print(out,
-             "Next: look at git diff {}, say why in the last line of {}, and commit both alone.\n",
-             arguments.baselines, arguments.changes);
+  std::string text;
+  if (!compared.scenes.empty()) text = check_table(compared, table_style(arguments.all)) + '\n';
+  text += fmt::format("{}: {} new, {} changed, {} removed, {} as they were\n", arguments.baselines,
+                      update.added.size(), update.changed.size(), update.removed.size(),
+                      update.unchanged);
+  if (!update.empty())
+    text += fmt::format(
+        "Next: look at git diff {}, say why in the last line of {}, and commit both alone.\n",
+        arguments.baselines, arguments.changes);
+  if (arguments.json == "-")
+    say("{}", text);
+  else
+    fmt::print("{}", text);
 }
 
 int check(CheckArguments& arguments) {
@@ -160,7 +166,7 @@ int check(CheckArguments& arguments) {
 
   arguments.options.stop = &interrupted();
   arguments.options.limits.memory = arguments.memory_limit << 20;
-  if (!arguments.quiet) fmt::print(stderr, "{}", debug_build_warning());
+  if (!arguments.quiet) say("{}", debug_build_warning());
   std::vector<SceneRecord> scenes;
   {
     ProgressBar bar("checking", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
@@ -169,7 +175,7 @@ int check(CheckArguments& arguments) {
   }
   if (interrupted()) {
     // What has not run is no move.
-    if (!arguments.quiet) fmt::print(stderr, "interrupted: nothing was written\n");
+    if (!arguments.quiet) say("interrupted: nothing was written\n");
     return kInterrupted;
   }
   const CheckReport report = hold(arguments, baselines, scenes, all);
@@ -210,7 +216,7 @@ void add_running(CLI::App& command, CheckArguments& arguments) {
   command
       .add_option("--time-limit", arguments.options.time_limit,
                   "Wall-clock seconds for one run of an engine, and for a scene's reference")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command.add_option("--memory-limit", arguments.memory_limit, "MiB for one engine")
       ->check(CLI::Range(16, 1 << 20))

@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/number_range.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
 #include "engine/engine_registry.h"
@@ -121,7 +122,7 @@ void add_conformance_command(CLI::App& app, int& exit_code) {
   command->add_option("--precision", arguments->precision, "Of an engine's workers only this one")
       ->check(CLI::IsMember({"single", "double"}));
   command->add_option("--reply-limit", arguments->reply_limit, "Time that a reply may take [s]")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(number_range(0.1, 3600.0))
       ->capture_default_str();
   command->add_option("--only", arguments->only, "Checks, by their names, separated by commas")
       ->delimiter(',')

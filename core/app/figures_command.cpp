@@ -11,6 +11,7 @@
 #include "app/interrupt.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
+#include "app/say.h"
 #include "base/stop_scope.h"
 #include "figures/paper_figures.h"
 #include "report/files/csv.h"
@@ -51,9 +52,7 @@ std::vector<PaperFigureMaker> chosen(const std::vector<std::string>& only) {
 int draw(const FiguresArguments& arguments) {
   const std::vector<PaperFigureMaker> makers = chosen(arguments.only);
   const fs::path directory = arguments.directory;
-  std::error_code ignored;
-  if (fs::exists(directory, ignored) && !fs::is_directory(directory, ignored))
-    throw BadOption(fmt::format("DIR: must be a directory, got {}", directory.string()));
+  check_output("DIR", directory, true);
   fs::create_directories(directory);
 
   watch_for_interrupts();
@@ -76,7 +75,7 @@ int draw(const FiguresArguments& arguments) {
   const std::vector<Chart> page(figures.begin(), figures.end());
   const ChartDrawings drawn = write_charts_if_drawn(directory, page);
   if (interrupted()) {
-    if (!arguments.quiet) fmt::print(stderr, "interrupted: what had finished is kept\n");
+    if (!arguments.quiet) say("interrupted: what had finished is kept\n");
     return kInterrupted;
   }
   // These are of all figures; a few of them do not replace them.

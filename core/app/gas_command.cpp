@@ -9,8 +9,10 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/load_files.h"
+#include "app/number_range.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
+#include "app/say.h"
 #include "report/files/files.h"
 #include "report/json/gas_json.h"
 #include "report/rows/context.h"
@@ -52,7 +54,7 @@ int cool(GasArguments& arguments) {
   if (!(options.setup.speed > 0))
     throw BadOption("--speed: must be given for a scene whose bodies are at rest");
 
-  if (!arguments.quiet) fmt::print(stderr, "{}", debug_build_warning());
+  if (!arguments.quiet) say("{}", debug_build_warning());
   GasRun run;
   {
     ProgressBar bar("cooling", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
@@ -78,7 +80,7 @@ int cool(GasArguments& arguments) {
     fmt::print("{}", terminal_table(gas_statements(run), table_style(), 2));
   }
   if (run.interrupted) {
-    if (!arguments.quiet) fmt::print(stderr, "interrupted: what had finished is kept\n");
+    if (!arguments.quiet) say("interrupted: what had finished is kept\n");
     return kInterrupted;
   }
   return kWithinTolerance;
@@ -102,17 +104,17 @@ void add_gas_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({2, 3}))
       ->capture_default_str();
   command->add_option("--fraction", options.setup.filled, "Of the space that the particles fill")
-      ->check(CLI::Range(1e-12, 0.5))
+      ->check(number_range(1e-12, 0.5))
       ->capture_default_str();
   command
       ->add_option("--speed", arguments->speed,
                    "Root mean square at the start [m/s]; else that of the scene's bodies")
-      ->check(CLI::Range(1e-12, 1e9));
+      ->check(number_range(1e-12, 1e9));
   command->add_option("--rotation", options.setup.rotation, "T_rot/T at the start")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(number_range(0.0, 1e6))
       ->capture_default_str();
   command->add_option("--collisions", options.collisions, "Of a particle, at the end")
-      ->check(CLI::Range(0.1, 1e6))
+      ->check(number_range(0.1, 1e6))
       ->capture_default_str();
   command->add_option("--samples", options.samples, "Evenly over these")
       ->check(CLI::Range(8, 100000))
@@ -120,7 +122,7 @@ void add_gas_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--step", options.setup.step,
                    "Of time, in mean times between collisions of a particle")
-      ->check(CLI::Range(1e-3, 1.0))
+      ->check(number_range(1e-3, 1.0))
       ->capture_default_str();
   command->add_option("--seed", options.setup.seed, "Of the random numbers")->capture_default_str();
   options.setup.threads = 0;

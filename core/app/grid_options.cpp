@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/interrupt.h"
+#include "app/number_range.h"
 #include "app/output.h"
 #include "engine/profile.h"
 
@@ -37,7 +38,7 @@ void add_grid_options(CLI::App& command, GridArguments& arguments, GridEngines e
   command
       .add_option("--time-limit", arguments.options.time_limit,
                   "Wall-clock seconds for one run of an engine, and for a scene's reference")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command.add_option("--memory-limit", arguments.memory_limit, "MiB for one engine")
       ->check(CLI::Range(16, 1 << 20))

@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/list_engines.h"
 #include "app/print_list.h"
+#include "app/say.h"
 #include "scenario/fault.h"
 #include "scenario/load.h"
 #include "scenario/observable_names.h"
@@ -33,7 +34,7 @@ Json list_scenarios() {
                           {"bodies", scenario.bodies.size()},
                           {"file", fs::proximate(file, ignored).string()}});
     } catch (const BadScenario& bad) {
-      fmt::print(stderr, "{}\n", bad.what());
+      say("{}\n", bad.what());
     }
   }
   return list;

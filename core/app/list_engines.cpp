@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/say.h"
 #include "engine/engine_registry.h"
 #include "engine/profile.h"
 #include "engine/remote_engine.h"
@@ -101,7 +102,7 @@ Json list_profiles() {
                             {"settings", profile.settings.size()},
                             {"about", profile.about}});
       } catch (const BadScenario& bad) {
-        fmt::print(stderr, "{}\n", bad.what());
+        say("{}\n", bad.what());
       }
     }
   return list;
@@ -130,7 +131,7 @@ Json list_settings() {
         list.push_back(std::move(entry));
       }
     } catch (const WorkerFailure& failure) {
-      fmt::print(stderr, "{}: {}\n", executable.command.program.string(), failure.what());
+      say("{}: {}\n", executable.command.program.string(), failure.what());
     }
   }
   return list;

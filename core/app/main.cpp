@@ -1,18 +1,51 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <system_error>
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/say.h"
 #include "base/stop_scope.h"
+#include "base/text.h"
 #include "report/rows/context.h"
 #include "scenario/fault.h"
 #include "scene/scene.h"
 
-int main(int argc, char** argv) {
-  using namespace slipcheck;
+namespace slipcheck {
+namespace {
+
+/// The exit code, unless some of what was printed is lost: a full disk shows only now.
+int printed(int exit_code) {
+  if (exit_code == kNotWritten) return exit_code;  // which has been told
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  if (flushed && !std::ferror(stdout)) return exit_code;
+  say("slipcheck: cannot write to stdout{}\n",
+      errno == 0 ? "" : ": " + std::generic_category().message(errno));
+  return kNotWritten;
+}
+
+/// Lines that say what is wrong, with names and values out of files that others wrote.
+std::string lines_of(std::string_view text) {
+  std::string lines;
+  while (true) {
+    const std::size_t end = text.find('\n');
+    lines += printable(text.substr(0, end));
+    if (end == std::string_view::npos) return lines;
+    lines += '\n';
+    text.remove_prefix(end + 1);
+  }
+}
+
+int run_command_line(int argc, char** argv) {
   CLI::App app{
       "Slipcheck holds physics engines against a reference of spheres that collide, slide and "
       "roll."};
@@ -45,22 +78,35 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // Help and version end well; everything else is bad input.
-    return app.exit(error) == 0 ? kWithinTolerance : kBadInput;
+    std::ostringstream out, trouble;
+    const bool well = app.exit(error, out, trouble) == 0;
+    std::fputs(out.str().c_str(), stdout);
+    say("{}", trouble.str());
+    return well ? kWithinTolerance : kBadInput;
   } catch (const BadScenario& bad) {
-    fmt::print(stderr, "{}\n", bad.what());
+    say("{}\n", lines_of(bad.what()));
     return kBadInput;
   } catch (const Unsupported& unsupported) {
-    fmt::print(stderr, "{}\n", unsupported.what());
+    say("{}\n", lines_of(unsupported.what()));
     return kBadInput;
   } catch (const Interrupted& stopped) {
-    fmt::print(stderr, "{}\n", stopped.what());
+    say("{}\n", stopped.what());
     return kInterrupted;
   } catch (const BadOption& bad) {
-    fmt::print(stderr, "slipcheck: {}\n", bad.what());
+    say("slipcheck: {}\n", lines_of(bad.what()));
     return kBadInput;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "slipcheck: {}\n", error.what());
+    say("slipcheck: {}\n", lines_of(error.what()));
     return kNotWritten;
   }
   return exit_code;
+}
+
+}  // namespace
+}  // namespace slipcheck
+
+int main(int argc, char** argv) {
+  // What grows beyond the limit of a file's size is then an error of its write.
+  std::signal(SIGXFSZ, SIG_IGN);
+  return slipcheck::printed(slipcheck::run_command_line(argc, argv));
 }

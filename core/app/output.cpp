@@ -8,28 +8,51 @@
 
 #include "app/commands.h"
 #include "app/progress_bar.h"
+#include "app/say.h"
 #include "report/files/files.h"
 
 namespace slipcheck {
 
 namespace fs = std::filesystem;
 
-void check_output(const std::string& option, const fs::path& path, bool is_directory) {
-  if (path.empty() || path == "-") return;
+namespace {
+
+void check_folder(const std::string& option, const fs::path& path) {
   std::error_code ignored;
-  if (is_directory) {
-    if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
-      throw BadOption(fmt::format("{}: must be a directory, got {}", option, path.string()));
-    return;
-  }
-  const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(parent, ignored))
-    throw BadOption(fmt::format("{}: its directory must exist, got {}", option, path.string()));
-  if (access(parent.c_str(), W_OK) != 0)
-    throw BadOption(
-        fmt::format("{}: its directory must be writable, got {}", option, path.string()));
+  if (fs::exists(path, ignored) && !fs::is_directory(path, ignored))
+    throw BadOption(fmt::format("{}: must be a directory, got {}", option, path.string()));
+  if (const std::string why = why_not_writable(path); !why.empty())
+    throw BadOption(fmt::format("{}: must be a directory that can be written to, got {}: {}",
+                                option, path.string(), why));
+}
+
+void check_file(const std::string& option, const fs::path& path) {
+  std::error_code ignored;
+  const bool exists = fs::exists(path, ignored);
   if (fs::is_directory(path, ignored))
     throw BadOption(fmt::format("{}: must be a file, got {}", option, path.string()));
+  if (exists && !fs::is_regular_file(path, ignored)) {
+    if (access(path.c_str(), W_OK) != 0)
+      throw BadOption(fmt::format("{}: must be writable, got {}", option, path.string()));
+    return;
+  }
+  const fs::path target = exists ? fs::canonical(path, ignored) : path;
+  const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (!fs::is_directory(parent, ignored))
+    throw BadOption(fmt::format("{}: its directory must exist, got {}", option, path.string()));
+  if (const std::string why = why_not_writable(parent); !why.empty())
+    throw BadOption(
+        fmt::format("{}: its directory must be writable, got {}: {}", option, path.string(), why));
+}
+
+}  // namespace
+
+void check_output(const std::string& option, const fs::path& path, bool is_directory) {
+  if (path.empty() || path == "-") return;
+  if (is_directory)
+    check_folder(option, path);
+  else
+    check_file(option, path);
 }
 
 void write_json(const std::string& path, const std::function<std::string()>& text) {
@@ -42,8 +65,7 @@ void write_json(const std::string& path, const std::function<std::string()>& tex
 ChartDrawings write_charts_if_drawn(const fs::path& folder, const std::vector<Chart>& charts) {
   ChartDrawings drawings = draw_charts(charts);
   write_charts(folder, charts, drawings, false);
-  if (!drawings.trouble.empty())
-    fmt::print(stderr, "slipcheck: without some charts: {}\n", drawings.trouble);
+  if (!drawings.trouble.empty()) say("slipcheck: without some charts: {}\n", drawings.trouble);
   return drawings;
 }
 

@@ -11,8 +11,10 @@
 #include "app/grid_options.h"
 #include "app/interrupt.h"
 #include "app/load_files.h"
+#include "app/number_range.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
+#include "app/say.h"
 #include "report/charts/report_charts.h"
 #include "report/files/files.h"
 #include "report/files/precision_csv.h"
@@ -65,7 +67,7 @@ int measure(PrecisionArguments& arguments) {
   arguments.grid.engines = common.engines;
   std::ranges::sort(arguments.grid.rates);
 
-  if (!common.quiet) fmt::print(stderr, "{}", debug_build_warning());
+  if (!common.quiet) say("{}", debug_build_warning());
   std::vector<PrecisionScene> scenes;
   {
     ProgressBar bar("measuring", !common.quiet && is_plain_terminal(STDERR_FILENO));
@@ -82,8 +84,8 @@ int measure(PrecisionArguments& arguments) {
       fmt::print("{}", precision_table(scenes, style));
     }
     if (!common.directory.empty())
-      fmt::print(stderr, "{}\n", (fs::path(common.directory) / "precision.html").string());
-    if (interrupted()) fmt::print(stderr, "interrupted: what had finished is kept\n");
+      say("{}\n", (fs::path(common.directory) / "precision.html").string());
+    if (interrupted()) say("interrupted: what had finished is kept\n");
   }
   return exit_code_of(scenes);
 }
@@ -102,7 +104,7 @@ void add_precision_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--rates", arguments->grid.rates, "Steps per second, separated by commas [Hz]")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command
       ->add_option("--iterations", arguments->grid.iterations,

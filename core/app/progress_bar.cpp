@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <mutex>
 
+#include "app/say.h"
+
 namespace slipcheck {
 
 bool is_plain_terminal(int file_descriptor) {
@@ -30,7 +32,7 @@ ProgressBar::ProgressBar(std::string label, bool shown) : label_(std::move(label
       drawn = true;
       pause = 200ms;
     }
-    if (drawn) fmt::print(stderr, "\r\x1b[K");
+    if (drawn) say("\r\x1b[K");
     std::fflush(stderr);
   });
 }
@@ -46,8 +48,8 @@ void ProgressBar::draw(double seconds) const {
   constexpr std::size_t width = 30;
   const std::size_t total = total_, done = done_;
   const std::size_t filled = total > 0 ? width * done / total : 0;
-  fmt::print(stderr, "\r\x1b[K{} [{:█<{}}{:·<{}}] {}/{}  {:.0f} s", label_, "", filled, "",
-             width - filled, done, total, seconds);
+  say("\r\x1b[K{} [{:█<{}}{:·<{}}] {}/{}  {:.0f} s", label_, "", filled, "", width - filled, done,
+      total, seconds);
   std::fflush(stderr);
 }
 

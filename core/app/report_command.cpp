@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/result_outputs.h"
+#include "app/say.h"
 #include "report/json/read_folders.h"
 
 namespace slipcheck {
@@ -32,7 +33,7 @@ int report(const ReportArguments& arguments) {
       fmt::format("slipcheck report {}", fmt::join(arguments.folders, " "))};
   write_outputs(arguments.outputs, results.content);
   if (!arguments.quiet) {
-    for (const std::string& note : results.ignored) fmt::print(stderr, "left out: {}\n", note);
+    for (const std::string& note : results.ignored) say("left out: {}\n", note);
     fmt::print("{}\n", arguments.outputs.html);
   }
   return kWithinTolerance;

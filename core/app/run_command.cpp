@@ -11,9 +11,11 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/load_files.h"
+#include "app/number_range.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
 #include "app/result_outputs.h"
+#include "app/say.h"
 #include "app/set_option.h"
 #include "engine/profile.h"
 #include "harness/run/engine_grid.h"
@@ -79,8 +81,8 @@ void print_warnings(const std::vector<SceneRecord>& scenes) {
   for (const SceneRecord& scene : scenes)
     for (const EngineRecord& run : scene.runs)
       if (run.status != EngineRecord::Status::ok && run.verdict() != Verdict::within)
-        fmt::print(stderr, "{}: {} {} {} at {} {}: {}\n", scene.scenario.name, run.engine,
-                   run.precision, run.profile, run.rate_text(), name_of(run.status), run.reason);
+        say("{}: {} {} {} at {} {}: {}\n", scene.scenario.name, run.engine, run.precision,
+            run.profile, run.rate_text(), name_of(run.status), run.reason);
 }
 
 /// What is asked for in place of what the scenes say. Profiles that are paths are taken from the
@@ -127,7 +129,7 @@ int run(RunArguments& arguments) {
   arguments.options.record_motion = arguments.outputs.show_motion() || !arguments.directory.empty();
   arguments.options.limits.memory = arguments.memory_limit << 20;
   if (is_debug_build() && !arguments.quiet)
-    fmt::print(stderr, "warning: this is a debug build; its run times say nothing\n");
+    say("warning: this is a debug build; its run times say nothing\n");
   ReportContent content;
   content.context = context();
   {
@@ -148,7 +150,7 @@ int run(RunArguments& arguments) {
       fmt::print("{}", summary_of(scenes, style));
     }
     print_warnings(scenes);
-    if (interrupted()) fmt::print(stderr, "interrupted: what had finished is kept\n");
+    if (interrupted()) say("interrupted: what had finished is kept\n");
   }
   return exit_code_of(scenes, arguments.outputs.allow_undecided);
 }
@@ -205,7 +207,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--time-limit", arguments->options.time_limit,
                    "Wall-clock seconds for one run of an engine, and for a scene's reference")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command->add_option("--memory-limit", arguments->memory_limit, "MiB for one engine")
       ->check(CLI::Range(16, 1 << 20))

@@ -13,8 +13,10 @@
 #include "app/grid_options.h"
 #include "app/interrupt.h"
 #include "app/load_files.h"
+#include "app/number_range.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
+#include "app/say.h"
 #include "report/charts/report_charts.h"
 #include "report/files/files.h"
 #include "report/files/stability_csv.h"
@@ -106,7 +108,7 @@ int examine(StabilityArguments& arguments) {
   arguments.grid.engines = common.engines;
   std::ranges::sort(arguments.grid.rates);
 
-  if (!common.quiet) fmt::print(stderr, "{}", debug_build_warning());
+  if (!common.quiet) say("{}", debug_build_warning());
   const StabilityResults results = run_all(arguments, std::move(cases));
   write_json(common.json,
              [&] { return json_of(results.cases, arguments.grid, results.limits).dump(2) + "\n"; });
@@ -122,8 +124,8 @@ int examine(StabilityArguments& arguments) {
       if (!results.limits.limits.empty()) fmt::print("{}", limits_table(results.limits, style));
     }
     if (!common.directory.empty())
-      fmt::print(stderr, "{}\n", (fs::path(common.directory) / "stability.html").string());
-    if (interrupted()) fmt::print(stderr, "interrupted: what had finished is kept\n");
+      say("{}\n", (fs::path(common.directory) / "stability.html").string());
+    if (interrupted()) say("interrupted: what had finished is kept\n");
   }
   return exit_code_of(results.cases);
 }
@@ -144,7 +146,7 @@ void add_stability_command(CLI::App& app, int& exit_code) {
       ->add_option("--rates", arguments->grid.rates,
                    "Steps per second, separated by commas [Hz]; else each scene's own")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       ->add_option("--limits", arguments->limits,
                    "Limits by bisection and maps: yes, no, or auto: with the catalogue alone")

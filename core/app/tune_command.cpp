@@ -8,8 +8,10 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/number_range.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
+#include "app/say.h"
 #include "app/tune_setup.h"
 #include "report/files/files.h"
 #include "report/files/tuning_profile.h"
@@ -38,9 +40,8 @@ class Progress {
                 const TuningEvaluator& evaluator) const {
     if (quiet_) return;
     const std::string changes = changes_text(*space_, space_->start, best.settings);
-    fmt::print(
-        stderr, "{}{:>4.0f} {:<10}  worst {}  {}\n", on_terminal_ ? "\r\x1b[K" : "",
-        evaluator.spent(), step, tuning_error_text(best.runs[best.score.worst_run]),
+    say("{}{:>4.0f} {:<10}  worst {}  {}\n", on_terminal_ ? "\r\x1b[K" : "", evaluator.spent(),
+        step, tuning_error_text(best.runs[best.score.worst_run]),
         step == "start" ? space_->start.empty() ? "the engine's own settings" : "" : changes);
   }
 
@@ -89,14 +90,13 @@ int tune_engine(TuneArguments& arguments) {
   check_output("--json", arguments.json, false);
   watch_for_interrupts();
   TuneSetup setup = prepare_tuning(arguments);
-  if (!arguments.quiet) fmt::print(stderr, "{}", debug_build_warning());
+  if (!arguments.quiet) say("{}", debug_build_warning());
   try {
     setup.record.result = search(arguments, setup);
   } catch (const TuningInterrupted&) {
     if (!arguments.quiet)
-      fmt::print(stderr,
-                 "interrupted: what had finished is kept in {}; the same command goes on there\n",
-                 setup.journal_file);
+      say("interrupted: what had finished is kept in {}; the same command goes on there\n",
+          setup.journal_file);
     return kInterrupted;
   }
 
@@ -106,13 +106,11 @@ int tune_engine(TuneArguments& arguments) {
   if (!arguments.quiet) {
     if (arguments.json != "-") fmt::print("{}", tuning_table(record, table_style()));
     if (!record.result.improved())
-      fmt::print(stderr, "nothing that was tried is better than {}: its settings were written\n",
-                 record.result.best().profile);
+      say("nothing that was tried is better than {}: its settings were written\n",
+          record.result.best().profile);
     if (record.result.overfitted())
-      fmt::print(stderr,
-                 "warning: overfitted: scenes that were held out deviate more than twice\n");
-    fmt::print(stderr, "{} written; {} has every run and may be deleted\n", arguments.output,
-               setup.journal_file);
+      say("warning: overfitted: scenes that were held out deviate more than twice\n");
+    say("{} written; {} has every run and may be deleted\n", arguments.output, setup.journal_file);
   }
   return exit_code_of(record.result);
 }
@@ -128,7 +126,7 @@ void add_scene_options(CLI::App& command, TuneArguments& arguments) {
       ->capture_default_str();
   command.add_option("--rates", arguments.rates, "Steps per second, separated by commas [Hz]")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command
       .add_option("--observables", arguments.observables,
@@ -161,16 +159,16 @@ void add_search_options(CLI::App& command, TuneArguments& arguments) {
       .add_option(
           "--budget", arguments.budget.evaluations,
           "Evaluations of all scenes at all rates; the pruning and the last comparison come after")
-      ->check(CLI::NonNegativeNumber)
+      ->check(non_negative_number())
       ->capture_default_str();
   command
       .add_option("--time", arguments.budget.seconds,
                   "Seconds of wall time for the search, earlier sessions included")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       .add_option("--time-limit", arguments.time_limit,
                   "Wall-clock seconds for one run of the engine, and for a scene's reference")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command
       .add_option("--workers", arguments.workers, "Engines at work at once; 0: one for each core")

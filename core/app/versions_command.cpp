@@ -13,8 +13,10 @@
 #include "app/grid_options.h"
 #include "app/interrupt.h"
 #include "app/load_files.h"
+#include "app/number_range.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
+#include "app/say.h"
 #include "engine/engine_registry.h"
 #include "engine/remote_engine.h"
 #include "report/charts/report_charts.h"
@@ -103,7 +105,7 @@ int compare(VersionsArguments& arguments) {
   std::vector<Scenario> scenarios = load_files(common.files);
   ask_for_both(scenarios, arguments);
 
-  if (!common.quiet) fmt::print(stderr, "{}", debug_build_warning());
+  if (!common.quiet) say("{}", debug_build_warning());
   VersionComparison& comparison = arguments.comparison;
   {
     ProgressBar bar("comparing", !common.quiet && is_plain_terminal(STDERR_FILENO));
@@ -127,8 +129,8 @@ int compare(VersionsArguments& arguments) {
       if (changes.size() > most) fmt::print("  and {} more: --all\n", changes.size() - most);
     }
     if (!common.directory.empty())
-      fmt::print(stderr, "{}\n", (fs::path(common.directory) / "versions.html").string());
-    if (interrupted()) fmt::print(stderr, "interrupted: what had finished is kept\n");
+      say("{}\n", (fs::path(common.directory) / "versions.html").string());
+    if (interrupted()) say("interrupted: what had finished is kept\n");
   }
   return exit_code_of(comparison, changes);
 }
@@ -148,12 +150,12 @@ void add_versions_command(CLI::App& app, int& exit_code) {
   add_grid_options(*command, arguments->common, GridEngines::given);
   command->add_option("--rates", arguments->rates, "Steps per second, separated by commas [Hz]")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command
       ->add_option("--threshold", comparison.threshold,
                    "What moves by less counts as unmoved [tolerances]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(non_negative_number())
       ->capture_default_str();
   command->add_flag("--all", arguments->all, "Show every change");
   command->footer(

@@ -8,6 +8,7 @@ import json
 import math
 import os
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -169,6 +170,67 @@ class CommandLine(unittest.TestCase):
         result = run("run", self.scene(""), "--json", "/dev/full")
         self.assertEqual(result.returncode, 4)
         self.assertIn("cannot write /dev/full", result.stderr)
+
+    def test_what_is_no_number_is_in_no_range(self):
+        scene = self.scene("")
+        for arguments in (["run", scene, "--time-limit"], ["check", scene, "--time-limit"],
+                          ["precision", scene, "--rates"], ["stability", scene, "--rates"],
+                          ["tune", scene, "--engine", "bullet", "-o", self.path / "p.yaml", "--budget"],
+                          ["versions", "a", "b", "c", "--threshold"], ["gas", scene, "--fraction"],
+                          ["conformance", "bullet", "--reply-limit"]):
+            for number in ("nan", "-nan", "-1"):
+                with self.subTest(f"{arguments[0]} {arguments[-1]} {number}"):
+                    result = run(*arguments[:-1], f"{arguments[-1]}={number}")
+                    self.assertEqual((result.returncode, result.stdout), (2, ""))
+                    self.assertIn(f"{arguments[-1]}: Value {number} ", result.stderr)
+
+    def test_a_full_disk_is_told_wherever_something_is_printed(self):
+        scene = self.scene("{engine: bullet, rate: 240}")
+        commands = [["--version"], ["list", "observables"], ["schema"], ["explain", scene],
+                    ["run", scene], ["check", scene, "--baselines", self.path / "none"],
+                    ["precision", scene, "--rates", "240", "--phases", "1", "--profiles", "default"],
+                    ["stability", scene, "--rates", "240", "--phases", "1", "--profiles", "default"]]
+        with open("/dev/full", "w") as full:
+            for command in commands:
+                with self.subTest(command):
+                    result = subprocess.run([SLIPCHECK, *map(str, command)], stdout=full, text=True,
+                                            stderr=subprocess.PIPE, timeout=600)
+                    self.assertEqual(result.returncode, 4, result.stderr)
+                    self.assertIn("cannot write to ", result.stderr)
+                    self.assertIn("No space left on device", result.stderr)
+            # Who cannot read a message loses that alone.
+            for command, code in ((["run", self.path / "none.yaml"], 2), (["nonsense"], 2),
+                                  (["run", scene, "--svg", "/dev/null"], 2),
+                                  (["report", scene, "-o", self.path / "page.html"], 2)):
+                with self.subTest(command):
+                    result = subprocess.run([SLIPCHECK, *map(str, command)], stderr=full,
+                                            stdout=subprocess.PIPE, timeout=600)
+                    self.assertEqual(result.returncode, code)
+
+    def test_a_limit_on_the_size_of_files_leaves_none_behind(self):
+        scene, out = self.scene(""), self.path / "out.json"
+        files = sorted(self.path.iterdir())
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+        result = subprocess.run([SLIPCHECK, "run", scene, "--json", out], capture_output=True,
+                                text=True, timeout=600, preexec_fn=limit)
+        self.assertEqual((result.returncode, result.stderr),
+                         (4, f"slipcheck: cannot write {out}: File too large\n"))
+        self.assertEqual(sorted(self.path.iterdir()), files)
+
+    def test_what_cannot_be_written_is_refused_before_anything_runs(self):
+        # In /proc not even root can make a folder.
+        scene, file = self.scene("{engine: no-such-engine, rate: 240}"), self.path / "file"
+        file.write_text("a file")
+        for option in ("--out", "--svg", "--vtk", "--xyz"):
+            for folder in ("/proc/results", "/proc/none/results", file / "results"):
+                with self.subTest(f"{option} {folder}"):
+                    result = run("run", scene, option, folder)
+                    self.assertEqual((result.returncode, result.stdout), (2, ""))
+                    self.assertIn(f"slipcheck: {option}: must be a directory that can be written "
+                                  f"to, got {folder}: ", result.stderr)
+        self.assertEqual(run("run", scene, "--html", "/proc/page.html").returncode, 2)
+        self.assertEqual(run("figures", "/proc/figures", "--only", "K7").returncode, 2)
+        self.assertEqual(sorted(self.path.iterdir()), [file, scene])
 
     def test_model_without_a_solver_is_refused_by_name(self):
         file = self.scene("")

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -101,6 +102,29 @@ TEST_F(WriteFile, LeavesTheOldFileAndNoOtherWhenTheNameIsTooLong) {
   const fs::path path = folder_ / std::string(300, 'n');
   EXPECT_EQ(failure(path), "cannot write " + path.string() + ": File name too long");
   EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(WriteFile, PassesOverWhatAnEarlierProcessOfThisNumberLeft) {
+  for (int k = 0; k < 1000; ++k)
+    std::ofstream(folder_ /
+                  (".slipcheck-" + std::to_string(::getpid()) + "-" + std::to_string(k) + ".tmp"))
+        << "left";
+  write_file_atomically(folder_ / "result.json", "new");
+  EXPECT_EQ(read(folder_ / "result.json"), "new");
+  EXPECT_EQ(files(), 1001u);
+}
+
+TEST_F(WriteFile, TellsBeforehandWhatFolderTakesNothing) {
+  EXPECT_EQ(why_not_writable(folder_), "");
+  EXPECT_EQ(why_not_writable(folder_ / "not" / "yet"), "");
+  write_file_atomically(folder_ / "file", "");
+  EXPECT_EQ(why_not_writable(folder_ / "file" / "below"), "Not a directory");
+  EXPECT_EQ(files(), 1u);
+  fs::remove(folder_ / "file");
+  const AsNobody nobody(folder_);
+  if (nobody.is_still_root()) GTEST_SKIP() << "root may write everywhere, and cannot be left";
+  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_EQ(why_not_writable(folder_ / "not" / "yet"), "Permission denied");
 }
 
 TEST_F(WriteFile, WritesToTheTargetOfALink) {

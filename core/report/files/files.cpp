@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 namespace slipcheck {
 namespace {
@@ -19,22 +20,47 @@ namespace fs = std::filesystem;
       fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(error)));
 }
 
+/// A name in the same directory that no other thread uses, nor another process that sees this one;
+/// in a container the next one may have the same number. It is short, since the target's own name
+/// may already be as long as a name can be.
+fs::path temporary_name(const fs::path& directory) {
+  static std::atomic<unsigned> count = 0;
+  return directory / fmt::format(".slipcheck-{}-{}.tmp", ::getpid(), count++);
+}
+
 /// An open file that is closed, and removed where it has a name, unless it was kept.
 class OpenFile {
  public:
   /// Throws WriteFailure about `target`, the file that the user knows.
-  OpenFile(const fs::path& path, int flags, const fs::path& target, fs::path remove_later = {})
-      : target_(target),
-        remove_later_(std::move(remove_later)),
-        descriptor_(::open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666)) {
+  OpenFile(const fs::path& path, const fs::path& target)
+      : target_(target), descriptor_(::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
     if (descriptor_ < 0) fail(target_, errno);
   }
+  /// A new file beside the target, under temporary_name().
+  static OpenFile beside(const fs::path& directory, const fs::path& target) {
+    while (true) {
+      OpenFile file(target);
+      file.remove_later_ = temporary_name(directory);
+      file.descriptor_ =
+          ::open(file.remove_later_.c_str(), O_WRONLY | O_CLOEXEC | O_CREAT | O_EXCL, 0666);
+      if (file.descriptor_ >= 0) return file;
+      const int error = errno;
+      file.remove_later_.clear();  // it is not ours
+      if (error != EEXIST) fail(target, error);
+    }
+  }
+  OpenFile(OpenFile&& other) noexcept
+      : target_(std::move(other.target_)),
+        remove_later_(std::exchange(other.remove_later_, {})),
+        descriptor_(std::exchange(other.descriptor_, -1)) {}
   ~OpenFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
     if (!remove_later_.empty()) ::unlink(remove_later_.c_str());
   }
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
+
+  const fs::path& temporary() const { return remove_later_; }
 
   void write(std::string_view text) {
     while (!text.empty()) {
@@ -61,17 +87,12 @@ class OpenFile {
   void keep() { remove_later_.clear(); }
 
  private:
+  explicit OpenFile(const fs::path& target) : target_(target) {}
+
   fs::path target_;
   fs::path remove_later_;
-  int descriptor_;
+  int descriptor_ = -1;
 };
-
-/// A name in the same directory that no other process or thread uses. It is short, since the
-/// target's own name may already be as long as a name can be.
-fs::path temporary_name(const fs::path& directory) {
-  static std::atomic<unsigned> count = 0;
-  return directory / fmt::format(".slipcheck-{}-{}.tmp", ::getpid(), count++);
-}
 
 /// After a power cut the directory must know the new name; not every file system can promise that.
 void synchronise_directory(const fs::path& directory) {
@@ -87,7 +108,7 @@ void write_file_atomically(const fs::path& path, std::string_view text) {
   struct stat old {};
   const bool exists = ::stat(path.c_str(), &old) == 0;
   if (exists && !S_ISREG(old.st_mode)) {
-    OpenFile file(path, 0, path);
+    OpenFile file(path, path);
     file.write(text);
     file.close(false);
     return;
@@ -98,15 +119,30 @@ void write_file_atomically(const fs::path& path, std::string_view text) {
   const fs::path target = exists ? fs::canonical(path, error) : path;
   if (error) fail(path, error.value());
   const fs::path directory = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  const fs::path temporary = temporary_name(directory);
 
-  OpenFile file(temporary, O_CREAT | O_EXCL, path, temporary);
+  OpenFile file = OpenFile::beside(directory, path);
   file.write(text);
   if (exists) file.set_mode(old.st_mode);
   file.close(true);
-  if (::rename(temporary.c_str(), target.c_str()) != 0) fail(path, errno);
+  if (::rename(file.temporary().c_str(), target.c_str()) != 0) fail(path, errno);
   file.keep();
   synchronise_directory(directory);
+}
+
+std::string why_not_writable(const fs::path& folder) {
+  std::error_code error;
+  fs::path there = fs::absolute(folder, error);
+  while (!error && !fs::exists(there, error) && there.has_relative_path())
+    there = there.parent_path();
+  if (error) return error.message();
+  if (!fs::is_directory(there, error)) return std::generic_category().message(ENOTDIR);
+  fs::path trial = temporary_name(there);
+  while (::mkdir(trial.c_str(), 0777) != 0) {
+    if (errno != EEXIST) return std::generic_category().message(errno);
+    trial = temporary_name(there);
+  }
+  ::rmdir(trial.c_str());
+  return {};
 }
 
 }  // namespace slipcheck

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace slipcheck {
@@ -11,6 +12,10 @@ class WriteFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Why nothing can be written into a folder, or the folder not be made, "Permission denied"; empty
+/// where it can. Tried, since neither a file system nor root keeps to permissions; nothing is left.
+std::string why_not_writable(const std::filesystem::path& folder);
 
 /// Writes a whole file or nothing: under a temporary name beside it, which then takes its place.
 /// Who reads the file at any moment, or after a crash, finds the old text or the new one. What is
