@@ -27,8 +27,9 @@ std::string shown(const nlohmann::json& value) {
 nlohmann::json JsonNode::parse(const std::string& text, const std::string& file) {
   try {
     return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    // "[json.exception.parse_error.101] parse error at line 3, column 5: …"
+  } catch (const Json::exception& error) {
+    // "[json.exception.parse_error.101] parse error at line 3, column 5: …", or, of a number that
+    // no double holds, "[json.exception.out_of_range.406] number overflow parsing '1e400'"
     const std::string_view words = error.what();
     const std::size_t end = words.find("] ");
     throw BadJson(fmt::format("{}: must be JSON: {}", file,

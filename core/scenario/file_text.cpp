@@ -1,17 +1,13 @@
 #include "scenario/file_text.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nettle/sha2.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <cstddef>
 #include <cstdint>
-#include <system_error>
 
+#include "base/regular_file.h"
 #include "scenario/fault.h"
 
 namespace slipcheck {
@@ -20,22 +16,6 @@ namespace {
 [[noreturn]] void refuse(const std::string& file, const std::string& rule, Location location = {}) {
   throw BadScenario({{file, location, "", rule, ""}});
 }
-
-std::string reason(int error) { return std::generic_category().message(error); }
-
-class Descriptor {
- public:
-  explicit Descriptor(int value) : value_(value) {}
-  ~Descriptor() {
-    if (value_ >= 0) close(value_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return value_; }
-
- private:
-  int value_;
-};
 
 /// Length of the well-formed UTF-8 character at the start of `text`, 0 if there is none
 /// (Unicode 15, table 3-7).
@@ -69,28 +49,10 @@ std::size_t character_length(std::string_view text) {
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  // O_NONBLOCK: a fifo without a writer would otherwise never open.
-  const Descriptor descriptor(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-  if (descriptor.get() < 0) refuse(file, "must be a readable file: " + reason(errno));
-  struct stat status = {};
-  if (fstat(descriptor.get(), &status) != 0) refuse(file, "must be readable: " + reason(errno));
-  if (S_ISDIR(status.st_mode)) refuse(file, "must be a file, but is a directory");
-  if (!S_ISREG(status.st_mode)) refuse(file, "must be a regular file");
-
-  const std::string too_big = fmt::format("must have at most {} bytes", kMostBytes);
-  if (static_cast<std::uintmax_t>(status.st_size) > kMostBytes) refuse(file, too_big);
-  std::string bytes;
-  std::array<char, 65536> buffer;
-  while (true) {
-    const ssize_t count = read(descriptor.get(), buffer.data(), buffer.size());
-    if (count == 0) return bytes;
-    if (count < 0) {
-      if (errno == EINTR) continue;
-      refuse(file, "must be readable: " + reason(errno));
-    }
-    bytes.append(buffer.data(), static_cast<std::size_t>(count));
-    if (bytes.size() > kMostBytes) refuse(file, too_big);
+  try {
+    return read_regular_file(path, {kMostBytes});
+  } catch (const UnreadFile& bad) {
+    refuse(path.string(), bad.what());
   }
 }
 

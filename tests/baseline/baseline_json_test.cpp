@@ -99,6 +99,10 @@ TEST(BaselineFile, FaultsHaveFilePlaceRuleAndValue) {
             file + "reference.solver: must be a text, got an object");
   EXPECT_EQ(fault("{\"value\":0.5,\"uncertainty\":1e-16}", "0.5"),
             file + "reference.observables.i.stopping_time: must be an object, got 0.5");
+  EXPECT_EQ(
+      fault("{\"value\":0.5,\"uncertainty\":1e-16}", "{\"value\":0.5,\"uncertainty\":-1e-16}"),
+      file + "reference.observables.i.stopping_time.uncertainty: must be >= 0, got -1e-16");
+  EXPECT_EQ(fault("1e-16", "1e400"), file + "must be JSON: number overflow parsing '1e400'");
   EXPECT_EQ(fault("\"sha256\"", "\"sha\""), file + "sha256: must be there");
   EXPECT_EQ(fault("\"runs\": [", "\"runs\": {}, \"more\": ["),
             file + "runs: must be a list, got an object");

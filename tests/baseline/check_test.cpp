@@ -46,6 +46,16 @@ TEST(Check, NothingHasMovedInTheSameScene) {
   EXPECT_EQ(check.parts[1].label, kRun);
 }
 
+TEST(Check, AVectorWhoseSquareOverflowsHasMoved) {
+  for (const double claimed : {1e156, -1.5e308}) {
+    SceneBaseline baseline = meeting_baseline();
+    baseline.reference["i.final_velocity.x"].value = claimed;
+    baseline.reference["i.final_velocity.y"].value = claimed;
+    EXPECT_EQ(check_scene(baseline, meeting()).changes.size(), 2u) << claimed;
+    EXPECT_FALSE(check_scene(baseline, meeting()).is_green()) << claimed;
+  }
+}
+
 TEST(Check, TheReferenceMayMoveByABillionth) {
   EXPECT_TRUE(after_reference("i.sliding_time", {0.02 * (1 + 1e-10), 0}).is_green());
   EXPECT_EQ(after_reference("i.sliding_time", {0.02 * (1 + 1e-10), 0}).drifted, 1u);

@@ -1,10 +1,12 @@
 #include "studies/baseline/update.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
 #include "../support/in_folder.h"
+#include "../support/refusal.h"
 #include "baselines.h"
 #include "studies/baseline/baseline_json.h"
 
@@ -60,6 +62,13 @@ TEST_F(LoadBaselines, ByScene) {
   std::ofstream(folder_ / "broken.json") << "{";
   EXPECT_EQ(load_baselines(folder_, {"meeting"}).size(), 1u);
   EXPECT_THROW(load_baselines(folder_), BadJson);
+}
+
+TEST_F(LoadBaselines, DoesNotWaitForAPipe) {
+  const fs::path file = folder_ / "meeting.json";
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  EXPECT_EQ(test::refusal_of<BadJson>([&] { load_baselines(folder_, {"meeting"}); }),
+            file.string() + ": must be a regular file");
 }
 
 }  // namespace

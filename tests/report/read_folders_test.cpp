@@ -1,6 +1,7 @@
 #include "report/json/read_folders.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -188,6 +189,29 @@ TEST_F(ReadFolders, SaysWhatCannotBeRead) {
       << refusal();
   write("a.json", std::string());
   EXPECT_TRUE(refusal().starts_with("a.json: must be JSON: ")) << refusal();
+}
+
+TEST_F(ReadFolders, RefusesWhatIsNoNumberOfAResult) {
+  Json result = json_of(record_named("aa"));
+  auto& observables = result["reference"]["observables"];
+  ASSERT_FALSE(observables.empty());
+  const std::string name = observables.begin().key();
+  observables[name]["uncertainty"] = -1;
+  write("a.json", result);
+  EXPECT_EQ(refusal(),
+            "a.json: reference.observables." + name + ".uncertainty: must be >= 0, got -1");
+  write("a.json", std::string("{\"schema\": 1e400}"));
+  EXPECT_EQ(refusal(), "a.json: must be JSON: number overflow parsing '1e400'");
+}
+
+TEST_F(ReadFolders, RefusesWhatIsTooLargeOrNoFileAtOnce) {
+  const fs::path file = write("a.json", std::string("{}"));
+  fs::resize_file(file, std::uintmax_t{20} << 30);  // of holes
+  EXPECT_EQ(refusal(), "a.json: must have at most 536870912 bytes, the limit of result files");
+  fs::remove(file);
+  EXPECT_EQ(refusal({"/dev/zero"}), "/dev/zero: must be a regular file");
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  EXPECT_EQ(refusal({file}), "a.json: must be a regular file");
 }
 
 TEST_F(ReadFolders, SaysThatAFileIsClosed) {

@@ -1,6 +1,8 @@
 #include "harness/compare/observable_scale.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scenario/observable_key.h"
 
@@ -20,7 +22,10 @@ double observable_scale(const Scenario& scenario, const ReferenceValues& referen
   if (key.observable == "final_position")
     for (const Body& body : scenario.bodies)
       if (body.name == key.owner) vector -= body.initial.position;
-  return vector.norm();
+  const double length = vector.norm();
+  // Squares of finite components may overflow.
+  if (std::isfinite(length) || !vector.allFinite()) return length;
+  return std::min(vector.stableNorm(), std::numeric_limits<double>::max());
 }
 
 }  // namespace slipcheck

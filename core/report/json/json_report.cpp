@@ -154,6 +154,8 @@ template <class Fields>
 void describe(Fields& f, ShownObservable& shown) {
   f.or_null("value", shown.value);
   f.or_null("uncertainty", shown.uncertainty, shown.why);
+  if constexpr (Fields::kReads)
+    if (shown.uncertainty.value_or(0) < 0) f["uncertainty"].fault("must be >= 0");
 }
 
 template <class Fields>

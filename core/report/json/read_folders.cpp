@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "base/regular_file.h"
 #include "report/json/common_fields.h"
 #include "report/json/json_report.h"
 #include "report/json/motion_json.h"
@@ -22,10 +22,12 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw BadJson(fmt::format("{}: cannot be read", file.string()));
-  return text;
+  try {
+    return read_regular_file(file, kResultFileLimit);
+  } catch (const UnreadFile& bad) {
+    const char* rule = bad.error() != 0 ? "cannot be read" : bad.what();
+    throw BadJson(fmt::format("{}: {}", file.string(), rule));
+  }
 }
 
 /// The JSON files of a folder by name.

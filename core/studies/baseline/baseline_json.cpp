@@ -61,6 +61,8 @@ template <class Fields>
 void describe(Fields& f, UncertainValue& value) {
   f("value", value.value);
   f("uncertainty", value.uncertainty);
+  if constexpr (Fields::kReads)
+    if (value.uncertainty < 0) f["uncertainty"].fault("must be >= 0");
 }
 
 template <class Fields>

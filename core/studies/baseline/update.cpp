@@ -1,9 +1,8 @@
 #include "studies/baseline/update.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
+#include "base/regular_file.h"
 #include "studies/baseline/baseline_json.h"
 
 namespace slipcheck {
@@ -12,10 +11,11 @@ namespace {
 namespace fs = std::filesystem;
 
 SceneBaseline load_baseline(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw BadJson(file.string() + ": must be a readable file");
-  return parse_baseline(text, file.string());
+  try {
+    return parse_baseline(read_regular_file(file, kBaselineFileLimit), file.string());
+  } catch (const UnreadFile& bad) {
+    throw BadJson(file.string() + ": " + bad.what());
+  }
 }
 
 /// What does not make a baseline another one.
