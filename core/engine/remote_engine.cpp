@@ -67,8 +67,8 @@ Applied RemoteEngine::configure(const EngineScene& scene, const Settings& settin
 void RemoteEngine::start(std::span<const BodyState> states, double time) {
   deadline_ = Clock::time_point::max();
   if (run_limit_ < 1e8) {  // an infinite one has no Clock::duration
-    deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                   std::chrono::duration<double>(run_limit_));
+    deadline_ = process_.now() + std::chrono::duration_cast<Clock::duration>(
+                                     std::chrono::duration<double>(run_limit_));
   }
   ask<protocol::Started>(protocol::Start{{states.begin(), states.end()}, time});
 }

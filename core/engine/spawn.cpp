@@ -1,14 +1,20 @@
 #include "engine/spawn.h"
 
 #include <fcntl.h>
+#include <linux/close_range.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <iterator>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -64,44 +70,114 @@ Ends make_output() {
   return own(fds[0], fds[1]);
 }
 
-class Attributes {
+/// What a worker may know of this one's surroundings: where it finds programs and files, its
+/// language, and what is meant for engines.
+bool is_for_workers(std::string_view variable) {
+  constexpr std::string_view kNames[] = {"PATH", "HOME", "LANG", "TMPDIR"};
+  constexpr std::string_view kPrefixes[] = {"LC_",   "SLIPCHECK_", "NODE_", "OMP_",  "XDG_",
+#ifdef SLIPCHECK_SANITIZE
+                                            "ASAN_", "LSAN_",      "TSAN_", "UBSAN_"
+#endif
+  };
+  const std::string_view name = variable.substr(0, variable.find('='));
+  return std::ranges::find(kNames, name) != std::end(kNames) ||
+         std::ranges::any_of(kPrefixes,
+                             [&](std::string_view prefix) { return name.starts_with(prefix); });
+}
+
+std::vector<char*> environment_of_workers() {
+  std::vector<char*> variables;
+  for (char** each = environ; *each != nullptr; ++each)
+    if (is_for_workers(*each)) variables.push_back(*each);
+  variables.push_back(nullptr);
+  return variables;
+}
+
+/// While it lives no handler runs in this thread, nor in what it forks.
+class SignalsBlocked {
  public:
-  Attributes() {
-    posix_spawnattr_init(&attributes_);
-    sigset_t none, all;
-    sigemptyset(&none);
+  SignalsBlocked() {
+    sigset_t all;
     sigfillset(&all);
-    posix_spawnattr_setsigmask(&attributes_, &none);
-    posix_spawnattr_setsigdefault(&attributes_, &all);
-    posix_spawnattr_setpgroup(&attributes_, 0);
-    posix_spawnattr_setflags(
-        &attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
   }
-  ~Attributes() { posix_spawnattr_destroy(&attributes_); }
-  Attributes(const Attributes&) = delete;
-  Attributes& operator=(const Attributes&) = delete;
-  const posix_spawnattr_t* get() const { return &attributes_; }
+  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsBlocked(const SignalsBlocked&) = delete;
+  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
 
  private:
-  posix_spawnattr_t attributes_;
+  sigset_t before_;
 };
 
-class StandardStreams {
- public:
-  StandardStreams(int in, int out, int err) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_adddup2(&actions_, in, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, out, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, err, STDERR_FILENO);
+/// All that a child needs to become a worker, made before the fork: after it, other threads' locks
+/// stay locked for ever, so that only async-signal-safe functions may be called.
+struct Start {
+  std::array<int, 3> streams;
+  int failure;  // where an errno is written to
+  pid_t parent;
+  char* const* arguments;
+  char* const* environment;
+};
+
+[[noreturn]] void give_up(const Start& start) {
+  const int error = errno;
+  static_cast<void>(!write(start.failure, &error, sizeof error));
+  _exit(127);
+}
+
+/// No descriptor but the standard ones outlives exec.
+void close_the_rest_on_exec() {
+  if (close_range(3, ~0U, CLOSE_RANGE_CLOEXEC) == 0) return;
+  const long count = sysconf(_SC_OPEN_MAX);  // of a kernel before 5.11
+  for (int fd = 3; fd < count; ++fd) fcntl(fd, F_SETFD, FD_CLOEXEC);
+}
+
+[[noreturn]] void become_worker(const Start& start) {
+  // Ends with this program, even if that is killed and the worker never looks at its input.
+  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) give_up(start);
+  if (getppid() != start.parent) _exit(127);  // it has ended before that
+  if (setpgid(0, 0) != 0) give_up(start);
+  for (int number = 1; number < NSIG; ++number) signal(number, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  for (int k = 0; k < 3; ++k)
+    if (dup2(start.streams[static_cast<std::size_t>(k)], k) < 0) give_up(start);
+  close_the_rest_on_exec();
+  execvpe(start.arguments[0], start.arguments, start.environment);
+  give_up(start);
+}
+
+/// The errno that the child has written; 0 once its end is closed by exec.
+int failure_from(int fd) {
+  int error = 0;
+  ssize_t count = 0;
+  do {
+    count = read(fd, &error, sizeof error);
+  } while (count < 0 && errno == EINTR);
+  return count == sizeof error ? error : 0;
+}
+
+/// Its process id. Throws std::system_error.
+pid_t start_worker(Start start) {
+  Ends outcome = make_output();
+  fcntl(outcome.ours.get(), F_SETFL, 0);  // it is waited for
+  start.failure = outcome.theirs.get();
+  start.parent = getpid();
+  pid_t pid = -1;
+  {
+    const SignalsBlocked blocked;
+    pid = fork();
+    if (pid == 0) become_worker(start);
   }
-  ~StandardStreams() { posix_spawn_file_actions_destroy(&actions_); }
-  StandardStreams(const StandardStreams&) = delete;
-  StandardStreams& operator=(const StandardStreams&) = delete;
-  const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-  posix_spawn_file_actions_t actions_;
-};
+  if (pid < 0) fail(errno, "cannot start");
+  close(outcome.theirs.release());
+  const int error = failure_from(outcome.ours.get());
+  if (error == 0) return pid;
+  while (waitpid(pid, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  fail(error, "cannot start");
+}
 
 }  // namespace
 
@@ -109,17 +185,18 @@ Child spawn(const WorkerCommand& command, std::size_t memory) {
   Ends in = make_input(), out = make_output(), err = make_output();
   fcntl(out.ours.get(), F_SETPIPE_SZ, 1 << 20);  // fewer switches on long replies; may be denied
 
-  const Attributes attributes;
-  const StandardStreams streams(in.theirs.get(), out.theirs.get(), err.theirs.get());
   std::vector<std::string> words = {command.program.string()};
   words.insert(words.end(), command.arguments.begin(), command.arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
+  const std::vector<char*> environment = environment_of_workers();
   Child child;
-  const int error =
-      posix_spawnp(&child.pid, argv[0], streams.get(), attributes.get(), argv.data(), environ);
-  if (error != 0) fail(error, "cannot start");
+  child.pid = start_worker({{in.theirs.get(), out.theirs.get(), err.theirs.get()},
+                            -1,
+                            -1,
+                            argv.data(),
+                            environment.data()});
 
   if (memory > 0) {
     // Not the address space, of which WebAssembly reserves gigabytes for a page.

@@ -17,8 +17,10 @@ struct Child {
   int err = -1;  ///< a pipe
 };
 
-/// Starts a worker in a process group of its own, with no signal blocked or ignored. `memory`
-/// limits what it may write to, not what it reserves [bytes]; 0 does not. Throws std::system_error.
+/// Starts a worker in a process group of its own, with no signal blocked or ignored, no descriptor
+/// but the standard ones, and of the environment only what is for workers (engine-protocol.md). It
+/// is killed when the thread that starts it ends, however that comes. `memory` limits what it may
+/// write to, not what it reserves [bytes]; 0 does not. Throws std::system_error.
 Child spawn(const WorkerCommand& command, std::size_t memory);
 
 }  // namespace slipcheck

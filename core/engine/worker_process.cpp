@@ -33,6 +33,8 @@ namespace {
 
 // How long to wait at most before looking at the clock, the memory and the stop flag again.
 constexpr milliseconds kSlice{20};
+// Nobody comes to look for so long because this program was stopped.
+constexpr std::chrono::seconds kStopped{1};
 // How long a worker that closed its output has to exit, and how long one that is idle.
 constexpr milliseconds kPatience{1000};
 constexpr std::size_t kErrorTail = 4096;
@@ -112,12 +114,20 @@ WorkerProcess::~WorkerProcess() {
   kill_and_reap();
 }
 
+WorkerProcess::Clock::time_point WorkerProcess::now() {
+  const auto real = Clock::now();
+  if (real - looked_ > kStopped) lost_ += real - looked_;
+  looked_ = real;
+  return real - lost_;
+}
+
 Bytes WorkerProcess::exchange(const Bytes& message, Clock::time_point deadline) {
   if (pid_ < 0) throw WorkerFailure(Status::crashed, "the worker is gone");
   const auto limit = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(std::min(limits_.reply, kForever)));
-  const bool by_reply = deadline - Clock::now() > limit;
-  if (by_reply) deadline = Clock::now() + limit;
+  const auto begin = now();
+  const bool by_reply = deadline - begin > limit;
+  if (by_reply) deadline = begin + limit;
 
   Exchange exchange{message, 0, {}};
   while (!exchange.complete()) {
@@ -125,17 +135,17 @@ Bytes WorkerProcess::exchange(const Bytes& message, Clock::time_point deadline) 
       kill_and_reap();
       throw Interrupted();
     }
-    const auto now = Clock::now();
-    if (now >= deadline) {
+    const auto time = now();
+    if (time >= deadline) {
       fail(Status::timed_out, by_reply ? fmt::format("no reply within {:g} s", limits_.reply)
                                        : "the run took longer than its time limit");
     }
-    if (now - memory_checked_ >= kSlice) check_memory();
+    if (time - memory_checked_ >= kSlice) check_memory();
 
     const short writing = exchange.all_sent() ? short{0} : short{POLLOUT};
     std::array<pollfd, 3> fds = {{{in_, writing, 0}, {out_, POLLIN, 0}, {err_, POLLIN, 0}}};
     if (exchange.all_sent()) fds[0].fd = -1;  // it would only tell that the worker closed it
-    const auto left = std::chrono::ceil<milliseconds>(deadline - now);
+    const auto left = std::chrono::ceil<milliseconds>(deadline - time);
     poll(fds.data(), fds.size(), static_cast<int>(std::min(left, kSlice).count()));
 
     if (fds[2].revents != 0) drain_errors();
@@ -187,7 +197,7 @@ void WorkerProcess::drain_errors() {
 }
 
 void WorkerProcess::check_memory() {
-  memory_checked_ = Clock::now();
+  memory_checked_ = now();
   if (resident(pid_) <= limits_.memory) return;
   memory_exceeded_ = true;
   fail_because_gone();

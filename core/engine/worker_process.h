@@ -55,6 +55,10 @@ class WorkerProcess {
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
+  /// The time, which stands still while this program itself is stopped (SIGSTOP) or does not come
+  /// to look for longer than a second: a worker is not to blame for that. Deadlines are by it.
+  Clock::time_point now();
+
   /// Sends a message (prefix included) and returns the body of the reply, at the latest after
   /// limits.reply seconds or at `deadline`, whichever comes first. Throws WorkerFailure and
   /// Interrupted, and then the worker is gone.
@@ -98,6 +102,8 @@ class WorkerProcess {
   int err_ = -1;
   std::string errors_;  // the last of what the child wrote to its standard error
   Clock::time_point memory_checked_;
+  Clock::time_point looked_ = Clock::now();   // at the real time, when now() was asked last
+  Clock::duration lost_ = Clock::duration{};  // while nobody looked
   bool memory_exceeded_ = false;
 };
 

@@ -1,13 +1,16 @@
 // Every way in which a worker can fail gives its status and its reason, in time, and leaves neither
 // a zombie nor an open descriptor behind.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -175,6 +178,94 @@ TEST_F(WorkerFailureTest, AWorkerDiesWithItsHarness) {
   EXPECT_EQ(running_in_group(worker), 0);
   close(report[0]);
   close(report[1]);
+}
+
+TEST_F(WorkerFailureTest, AWorkerThatKnowsNothingOfItsHarnessDiesWithIt) {
+  int report[2];
+  ASSERT_EQ(pipe(report), 0);
+  const pid_t harness = fork();
+  if (harness == 0) {
+    const WorkerProcess worker(WorkerCommand("/bin/sh", {"-c", "while :; do :; done"}), {});
+    const pid_t pid = worker.pid();
+    if (write(report[1], &pid, sizeof pid) == sizeof pid) pause();
+    _exit(1);
+  }
+  pid_t worker = 0;
+  ASSERT_EQ(read(report[0], &worker, sizeof worker), static_cast<ssize_t>(sizeof worker));
+  EXPECT_EQ(running_in_group(worker), 1);
+  kill(harness, SIGKILL);
+  waitpid(harness, nullptr, 0);
+  for (int k = 0; k < 30'000 && running_in_group(worker) > 0; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(running_in_group(worker), 0);
+  if (running_in_group(worker) > 0) kill(worker, SIGKILL);
+  close(report[0]);
+  close(report[1]);
+}
+
+/// What a shell says that is started as a worker.
+std::string said_by_shell(const std::string& command) {
+  int said[2];
+  EXPECT_EQ(pipe2(said, O_CLOEXEC), 0);
+  {
+    const std::string file = "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(said[1]);
+    WorkerProcess worker(WorkerCommand("/bin/sh", {"-c", "{ " + command + "; } > " + file}), {});
+    worker.finish({}, true, kSoon);
+  }
+  close(said[1]);
+  std::string text(1 << 16, ' ');
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, read(said[0], text.data(), 1 << 16))));
+  close(said[0]);
+  return text;
+}
+
+TEST_F(WorkerFailureTest, AWorkerHasNoDescriptorOfItsHarness) {
+  const int leaked = open("/etc/passwd", O_RDONLY);  // not closed by exec
+  ASSERT_GE(leaked, 3);
+  const std::string all = said_by_shell("ls -l /proc/$$/fd");
+  close(leaked);
+  EXPECT_NE(all.find(" 0 -> socket:"), std::string::npos) << all;
+  EXPECT_EQ(all.find("/etc/passwd"), std::string::npos) << all;
+}
+
+TEST_F(WorkerFailureTest, AWorkerHasTheEnvironmentOfEngines) {
+  setenv("SECRET_TOKEN", "secret", 1);
+  setenv("LC_TIME", "C", 1);
+  setenv("OMP_NUM_THREADS", "3", 1);
+  setenv("PATHS", "no", 1);
+  const std::string all = "\n" + said_by_shell("env");
+  for (const char* name : {"SECRET_TOKEN", "LC_TIME", "OMP_NUM_THREADS", "PATHS"}) unsetenv(name);
+  EXPECT_EQ(all.find("secret"), std::string::npos) << all;
+  EXPECT_EQ(all.find("\nPATHS="), std::string::npos) << all;
+  EXPECT_NE(all.find("\nLC_TIME=C\n"), std::string::npos) << all;
+  EXPECT_NE(all.find("\nOMP_NUM_THREADS=3\n"), std::string::npos) << all;
+  EXPECT_NE(all.find("\nPATH="), std::string::npos) << all;
+}
+
+TEST_F(WorkerFailureTest, AWorkerIsNotToBlameForItsHarnessBeingStopped) {
+  const pid_t harness = fork();
+  if (harness == 0) {
+    try {
+      RemoteEngine engine(faulty_engine(), {.memory = std::size_t{2} << 30, .reply = 5});
+      engine.limit_run(6);
+      const Scene scene = some_scene();
+      engine.configure(scene, {{"fault", "slow"}, {"pause", 50.0}}, 1e-3);
+      engine.start(scene.initial);
+      for (int k = 0; k < 4; ++k) engine.advance(10, [](const Frame&) {});  // for 2 s in all
+    } catch (const WorkerFailure&) {
+      _exit(1);
+    }
+    _exit(0);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+  kill(harness, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(7000));
+  kill(harness, SIGCONT);
+  int status = 0;
+  waitpid(harness, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST_F(WorkerFailureTest, WhatIsNoExecutableCannotStart) {
