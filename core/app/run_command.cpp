@@ -17,6 +17,7 @@
 #include "app/result_outputs.h"
 #include "app/say.h"
 #include "app/set_option.h"
+#include "base/text.h"
 #include "engine/profile.h"
 #include "harness/run/engine_grid.h"
 #include "harness/run/scene_run.h"
@@ -82,7 +83,7 @@ void print_warnings(const std::vector<SceneRecord>& scenes) {
     for (const EngineRecord& run : scene.runs)
       if (run.status != EngineRecord::Status::ok && run.verdict() != Verdict::within)
         say("{}: {} {} {} at {} {}: {}\n", scene.scenario.name, run.engine, run.precision,
-            run.profile, run.rate_text(), name_of(run.status), run.reason);
+            run.profile, run.rate_text(), name_of(run.status), printable(run.reason));
 }
 
 /// What is asked for in place of what the scenes say. Profiles that are paths are taken from the

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/cbor.h"
+#include "engine/engine_text.h"
 #include "engine/lacks.h"
 #include "engine/message_fields.h"
 #include "engine/scene_json.h"
@@ -87,9 +88,24 @@ Touch read_touch(const std::uint8_t* at, std::size_t bodies) {
   if (!valid)
     throw Rubbish(fmt::format("a touch of {} and {} among {} bodies", first, second, bodies));
   const double impulse = read_f64(at + 8);
-  if (impulse <= 0) throw Rubbish(fmt::format("a touch's normal impulse is {}, not > 0", impulse));
+  if (!(impulse > 0))
+    throw Rubbish(fmt::format("a touch's normal impulse is {}, not > 0", impulse));
   return {static_cast<int>(first),
           second == kSubstrateOnWire ? kSubstrate : static_cast<int>(second), impulse};
+}
+
+/// Each pair appears once. Most engines sort them.
+void check_pairs(const std::vector<Touch>& touches) {
+  const auto pair_of = [](const Touch& touch) { return std::pair(touch.first, touch.second); };
+  if (std::ranges::is_sorted(touches, std::ranges::less_equal(), pair_of)) return;
+  std::vector<std::pair<int, int>> pairs;
+  for (const Touch& touch : touches) pairs.push_back(pair_of(touch));
+  std::ranges::sort(pairs);
+  const auto twice = std::ranges::adjacent_find(pairs);
+  if (twice == pairs.end()) return;
+  const auto& [first, second] = *twice;
+  throw Rubbish(fmt::format("a touch of {} and {} twice in a frame", first,
+                            second == kSubstrate ? "the substrate" : fmt::to_string(second)));
 }
 
 Frames frames_of(const JsonNode& node) {
@@ -123,6 +139,7 @@ Frames frames_of(const JsonNode& node) {
     for (std::size_t k = 0; k < here; ++k, touch += kTouchBytes) {
       frame.touches.push_back(read_touch(touches.data() + touch, bodies));
     }
+    check_pairs(frame.touches);
   }
   if (touch != touches.size()) throw Rubbish("more touches than touch_counts says");
   read_parts(node, reply.frames);
@@ -202,6 +219,9 @@ void describe(Fields& f, Welcome& reply) {
 template <class Fields>
 void describe(Fields& f, Configured& reply) {
   f("settings", reply.applied.settings);
+  if constexpr (Fields::kReads)
+    if (reply.applied.settings.size() > kMostSettings)
+      f["settings"].fault_alone(fmt::format("must be at most {} settings", kMostSettings));
   describe_lacks(f, reply.applied.not_represented);
   if constexpr (Fields::kReads)
     f.if_any("left_out", reply.applied.left_out);
@@ -292,7 +312,8 @@ Request decode_request(std::span<const std::uint8_t> body) {
 
 Reply decode_reply(std::span<const std::uint8_t> body) {
   static const std::string kPlace = "reply";
-  const json message = read_cbor(body);
+  json message = read_cbor(body);
+  make_harmless(message);
   Reply reply;
   decode(JsonNode(message, kPlace), reply);
   return reply;

@@ -1,5 +1,7 @@
 #include "engine/setting_json.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "engine/message_fields.h"
@@ -67,6 +69,8 @@ nlohmann::json setting_infos_to_json(const std::vector<SettingInfo>& infos) {
 }
 
 std::vector<SettingInfo> setting_infos_from_json(const JsonNode& list) {
+  if (list.json().size() > kMostSettings)
+    list.fault_alone(fmt::format("must be at most {} settings", kMostSettings));
   std::vector<SettingInfo> infos;
   for (const JsonNode& node : list.items()) {
     auto info = read_finite<SettingInfo>(node);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -7,6 +8,9 @@
 #include "engine/engine.h"
 
 namespace slipcheck::protocol {
+
+/// How many settings an engine may have: far more than any, and few enough to look through.
+inline constexpr std::size_t kMostSettings = 1000;
 
 /// The settings that an engine takes: [{name, about, unit, shipped, …}, …].
 nlohmann::json setting_infos_to_json(const std::vector<SettingInfo>& infos);

@@ -20,6 +20,7 @@
 #include <thread>
 #include <utility>
 
+#include "engine/engine_text.h"
 #include "engine/protocol.h"
 #include "engine/spawn.h"
 
@@ -282,7 +283,7 @@ std::string WorkerProcess::last_words() const {
   for (char& c : words) {
     if (c < ' ' || c > '~') c = '?';
   }
-  return words;
+  return harmless(words);
 }
 
 }  // namespace slipcheck

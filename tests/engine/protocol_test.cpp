@@ -184,10 +184,64 @@ TEST(Protocol, ABadReplyIsNamed) {
   append_f64(touches, -1);
   touches[4] = 1;
   expect_rubbish(with("touches", bytes(touches)), "a touch's normal impulse is -1, not > 0");
+  touches.resize(8);
+  append_f64(touches, std::nan(""));
+  expect_rubbish(with("touches", bytes(touches)), "a touch's normal impulse is nan, not > 0");
   expect_rubbish({{"type", "timed"}, {"cpu_seconds", {1e-6, -1e-6}}},
                  "reply: cpu_seconds: must hold times >= 0");
   expect_rubbish({{"type", "refused"}, {"reason", "\xff"}},
                  "reply: reason: must be valid UTF-8, got \"\uFFFD\"");
+}
+
+TEST(Protocol, APairTouchesOnceInAFrame) {
+  Frames frames;
+  frames.frames.resize(1);
+  frames.frames[0].bodies.resize(3);
+  std::vector<Touch>& touches = frames.frames[0].touches;
+  touches = {{1, 2, 0.5}, {0, kSubstrate, 0.5}, {0, 1, 0.5}, {1, kSubstrate, 0.5}};
+  EXPECT_EQ(through<Frames>(frames).frames[0].touches.size(), 4u);
+  const auto refusal = [&] { return test::refusal_of<BadJson>([&] { through<Frames>(frames); }); };
+  touches.push_back({1, 2, 0.25});
+  EXPECT_EQ(refusal(), "a touch of 1 and 2 twice in a frame");
+  touches.back() = {0, kSubstrate, 0.25};
+  EXPECT_EQ(refusal(), "a touch of 0 and the substrate twice in a frame");
+  frames.frames.resize(2);
+  frames.frames[1] = frames.frames[0];
+  frames.frames[0].touches.resize(1);
+  frames.frames[1].touches.resize(1);
+  EXPECT_EQ(through<Frames>(frames).frames.size(), 2u);
+}
+
+TEST(Protocol, NoTextOfAnEngineCommandsATerminalOrALog) {
+  const auto said = [](const std::string& reason) {
+    return through<Refusal>(Refusal{reason}).reason;
+  };
+  EXPECT_EQ(said("btBody::solve failed at 2 :: 3, \u03bc = 0.1"),
+            "btBody::solve failed at 2 : : 3, \u03bc = 0.1");
+  EXPECT_EQ(said("\x1b[31mred\x07"), "\uFFFD[31mred\uFFFD");
+  EXPECT_EQ(said("::error::x\n::warning file=a::y"), ": :error::x : :warning file=a::y");
+  EXPECT_EQ(said("a ##[error]b"), "a ## [error]b");
+  Applied applied;
+  applied.settings = {{"a\x1b", std::string("\t::stop-commands::t")}};
+  applied.not_represented = {{"rolling\x1b]0;title\x07"}};
+  const auto received = through<Configured>(Configured{applied}).applied;
+  EXPECT_EQ(received.settings, (Settings{{"a\uFFFD", std::string(" : :stop-commands::t")}}));
+  EXPECT_EQ(received.not_represented[0].text, "rolling\uFFFD]0;title\uFFFD");
+}
+
+TEST(Protocol, SettingsAreLimited) {
+  Welcome welcome;
+  welcome.info = {"many", "1", "double", {}};
+  for (int k = 0; k < 1000; ++k)
+    welcome.info.settings.emplace_back().name = "setting_" + std::to_string(k);
+  EXPECT_EQ(through<Welcome>(welcome).info.settings.size(), 1000u);
+  welcome.info.settings.emplace_back().name = "one_more";
+  EXPECT_EQ(test::refusal_of<BadJson>([&] { through<Welcome>(welcome); }),
+            "reply: settings: must be at most 1000 settings");
+  Configured configured;
+  for (int k = 0; k < 1001; ++k) configured.applied.settings["s" + std::to_string(k)] = true;
+  EXPECT_EQ(test::refusal_of<BadJson>([&] { through<Configured>(configured); }),
+            "reply: settings: must be at most 1000 settings");
 }
 
 TEST(Protocol, KindsOfLacksMayBeMissingButNotSome) {

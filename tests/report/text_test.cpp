@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "report/rows/csv_rows.h"
+
 namespace slipcheck::testing {
 namespace {
 
@@ -23,6 +25,17 @@ TEST(Text, LetsNothingControlTheTerminal) {
   EXPECT_EQ(printable("a\x1b[31mb\nc\td"), "a\uFFFD[31mb c d");
   EXPECT_EQ(printable("\u202Eright to left"), "\uFFFDright to left");
   EXPECT_EQ(printable("\u009B31m"), "\uFFFD31m");
+}
+
+TEST(Csv, NoTextIsAFormula) {
+  EXPECT_EQ(csv_field("slip (x)"), "slip (x)");
+  EXPECT_EQ(csv_field("a=b"), "a=b");
+  EXPECT_EQ(csv_field("=1+2"), "'=1+2");
+  EXPECT_EQ(csv_field("=HYPERLINK(\"a\",\"b\")"), "\"'=HYPERLINK(\"\"a\"\",\"\"b\"\")\"");
+  for (const char* text : {"+1", "-1", "@x"}) EXPECT_EQ(csv_field(text), "'" + std::string(text));
+  CsvRows rows({"number", "text"});
+  rows.add({-1.5, "-1.5"});
+  EXPECT_EQ(rows.text(), "number,text\n-1.5,'-1.5\n");
 }
 
 TEST(Text, CountsColumns) {

@@ -10,8 +10,13 @@
 namespace slipcheck {
 
 std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
-  std::string field = "\"";
+  // What a spreadsheet would take for a formula begins with an apostrophe, as OWASP advises.
+  const bool is_formula =
+      !text.empty() && std::string_view("=+-@").find(text[0]) != std::string_view::npos;
+  const std::string apostrophe = is_formula ? "'" : "";
+  if (text.find_first_of(",\"\n\r") == std::string_view::npos)
+    return apostrophe + std::string(text);
+  std::string field = "\"" + apostrophe;
   for (char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
   return field + "\"";
 }

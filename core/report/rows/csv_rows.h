@@ -7,7 +7,8 @@
 
 namespace slipcheck {
 
-/// A text as a field of RFC 4180: in quotes where it needs them.
+/// A text as a field of RFC 4180: in quotes where it needs them, and after an apostrophe where it
+/// begins with =, +, - or @, which spreadsheets take for a formula.
 std::string csv_field(std::string_view text);
 
 /// A field; what is not finite, and an empty text, is an empty field.
