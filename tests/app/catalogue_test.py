@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 # Whether the reference is right, not how fast the machine is: collapse-line-e01 alone takes 20 s of an idle core.
-result = subprocess.run([sys.argv[1], "stability", "--profiles", "default", "--precisions", "double",
+result = subprocess.run([sys.argv[1], "stability", "--engines", "bullet", "--profiles", "default", "--precisions", "double",
                          "--phases", "1", "--limits", "no", "--time-limit", "600", "--json", "-"],
                         capture_output=True, text=True, timeout=880)
 cases = json.loads(result.stdout)["cases"]

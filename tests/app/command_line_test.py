@@ -188,8 +188,10 @@ class CommandLine(unittest.TestCase):
         scene = self.scene("{engine: bullet, rate: 240}")
         commands = [["--version"], ["list", "observables"], ["schema"], ["explain", scene],
                     ["run", scene], ["check", scene, "--baselines", self.path / "none"],
-                    ["precision", scene, "--rates", "240", "--phases", "1", "--profiles", "default"],
-                    ["stability", scene, "--rates", "240", "--phases", "1", "--profiles", "default"]]
+                    ["precision", scene, "--engines", "bullet", "--rates", "240", "--phases", "1",
+                     "--profiles", "default"],
+                    ["stability", scene, "--engines", "bullet", "--rates", "240", "--phases", "1",
+                     "--profiles", "default"]]
         with open("/dev/full", "w") as full:
             for command in commands:
                 with self.subTest(command):

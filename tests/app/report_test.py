@@ -128,7 +128,7 @@ class Report(unittest.TestCase):
 
     def test_studies_stand_on_the_same_page(self):
         scene = SCENES / "symmetric-30cms.yaml"
-        common = ["--profiles", "default,tuned", "--precisions", "double", "--rates", "240,1000",
+        common = ["--engines", "bullet", "--profiles", "default,tuned", "--precisions", "double", "--rates", "240,1000",
                   "--phases", "2"]
         precision, stability = self.path / "precision", self.path / "stability"
         self.assertEqual(run("precision", scene, *common, "--iterations", "50", "--repeats", "1",

@@ -91,8 +91,8 @@ class Stopping(unittest.TestCase):
     def test_every_command(self):
         (self.path / "baselines").mkdir()
         hopeless = self.file("integrated")
-        for command in (["explain", hopeless], ["precision", hopeless, "-q"],
-                        ["stability", hopeless, "-q", "--limits", "no"],
+        for command in (["explain", hopeless], ["precision", hopeless, "--engines", "bullet", "-q"],
+                        ["stability", hopeless, "--engines", "bullet", "-q", "--limits", "no"],
                         ["tune", hopeless, "--engine", "bullet", "-o", self.path / "t.yaml"],
                         ["check", hopeless, "--baselines", self.path / "baselines"],
                         ["figures", self.path / "figures", "--only", "L10", "-q"],
