@@ -4,9 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -56,13 +57,16 @@ std::vector<std::string> published_versions(const std::string& package) {
   }
 }
 
-/// The last lines that npm says of its failure, without its own name before them.
+/// The first lines that npm says of its failure, without its own name before them.
 std::string reason_of(const std::string& said) {
-  static const std::regex kLine(R"(npm (?:ERR!|error) (?:code )?(.*))");
   std::vector<std::string> lines;
-  for (std::sregex_iterator at(said.begin(), said.end(), kLine), end; at != end; ++at) {
-    const std::string line = (*at)[1];
-    if (!line.empty() && line.find("complete log") == std::string::npos) lines.push_back(line);
+  std::istringstream all(said);
+  for (std::string line; std::getline(all, line);) {
+    for (const char* own : {"npm ERR! ", "npm error ", "code "})
+      if (line.starts_with(own)) line.erase(0, std::strlen(own));
+    const bool is_told =
+        line.empty() || line.starts_with("npm ") || line.find("complete log") != std::string::npos;
+    if (!is_told) lines.push_back(line);
   }
   if (lines.size() > 3) lines.resize(3);
   return lines.empty() ? "npm failed without a reason" : fmt::format("{}", fmt::join(lines, "; "));
@@ -121,6 +125,22 @@ void try_worker(const NpmChoice& choice, const fs::path& folder) {
   }
 }
 
+/// "0.19.3", "0.8.0-alpha.2"
+bool is_version(const std::string& text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const std::string numbers = text.substr(0, text.find('-'));
+  const std::string suffix = text.substr(std::min(numbers.size() + 1, text.size()));
+  if (text.ends_with('-') || std::ranges::count(numbers, '.') != 2) return false;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const bool stands_alone =
+        numbers[k] == '.' && (k == 0 || k + 1 == numbers.size() || numbers[k + 1] == '.');
+    if (stands_alone || (numbers[k] != '.' && !is_digit(numbers[k]))) return false;
+  }
+  return std::ranges::all_of(suffix, [&](char c) {
+    return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '-';
+  });
+}
+
 }  // namespace
 
 NpmChoice npm_choice(const std::string& name) {
@@ -135,8 +155,7 @@ NpmChoice npm_choice(const std::string& name) {
   }
   std::string version = engine_version(name);
   if (name.find('@') == std::string::npos) version = engine->usual_version;
-  static const std::regex kVersion(R"(\d+\.\d+\.\d+(-[0-9A-Za-z.-]+)?)");
-  if (!std::regex_match(version, kVersion))
+  if (!is_version(version))
     throw NotInstalled(fmt::format("a version must be three numbers as in {}@{}, got {}", family,
                                    engine->usual_version, name));
   return {*engine, version};

@@ -64,7 +64,8 @@ NameForm form_of(NameStyle style) {
     case NameStyle::lower_case:
       return {"must be a name of a-z, 0-9 and -, up to 64", "^[a-z0-9-]+$"};
     case NameStyle::engine:
-      return {"must be a name of a-z, 0-9, -, _, . and @, up to 64", "^[a-z0-9][a-z0-9_.@-]*$"};
+      return {"must be a name of a-z, 0-9, -, _, . and @ that begins with a letter, up to 64",
+              "^[a-z][a-z0-9_.@-]*$"};
     case NameStyle::any_case:
       break;
   }
@@ -83,8 +84,7 @@ bool is_name(const std::string& text, NameStyle style) {
   if (text.empty() || text.size() > kLongestName) return false;
   for (const char c : text)
     if (!may_stand_in(style, c)) return false;
-  if (style == NameStyle::engine)
-    return may_stand_in(NameStyle::lower_case, text[0]) && text[0] != '-';
+  if (style == NameStyle::engine) return text[0] >= 'a' && text[0] <= 'z';
   return style == NameStyle::lower_case ||
          (text.front() != '-' && text.back() != '-' && text.find("--") == std::string::npos);
 }
@@ -220,6 +220,10 @@ Rule<std::string> name_text(NameStyle style) {
           [style] {
             json schema = {{"type", {"string", "integer"}}, {"maxLength", kLongestName}};
             schema["pattern"] = form_of(style).pattern;
+            if (style == NameStyle::engine) {  // no number is one
+              schema["type"] = "string";
+              return schema;
+            }
             if (style != NameStyle::lower_case) schema["minimum"] = 0;  // no name begins with '-'
             return schema;
           }};
