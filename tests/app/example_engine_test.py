@@ -105,7 +105,9 @@ class ExampleEngine(unittest.TestCase):
                 (Path(folder) / name).symlink_to(SOURCE / name)
             result = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True,
                                     text=True, timeout=600)
-        self.assertEqual(result.stderr, "")
+        told = [line for line in result.stderr.splitlines()
+                if line and "debug build" not in line.lower()]
+        self.assertEqual(told, [])
         self.assertRegex(result.stdout, r"mine +double +1\.0 +default")
         for words in ("47 passed, 0 failed, 0 not judged", "✗  FAILED",
                       "mine 1.0 double, profile default, 1000 Hz", "order 0.9"):
