@@ -91,8 +91,9 @@ void write_folder(const fs::path& directory, const VersionComparison& comparison
 
 int exit_code_of(const VersionComparison& comparison, const std::vector<VersionChange>& changes) {
   if (interrupted()) return kInterrupted;
-  if (totals_of(comparison, changes).failed > 0) return kEngineFailed;
-  return changes.empty() ? kWithinTolerance : kDeviates;
+  const VersionTotals totals = totals_of(comparison, changes);
+  if (totals.failed > 0) return kEngineFailed;
+  return changes.empty() && totals.compared > 0 ? kWithinTolerance : kDeviates;
 }
 
 int compare(VersionsArguments& arguments) {
@@ -159,7 +160,8 @@ void add_versions_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_flag("--all", arguments->all, "Show every change");
   command->footer(
-      "Exit codes: 0 nothing has moved, 1 something has, 3 the later version fails in a run.\n\n"
+      "Exit codes: 0 nothing has moved, 1 something has or nothing could be compared, 3 the later "
+      "version fails in a run.\n\n"
       "Examples:\n"
       "  slipcheck versions rapier 0.19.3 0.21.0\n"
       "  slipcheck versions rapier 0.19.3 0.21.0 scenarios/bouncing-ball.yaml --out "

@@ -99,6 +99,8 @@ TEST(VersionRows, WhatNeitherCanRunIsNoChange) {
   comparison.scenes[0].runs.assign(2, testing::failed_run(RunStatus::skipped, "no periodic"));
   EXPECT_TRUE(version_changes(comparison).empty());
   EXPECT_EQ(totals_of(comparison, {}).runs, 0u);
+  EXPECT_EQ(totals_of(comparison, {}).compared, 0u);
+  EXPECT_NE(version_finding(comparison, {}).find("nothing could be compared"), std::string::npos);
 }
 
 TEST(VersionRows, TheFileHasBothDistributions) {

@@ -228,6 +228,8 @@ std::string version_finding(const VersionComparison& comparison,
                                  comparison.engine, comparison.before, comparison.after,
                                  totals.moved, counted(totals.compared, "value"),
                                  counted(totals.runs, "run"), plain_number(comparison.threshold));
+  if (totals.compared == 0)
+    text += "; nothing could be compared: neither version shows anything that has a tolerance";
   if (totals.moved > 0)
     text += fmt::format("; by the worst phase {} for the better, {} for the worse", totals.better,
                         totals.worse);
