@@ -12,11 +12,14 @@ namespace slipcheck {
 
 /// Stands for the substrate where a contact names two bodies.
 inline constexpr int kSubstrate = -1;
+/// Stands for a surface of the scene beside the substrate, and back.
+constexpr int surface_touch(std::size_t surface) { return -2 - static_cast<int>(surface); }
+constexpr std::size_t touched_surface(int second) { return static_cast<std::size_t>(-2 - second); }
 
 /// Two bodies that exchanged a normal impulse since the frame before, or that overlap without one.
 struct Touch {
   int first = 0;              ///< body
-  int second = kSubstrate;    ///< body, > first, or kSubstrate
+  int second = kSubstrate;    ///< body, > first, kSubstrate or surface_touch()
   double normal_impulse = 0;  ///< summed over the pair's contact points [N s], >= 0
 };
 

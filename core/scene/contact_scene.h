@@ -40,18 +40,23 @@ struct ContactScene {
   /// Overlaps at the start up to this part of the sum of two radii are none: such a pair is only
   /// in contact where it is pushed together.
   double touching = 0;
+  /// By material × surface of `hard`; none: that contact is hard. Empty without surfaces.
+  std::vector<std::optional<SoftContact>> soft_surfaces;
   SoftBox soft_box;                   ///< sized by material where `hard` has a box, else empty
   std::vector<std::string> warnings;  ///< where a law leaves the range in which it holds
 
   const std::optional<SoftContact>& between(std::size_t i, std::size_t j) const {
     return soft[hard.material[i] * hard.substrate.size() + hard.material[j]];
   }
+  const std::optional<SoftContact>& on_surface(std::size_t body, std::size_t surface) const {
+    return soft_surfaces[hard.material[body] * hard.surfaces.size() + surface];
+  }
   bool is_hard() const {
     const auto all_hard = [](const std::vector<std::optional<SoftContact>>& contacts) {
       return std::ranges::none_of(contacts, [](const auto& each) { return each.has_value(); });
     };
-    return all_hard(soft) && all_hard(soft_box.on_floor) && all_hard(soft_box.on_wall) &&
-           all_hard(soft_box.on_lid);
+    return all_hard(soft) && all_hard(soft_surfaces) && all_hard(soft_box.on_floor) &&
+           all_hard(soft_box.on_wall) && all_hard(soft_box.on_lid);
   }
 };
 

@@ -11,6 +11,7 @@
 #include "physics/motion/shaken_floor.h"
 #include "physics/motion/substrate_motion.h"
 #include "physics/sphere.h"
+#include "physics/surface.h"
 
 namespace slipcheck {
 
@@ -44,6 +45,12 @@ struct CollapseRule {
   double contact_time = 0;  ///< t_c [s], > 0 for the last two
 };
 
+/// A class of bodies on a surface beside the substrate: as it lies there, and as it bounces off.
+struct SurfaceContact {
+  SubstrateContact lasting;  ///< friction, rolling and drilling while it touches
+  PairContact impact;        ///< restitution, friction and β0 of an impact
+};
+
 /// A scene in numbers alone, with every contact hard: what the event-driven reference solves and
 /// what engines are given. Spheres on a plane z = 0 or in a box; all values SI.
 struct Scene {
@@ -64,10 +71,19 @@ struct Scene {
   /// not. Positions are not folded into the cell.
   Vector2 periodic = Vector2::Zero();
   std::optional<Box> box;  ///< in place of the substrate
+  /// There is a plane z = 0; without it only `surfaces`, or a box.
+  bool has_substrate = true;
+  std::vector<Surface> surfaces;            ///< beside the substrate
+  std::vector<SurfaceContact> on_surfaces;  ///< by material × surface
   CollapseRule collapse;
 
   const SubstrateContact& on_substrate(std::size_t body) const { return substrate[material[body]]; }
   const PairContact& between(std::size_t i, std::size_t j) const { return pairs[place_of(i, j)]; }
+  const SurfaceContact& on_surface(std::size_t body, std::size_t surface) const {
+    return on_surfaces[material[body] * surfaces.size() + surface];
+  }
+  /// [m/s²]
+  Vector3 gravity_vector() const { return {downhill.x(), downhill.y(), -gravity}; }
   /// The way from one place to the nearest image of another across the plane's edges, if `apart` is
   /// that to the other itself [m].
   Vector3 to_nearest_image(Vector3 apart) const {
