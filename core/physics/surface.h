@@ -61,6 +61,8 @@ class SurfaceMotion {
   const Vector3& first() const { return first_; }
   const Vector3& second() const { return second_; }
 
+  /// x_S(t) of the matter [m]; zero where it turns.
+  Vector3 way(double t) const { return along(course_.position(t)); }
   /// Of the matter at a place [m/s].
   Vector3 velocity(double t, const Vector3& at) const;
   /// Where what is now at a place was at rest [m], and back.

@@ -46,6 +46,7 @@ struct SolvedRun {
   double end_time = 0;                   ///< [s]
   bool reached = false;                  ///< what RunEnd::until asks for
   bool failed = false;                   ///< the integrator gave up
+  bool lasting = false;                  ///< contacts last that are taken as instants
   std::string reason;                    ///< why not reached
   std::size_t events = 0;                ///< collisions, landings and changes of mode
   std::size_t collisions = 0;            ///< of two bodies

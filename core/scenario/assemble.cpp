@@ -1,6 +1,9 @@
 #include "scenario/assemble.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -10,13 +13,17 @@
 #include "scenario/contact_models.h"
 #include "scenario/fill/fill.h"
 #include "scenario/rules/overlap.h"
+#include "scenario/rules/rules.h"
 #include "scenario/rules/spanning_rules.h"
+#include "scenario/surfaces.h"
 
 namespace slipcheck {
 namespace {
 
 /// Round-off that positions and radii from a file may carry.
 constexpr double kRoundOff = 1e-12;
+/// Part of its radius that a body may be in a surface: positions beside tilted ones are typed.
+constexpr double kTouchingSurface = 1e-9;
 
 /// From the density; 0 where there is none.
 double mass_of(const WrittenScene& written, const std::string& material, double radius,
@@ -41,8 +48,26 @@ Vector3 vector_of(const std::vector<double>& written, bool in_container, double 
   return {written[0], written[1], written.size() == 3 ? written[2] : third};
 }
 
-Vector3 spin_of(const WrittenBody& body, const Vector3& sliding, bool in_container,
-                Reading& reading) {
+/// What a body lies on at the start.
+struct Ground {
+  Vector3 normal = kUp, velocity = Vector3::Zero();
+};
+
+std::optional<Ground> ground_of(const Body& body, const WrittenScene& written) {
+  const std::vector<NamedSurface> surfaces = named_surfaces(written);
+  const BodyState& state = body.initial;
+  if (const NamedSurface* on = touched_surface(surfaces, state.position, body.sphere.radius)) {
+    const Surface surface = made_surface(*on);
+    const NearestPoint near = surface.nearest(0, state.position);
+    return Ground{near.normal, surface.motion.velocity(0, near.point)};
+  }
+  if (!written.substrate) return std::nullopt;
+  const Vector2 substrate = initial_velocity(written.substrate->motion);
+  return Ground{kUp, {substrate.x(), substrate.y(), 0}};
+}
+
+Vector3 spin_of(const WrittenBody& body, const BodyState& state,
+                const std::optional<Ground>& ground, bool in_container, Reading& reading) {
   const std::string path = body.path + ".spin";
   const std::vector<double>& values = body.spin.values;
   switch (body.spin.kind) {
@@ -50,7 +75,14 @@ Vector3 spin_of(const WrittenBody& body, const Vector3& sliding, bool in_contain
       return Vector3::Zero();
     case SpinKind::rolling:
       if (in_container) reading.fault_at(path, "must be none or a number in a container");
-      return rolling_angular_velocity(sliding, body.sphere.radius);
+      if (in_container) return Vector3::Zero();
+      if (!ground) {
+        reading.fault_at(path, "must be none or given for a body that touches nothing");
+        return Vector3::Zero();
+      }
+      if (ground->normal == kUp)
+        return rolling_angular_velocity(state.velocity - ground->velocity, body.sphere.radius);
+      return ground->normal.cross(state.velocity - ground->velocity) / body.sphere.radius;
     case SpinKind::given:
       break;
   }
@@ -64,9 +96,51 @@ Vector3 spin_of(const WrittenBody& body, const Vector3& sliding, bool in_contain
   return {values[0], values[1], values[2]};
 }
 
+/// A soft contact may begin overlapped, by less than the radius.
+bool may_overlap(const Body& body, const NamedSurface& surface, const WrittenScene& written) {
+  return std::ranges::any_of(written.contacts, [&](const WrittenContact& contact) {
+    return !contact.on_substrate && contact.between.size() == 2 &&
+           std::ranges::is_permutation(contact.between,
+                                       std::array{body.material, surface.material}) &&
+           !std::holds_alternative<HardNormal>(contact.body.normal);
+  });
+}
+
+void check_beside_surfaces(const Body& body, const WrittenScene& written, const std::string& path,
+                           Reading& reading) {
+  const double radius = body.sphere.radius;
+  for (const NamedSurface& surface : named_surfaces(written)) {
+    const double overlap = overlap_of(surface, body.initial.position, radius);
+    const double most = may_overlap(body, surface, written) ? radius : kTouchingSurface * radius;
+    if (overlap > most)
+      reading.fault_at(
+          path + ".position",
+          fmt::format("must be at least the radius away from {}, but is {:.6g} {} in it",
+                      surface.name, overlap / to_si(1, kLength, reading.units()),
+                      unit_name(kLength, reading.units())));
+  }
+}
+
+/// Onto the surface that it is to touch.
+void place_on(const std::string& name, const WrittenScene& written, const std::string& path,
+              Body& body, Reading& reading) {
+  const std::vector<NamedSurface> surfaces = named_surfaces(written);
+  const auto surface = std::ranges::find(surfaces, name, &NamedSurface::name);
+  if (surface == surfaces.end()) {
+    std::vector<std::string> names;
+    for (const NamedSurface& each : surfaces) names.push_back(each.name);
+    reading.fault_at(path + ".on", "must be one of the surfaces" + did_you_mean(name, names));
+    return;
+  }
+  const NearestPoint near = made_surface(*surface).nearest(0, body.initial.position);
+  body.initial.position = near.point + body.sphere.radius * near.normal;
+}
+
 void check_place(Body& body, const WrittenScene& written, const std::string& path,
                  Reading& reading) {
   const double radius = body.sphere.radius;
+  check_beside_surfaces(body, written, path, reading);
+  if (!written.substrate && !written.container) return;
   double& z = body.initial.position.z();
   if (std::abs(z - radius) <= kRoundOff * radius) z = radius;
   const std::string position = path + ".position";
@@ -107,14 +181,15 @@ Body resolve(const WrittenBody& written_body, const WrittenScene& written, Readi
       return body;
     }
   }
+  if (!in_container && !written.substrate && written_body.position.size() != 3) {
+    reading.fault_at(written_body.path + ".position", "must be [x, y, z] without a substrate");
+    return body;
+  }
   body.initial.position = vector_of(written_body.position, in_container, radius);
   body.initial.velocity = vector_of(written_body.velocity, in_container, 0);
-  Vector3 sliding = body.initial.velocity;
-  if (written.substrate) {
-    const Vector2 substrate = initial_velocity(written.substrate->motion);
-    sliding -= Vector3(substrate.x(), substrate.y(), 0);
-  }
-  body.initial.angular_velocity = spin_of(written_body, sliding, in_container, reading);
+  if (written_body.on) place_on(*written_body.on, written, written_body.path, body, reading);
+  body.initial.angular_velocity =
+      spin_of(written_body, body.initial, ground_of(body, written), in_container, reading);
   check_place(body, written, written_body.path, reading);
   return body;
 }
@@ -242,16 +317,27 @@ Scenario assemble(const WrittenScene& written, Reading& reading) {
   } else if (written.substrate) {
     scenario.surroundings = *written.substrate;
     tilt = written.substrate->tilt;
+  } else {
+    scenario.surroundings.emplace<Substrate>().is_there = false;
   }
+  scenario.surfaces = named_surfaces(written);
   scenario.gravity =
       tilt == 0 ? Vector3(0, 0, -written.gravity)
                 : Vector3(0, -written.gravity * std::sin(tilt), -written.gravity * std::cos(tilt));
   for (const WrittenContact& contact : written.contacts) {
     if (contact.between.size() != 2) continue;
-    const bool swapped = is_reserved_name(contact.between[0]);
+    const bool swapped = contact.on_substrate && !is_reserved_name(contact.between[1])
+                             ? !is_of_surface(contact.between[1], written)
+                             : is_reserved_name(contact.between[0]);
     const std::string& first = contact.between[swapped ? 1 : 0];
     const std::string& second = contact.between[swapped ? 0 : 1];
-    if (contact.on_substrate) {
+    if (contact.on_substrate && !is_reserved_name(first) && !is_reserved_name(second)) {
+      MaterialOnSurface& on = scenario.surface_contacts.emplace_back();
+      static_cast<MaterialOnSubstrate&>(on) = contact.substrate;
+      on.material = first;
+      on.surface = second;
+      on.path = contact.path;
+    } else if (contact.on_substrate) {
       MaterialOnSubstrate& on = scenario.substrate_contacts.emplace_back(contact.substrate);
       on.material = first;
       on.path = contact.path;

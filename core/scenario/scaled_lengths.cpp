@@ -6,17 +6,11 @@
 #include <utility>
 #include <variant>
 
+#include "base/match.h"
 #include "scenario/observable_key.h"
 
 namespace slipcheck {
 namespace {
-
-template <class... Cases>
-struct Match : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Match(Cases...) -> Match<Cases...>;
 
 /// The factors of Froude's similarity, for all that a scene holds.
 class Scale {
@@ -89,6 +83,35 @@ class Scale {
       point.position *= length;
     }
   }
+  void operator()(NamedSurface& surface) const {
+    std::visit(*this, surface.shape);
+    std::visit(*this, surface.motion);
+  }
+  void operator()(PlaneShape& plane) const { plane.point *= length; }
+  void operator()(RectangleShape& plate) const {
+    plate.centre *= length;
+    plate.half_length *= length;
+    plate.half_width *= length;
+  }
+  void operator()(RodShape& rod) const {
+    rod.begin *= length;
+    rod.end *= length;
+    rod.radius *= length;
+  }
+  void operator()(BallShape& ball) const {
+    ball.centre *= length;
+    ball.radius *= length;
+  }
+  void operator()(BeltMotion& motion) const { motion.velocity *= speed(); }
+  void operator()(SurfaceTranslation& motion) const { motion.velocity *= speed(); }
+  void operator()(SurfaceOscillation& motion) const {
+    motion.amplitude *= length;
+    motion.frequency /= time;
+  }
+  void operator()(SurfaceTurning& motion) const {
+    motion.about *= length;
+    motion.rate /= time;
+  }
   void operator()(Container& box) const {
     box.width *= length;
     box.floor_amplitude *= length;
@@ -139,7 +162,9 @@ Scenario scaled_lengths(Scenario scenario, double lambda) {
   for (auto& [name, material] : scenario.materials) scale(material);
   for (BodyContact& contact : scenario.contacts) scale(contact);
   for (MaterialOnSubstrate& contact : scenario.substrate_contacts) scale(contact);
+  for (MaterialOnSurface& contact : scenario.surface_contacts) scale(contact);
   std::visit(scale, scenario.surroundings);
+  for (NamedSurface& surface : scenario.surfaces) scale(surface);
   for (Body& body : scenario.bodies) scale(body);
   scale(scenario.run);
   scale(scenario.compare);

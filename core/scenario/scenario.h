@@ -11,6 +11,7 @@
 
 #include "base/enum_names.h"
 #include "physics/sphere.h"
+#include "physics/surface.h"
 #include "physics/vector.h"
 
 namespace slipcheck {
@@ -146,6 +147,11 @@ struct MaterialOnSubstrate {
   std::string path;        ///< of its keys in the file, as in "contacts[1]"
 };
 
+/// The same on surfaces of a material beside the substrate.
+struct MaterialOnSurface : MaterialOnSubstrate {
+  std::string surface;  ///< the surfaces' material
+};
+
 // --- surroundings --------------------------------------------------------------------------------
 
 struct StillMotion {};
@@ -169,6 +175,7 @@ struct TableMotion {
 using Motion = std::variant<StillMotion, ConstantMotion, OscillatingMotion, TableMotion>;
 
 struct Substrate {
+  bool is_there = true;             ///< false: there are only surfaces
   std::optional<Vector2> periodic;  ///< lengths of the periodic cell [m], > 0
   double tilt = 0;                  ///< [rad], in [0, π/2), downhill along −y
   bool confined = false;            ///< bodies never leave the plane
@@ -183,6 +190,36 @@ struct Container {
   double floor_frequency = 0;    ///< [Hz], >= 0
   Walls walls = Walls::fixed;    ///< moving: with the floor
   std::optional<double> height;  ///< closed by a lid at this height [m], > 0
+};
+
+// --- surfaces beside the substrate; an extension -------------------------------------------------
+
+/// Matter passes by, along the surface; its shape stays where it is.
+struct BeltMotion {
+  Vector3 velocity = Vector3::Zero();  ///< [m/s]
+};
+struct SurfaceTranslation {
+  Vector3 velocity = Vector3::Zero();  ///< [m/s]
+};
+/// x_S(t) = amplitude sin(2π frequency t + phase) from where the file has it.
+struct SurfaceOscillation {
+  Vector3 amplitude = Vector3::Zero();  ///< [m]
+  double frequency = 0;                 ///< [Hz], > 0
+  double phase = 0;                     ///< [rad]
+};
+struct SurfaceTurning {
+  Vector3 about = Vector3::Zero();  ///< a point of the axis [m]
+  Vector3 rate = Vector3::Zero();   ///< around itself [rad/s]
+};
+using SurfaceMotionModel =
+    std::variant<StillMotion, BeltMotion, SurfaceTranslation, SurfaceOscillation, SurfaceTurning>;
+
+struct NamedSurface {
+  std::string name;
+  std::string material;
+  SurfaceShape shape;
+  SurfaceMotionModel motion;
+  std::string path;  ///< of its keys in the file, as in "surfaces[0]"
 };
 
 struct Body {
@@ -298,7 +335,9 @@ struct Scenario {
   std::map<std::string, Material> materials;
   std::vector<BodyContact> contacts;
   std::vector<MaterialOnSubstrate> substrate_contacts;
+  std::vector<MaterialOnSurface> surface_contacts;
   std::variant<Substrate, Container> surroundings;
+  std::vector<NamedSurface> surfaces;  ///< beside the substrate, or without one
   std::vector<Body> bodies;
   Run run;
   Compare compare;

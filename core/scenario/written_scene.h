@@ -16,9 +16,9 @@ namespace slipcheck {
 
 struct WrittenContact {
   std::vector<std::string> between;  ///< two names
-  bool on_substrate = false;
-  BodyContact body;               ///< where neither is the substrate
-  MaterialOnSubstrate substrate;  ///< where one is
+  bool on_substrate = false;         ///< of the form that a contact with the substrate has
+  BodyContact body;                  ///< where neither is the substrate
+  MaterialOnSubstrate substrate;     ///< where one is
   std::string path;
   bool complete = false;  ///< read without a fault
 };
@@ -35,6 +35,7 @@ struct WrittenBody {
   Sphere sphere;                          ///< its mass is not yet known
   std::optional<double> mass;             ///< [kg], > 0
   std::vector<double> position;           ///< two or three [m]
+  std::optional<std::string> on;          ///< a surface that it touches
   std::vector<double> velocity = {0, 0};  ///< two or three [m/s]
   WrittenSpin spin;
   std::string path;
@@ -60,6 +61,25 @@ struct Fill {
   bool complete = false;  ///< read without a fault
 };
 
+/// A box is a plate for each of its closed sides.
+struct BoxOfPlates {
+  enum class Side { left, right, front, back, bottom, top };
+  Vector3 from = Vector3::Zero(),
+          to = Vector3::Zero();  ///< corners, from below to in each direction
+  std::vector<Side> open;
+};
+template <>
+inline constexpr std::array kNamesOf<BoxOfPlates::Side> = {"left", "right",  "front",
+                                                           "back", "bottom", "top"};
+
+struct WrittenSurface {
+  std::string name, material;
+  std::variant<SurfaceShape, BoxOfPlates> shape;
+  SurfaceMotionModel motion;
+  std::string path;
+  bool complete = false;  ///< read without a fault
+};
+
 struct WrittenRun {
   std::optional<Run::Until> until;
   double time = 0;
@@ -78,6 +98,7 @@ struct WrittenScene {
   std::vector<WrittenContact> contacts;
   std::optional<Substrate> substrate;
   std::optional<Container> container;
+  std::vector<WrittenSurface> surfaces;
   std::vector<std::variant<WrittenBody, Fill>> bodies;
   std::vector<Fill> fill;
   WrittenRun run;

@@ -1,10 +1,13 @@
 #include "scene/contact_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <list>
 #include <set>
 
 #include "scenario/contact_models.h"
+#include "scenario/surfaces.h"
 #include "scene/contact_maker.h"
 #include "scene/contact_warnings.h"
 #include "scene/obstacles.h"
@@ -72,6 +75,51 @@ void make_surface(const Scenario& scenario, const std::vector<BodyClass>& classe
   }
 }
 
+/// Of every class with every surface beside the substrate.
+void make_surfaces(const Scenario& scenario, const SceneOutline& outline, Makers& makers,
+                   Scene& scene, std::vector<std::optional<SoftContact>>& soft) {
+  for (const BodyClass& body : outline.classes)
+    for (const NamedSurface& surface : scenario.surfaces) {
+      SurfaceContact& contact = scene.on_surfaces.emplace_back();
+      std::optional<SoftContact>& lasting = soft.emplace_back();
+      const auto on =
+          std::ranges::find_if(scenario.surface_contacts, [&](const MaterialOnSurface& each) {
+            return each.material == body.material && each.surface == surface.material;
+          });
+      const auto material = scenario.materials.find(body.material);
+      if (on != scenario.surface_contacts.end()) {
+        contact = surface_contact(
+            *on, material == scenario.materials.end() ? Material{} : material->second, body.sphere,
+            scene.gravity);
+      } else if (ContactMaker* maker = makers.find(body.material, surface.material)) {
+        MadeContact made = make_contact(*maker, surface_pair(scenario, body));
+        contact = surface_contact(made.hard);
+        lasting = std::move(made.soft);
+      }
+    }
+}
+
+/// A body beside other half-spaces never comes to what lies in one of them.
+void warn_of_hidden(const Scenario& scenario, bool has_substrate,
+                    std::vector<std::string>& warnings) {
+  for (const NamedSurface& surface : scenario.surfaces) {
+    const auto hides = [&](const PlaneShape& plane) {
+      return highest_over(plane, surface.shape) <= 0;
+    };
+    const bool moves = !std::holds_alternative<StillMotion>(surface.motion) &&
+                       !std::holds_alternative<BeltMotion>(surface.motion);
+    const bool below = has_substrate && hides(PlaneShape{});
+    const bool behind = std::ranges::any_of(scenario.surfaces, [&](const NamedSurface& other) {
+      const auto* plane = std::get_if<PlaneShape>(&other.shape);
+      return plane && &other != &surface && hides(*plane);
+    });
+    if (!moves && (below || behind))
+      warnings.push_back(fmt::format("{}: no body can reach the surface {}, which lies behind {}",
+                                     surface.path, surface.name,
+                                     below ? "the substrate" : "another plane"));
+  }
+}
+
 }  // namespace
 
 ContactScene make_contact_scene(const Scenario& scenario) {
@@ -106,6 +154,8 @@ ContactScene make_contact_scene(const Scenario& scenario) {
     make("wall", box.on_wall, made.soft_box.on_wall);
     make("lid", box.on_lid, made.soft_box.on_lid);
   }
+  make_surfaces(scenario, outline, makers, outline.scene, made.soft_surfaces);
+  warn_of_hidden(scenario, outline.scene.has_substrate, made.warnings);
   for (ContactMaker& maker : makers.all()) {
     for (std::string& warning : contact_warnings(scenario, outline, maker))
       made.warnings.push_back(std::move(warning));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "scenario/contact_models.h"
+#include "scenario/surfaces.h"
 
 namespace slipcheck {
 namespace {
@@ -92,6 +93,9 @@ std::set<std::string> divided_materials(const Scenario& scenario) {
   for (const MaterialOnSubstrate& contact : scenario.substrate_contacts) {
     if (is_hertzian(contact.drilling)) divided.insert(contact.material);
   }
+  for (const MaterialOnSurface& contact : scenario.surface_contacts) {
+    if (is_hertzian(contact.drilling)) divided.insert(contact.material);
+  }
   for (const BodyContact& contact : scenario.contacts) {
     if (depends_on_bodies(contact)) divided.insert({contact.first, contact.second});
   }
@@ -99,6 +103,21 @@ std::set<std::string> divided_materials(const Scenario& scenario) {
 }
 
 }  // namespace
+
+SurfaceContact surface_contact(const MaterialOnSubstrate& from, const Material& material,
+                               const Sphere& sphere, double gravity) {
+  const SubstrateContact lasting = substrate_contact(from, material, sphere, gravity);
+  return {lasting, {lasting.restitution, lasting.kinetic_friction, 0}};
+}
+
+SurfaceContact surface_contact(const PairContact& impact) {
+  SubstrateContact lasting;
+  lasting.static_friction = lasting.kinetic_friction = impact.friction;
+  // Of a law over the impact speed nothing is left at rest.
+  const double* restitution = std::get_if<double>(&impact.restitution);
+  lasting.restitution = restitution ? *restitution : 0;
+  return {lasting, impact};
+}
 
 PairContact hard_pair(const BodyContact& contact) {
   PairContact pair;
@@ -125,9 +144,13 @@ SceneOutline make_outline(const Scenario& scenario) {
     scene.motion = substrate_motion(substrate->motion);
     scene.confined = substrate->confined;
     scene.periodic = substrate->periodic.value_or(Vector2::Zero());
+    scene.has_substrate = substrate->is_there;
   } else {
     scene.box = box_of(std::get<Container>(scenario.surroundings));
   }
+
+  for (const NamedSurface& surface : scenario.surfaces)
+    scene.surfaces.push_back(made_surface(surface));
 
   std::map<std::string, const MaterialOnSubstrate*> on_substrate;
   for (const MaterialOnSubstrate& contact : scenario.substrate_contacts) {

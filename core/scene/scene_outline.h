@@ -25,6 +25,11 @@ struct SceneOutline {
 
 SceneOutline make_outline(const Scenario& scenario);
 
+/// Of a class on a surface, from a contact of the substrate's form and from one of a pair's.
+SurfaceContact surface_contact(const MaterialOnSubstrate& from, const Material& material,
+                               const Sphere& sphere, double gravity);
+SurfaceContact surface_contact(const PairContact& impact);
+
 /// The pair contact of a normal model `hard`; a restitution `viscoelastic` is left at 1.
 PairContact hard_pair(const BodyContact& contact);
 

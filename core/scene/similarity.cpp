@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/match.h"
+
 namespace slipcheck {
 namespace {
 
@@ -35,6 +37,34 @@ SubstrateMotion turn(const SubstrateMotion& motion, const Vector2& heading) {
     }
   }
   return motion;
+}
+
+Surface turn(const Surface& surface, const Vector2& heading) {
+  const auto of = [&](const Vector3& v) { return turn(v, heading); };
+  Surface turned = surface;
+  std::visit(Match{[&](PlaneShape& plane) {
+                     plane.point = of(plane.point);
+                     plane.normal = of(plane.normal);
+                   },
+                   [&](RectangleShape& plate) {
+                     plate.centre = of(plate.centre);
+                     plate.half_length = of(plate.half_length);
+                     plate.half_width = of(plate.half_width);
+                   },
+                   [&](RodShape& rod) {
+                     rod.begin = of(rod.begin);
+                     rod.end = of(rod.end);
+                   },
+                   [&](BallShape& ball) { ball.centre = of(ball.centre); }},
+             turned.shape);
+  const SurfaceMotion& motion = surface.motion;
+  if (!motion.rate().isZero(0)) {
+    turned.motion = SurfaceMotion::turning(of(motion.pivot()), of(motion.rate()));
+  } else if (!motion.is_still()) {
+    const auto make = motion.is_belt() ? SurfaceMotion::belt : SurfaceMotion::moving;
+    turned.motion = make(motion.course(), of(motion.first()), of(motion.second()));
+  }
+  return turned;
 }
 
 BodyState turn(const BodyState& state, const Vector2& heading) {
@@ -79,6 +109,7 @@ Scene turned(Scene scene, const Vector2& heading) {
   for (BodyState& state : scene.initial) state = turn(state, heading);
   scene.downhill = turn(scene.downhill, heading);
   scene.motion = turn(scene.motion, heading);
+  for (Surface& surface : scene.surfaces) surface = turn(surface, heading);
   return scene;
 }
 

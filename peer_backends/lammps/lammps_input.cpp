@@ -43,11 +43,14 @@ HookeCoefficients hooke_coefficients(const Spring& spring) {
           spring.tangential / spring.mass, spring.friction, spring.never_attracts};
 }
 
+/// It takes coefficients up to 1e4, a limit that no force comes to.
 std::string gran_style(const char* style, const Spring& spring) {
+  constexpr double kMostFriction = 1e4;
   const HookeCoefficients c = hooke_coefficients(spring);
   return fmt::format("pair_style {} {} NULL {} {} {} 1{}\npair_coeff * *\n", style,
                      exact(c.stiffness), exact(c.normal_rate), exact(c.tangential_rate),
-                     exact(c.friction), c.never_attracts ? " limit_damping" : "");
+                     exact(std::min(c.friction, kMostFriction)),
+                     c.never_attracts ? " limit_damping" : "");
 }
 
 /// The words of pair style `granular` and of fix wall/gran for a spring. Their tangential damping

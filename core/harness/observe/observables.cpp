@@ -76,10 +76,12 @@ std::string value_name(const Observables& observables, const std::vector<std::st
   if (index < of_bodies) return kKeys[index % kOfBody].of(body_names[index / kOfBody]).text();
   const std::size_t left = index - of_bodies;
   const PairObservables& pair = observables.pairs[left / kPairScalars.size()];
-  const std::string owner =
-      pair_owner(body_names[static_cast<std::size_t>(pair.first)],
-                 pair.second == kSubstrate ? std::string_view("substrate")
-                                           : body_names[static_cast<std::size_t>(pair.second)]);
+  const auto second = [&]() -> std::string_view {
+    if (pair.second == kSubstrate) return "substrate";
+    if (pair.second >= 0) return body_names[static_cast<std::size_t>(pair.second)];
+    return body_names[observables.bodies.size() + touched_surface(pair.second)];
+  };
+  const std::string owner = pair_owner(body_names[static_cast<std::size_t>(pair.first)], second());
   return ObservableKey{owner, kPairScalars[left % kPairScalars.size()].name}.text();
 }
 

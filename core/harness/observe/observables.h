@@ -47,7 +47,7 @@ struct BodyObservables {
 
 struct PairObservables {
   int first = 0;
-  int second = 0;                                ///< body, > first, or kSubstrate
+  int second = 0;                                ///< body, > first, kSubstrate or surface_touch()
   double restitution = kNotObserved;             ///< normal: −g'/g of the centres
   double tangential_restitution = kNotObserved;  ///< ε^T: g' = +ε^T g at the contact point
   double effective_restitution = kNotObserved;   ///< once neither slides
@@ -63,7 +63,8 @@ struct Observables {
 };
 
 /// The full name of a value that these bodies and pairs can have: "i.sliding_time",
-/// "i.final_velocity.x", "i-j.restitution". A vector's bare name is its length.
+/// "i.final_velocity.x", "i-j.restitution". A vector's bare name is its length. The names of the
+/// surfaces beside the substrate stand after those of the bodies.
 std::string value_name(const Observables& observables, const std::vector<std::string>& body_names,
                        std::size_t index);
 

@@ -47,27 +47,31 @@ Observer::Observer(const Scene& scene, double step, double speed_scale, bool res
       speed_scale_(speed_scale),
       closing_scale_(closing_scale_of(scene, speed_scale)),
       resolved_(resolved),
+      on_surfaces_(!scene.surfaces.empty()),
       bodies_(scene.bodies.size()) {
-  const double floor = (step > 0 ? kEngineNoise : kRoundOff) * speed_scale;
-  const double g = scene.gravity;
-  const double per_step = 0.5 * g * step;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    bodies_[i].zero = resolution(i, scene.on_substrate(i), scene.gravity);
+}
+
+Resolution Observer::resolution(std::size_t i, const SubstrateContact& c, double gravity) const {
+  const double floor = (step_ > 0 ? kEngineNoise : kRoundOff) * speed_scale_;
+  const double per_step = 0.5 * gravity * step_;
   // What pulls or shakes a body is left in its slip where an engine adds it after the friction.
-  const double driven = 0.5 * step * (scene.downhill.norm() + scene.motion.largest_acceleration());
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Sphere& s = scene.bodies[i];
-    const SubstrateContact& c = scene.on_substrate(i);
-    const double slip_per_step = per_step * (1 + s.inverse_shape_factor());
-    // Rolling friction that is solved for after the sliding leaves its own step of slip.
-    const double left = 2 * slip_per_step * c.rolling.largest_up_to(speed_scale) + driven;
-    Resolution& zero = bodies_[i].zero;
-    zero.left_slip = std::max(floor, left);
-    zero.slip = std::max(floor, slip_per_step * c.kinetic_friction + left);
-    if (resolved && step == 0) zero.slip = std::max(zero.slip, kIntegrationError * speed_scale);
-    if (c.coupled_radius > 0) zero.slip = std::max(zero.slip, kCoupledSlip * speed_scale);
-    zero.speed = std::max(floor, per_step * c.rolling(0));
-    zero.spin = std::max(floor / s.radius,
-                         per_step * c.drilling_length / (s.shape_factor * s.radius * s.radius));
-  }
+  const double driven =
+      0.5 * step_ * (scene_->downhill.norm() + scene_->motion.largest_acceleration());
+  const Sphere& s = scene_->bodies[i];
+  const double slip_per_step = per_step * (1 + s.inverse_shape_factor());
+  // Rolling friction that is solved for after the sliding leaves its own step of slip.
+  const double left = 2 * slip_per_step * c.rolling.largest_up_to(speed_scale_) + driven;
+  Resolution zero;
+  zero.left_slip = std::max(floor, left);
+  zero.slip = std::max(floor, slip_per_step * c.kinetic_friction + left);
+  if (resolved_ && step_ == 0) zero.slip = std::max(zero.slip, kIntegrationError * speed_scale_);
+  if (c.coupled_radius > 0) zero.slip = std::max(zero.slip, kCoupledSlip * speed_scale_);
+  zero.speed = std::max(floor, per_step * c.rolling(0));
+  zero.spin = std::max(floor / s.radius,
+                       per_step * c.drilling_length / (s.shape_factor * s.radius * s.radius));
+  return zero;
 }
 
 // --- over the substrate --------------------------------------------------------------------------
@@ -82,6 +86,12 @@ void Observer::look_at_ground(double t0, double t1) {
 }
 
 Vector3 Observer::slip_of(std::size_t i, const BodyState& state, const Ground& ground) const {
+  if (on_surfaces_) {
+    const Vector3& up = bodies_[i].up;
+    const Vector3 u = state.velocity + scene_->bodies[i].radius * up.cross(state.angular_velocity) -
+                      ground.velocity;
+    return u - up.dot(u) * up;
+  }
   Vector3 slip = slip_velocity(state, scene_->bodies[i].radius) - ground.velocity;
   slip.z() = 0;
   return slip;
@@ -98,6 +108,16 @@ bool Observer::slips(std::size_t i, const BodyState& state, const Ground& ground
 /// A rolling sphere that gravity and the substrate drive moves over the substrate with
 /// A/(1+A) (a_G − a_S), K (22), (24), unless rolling friction μ_r g can take as much.
 bool Observer::can_rest(std::size_t i, double time) const {
+  if (on_surfaces_) {
+    const Body& body = bodies_[i];
+    const Vector3 g = scene_->gravity_vector();
+    const double pressed = -body.up.dot(g);
+    Vector3 drive = g + pressed * body.up;
+    if (body.base == kSubstrate) drive -= scene_->motion.acceleration(time);
+    const double A = scene_->bodies[i].inverse_shape_factor();
+    const double hold = contact_with(i, body.base).rolling(0) * pressed;
+    return A / (1 + A) * drive.norm() <= hold + 1e-9 * g.norm();
+  }
   Vector3 drive = -scene_->motion.acceleration(time);
   drive.head<2>() += scene_->downhill;
   const double A = scene_->bodies[i].inverse_shape_factor();
@@ -112,8 +132,8 @@ bool Observer::touches_substrate(std::size_t i, const Frame& frame) const {
   // A sleeping body of an engine is not solved for, yet it lies on the plane.
   const BodyState& state = frame.bodies[i];
   const double radius = scene_->bodies[i].radius;
-  return step_ > 0 && state.position.z() - radius < 1e-3 * radius &&
-         std::abs(state.velocity.z()) < vertical_noise();
+  const double above = on_surfaces_ ? gap(i, time_, state) : state.position.z() - radius;
+  return step_ > 0 && above < 1e-3 * radius && std::abs(rise(bodies_[i], state)) < vertical_noise();
 }
 
 void Observer::take(double time, const Frame& frame) {
@@ -124,7 +144,7 @@ void Observer::take(double time, const Frame& frame) {
   const double t0 = time_, t1 = time;
   look_at_ground(t0, t1);
   for (Body& body : bodies_) body.touched = false;
-  note_substrate(frame.touches);
+  note_substrate(frame.touches, t1, frame.bodies);
   note_touches(t0, t1, frame);
   for (std::size_t i = 0; i < bodies_.size(); ++i) follow(i, t1, frame);
   for (Pair& pair : pairs_) settle_effective_restitution(pair, t0, t1, frame);
@@ -137,14 +157,15 @@ void Observer::take(double time, const Frame& frame) {
 }
 
 bool Observer::take_partial(double time, const PartialFrame& frame) {
-  if (!started_ || step_ > 0 || resolved_ || !scene_->motion.is_still()) return false;
+  if (!started_ || step_ > 0 || resolved_ || on_surfaces_ || !scene_->motion.is_still())
+    return false;
   if (now_.bodies.empty()) now_.bodies = last_.bodies;
   for (std::size_t k = 0; k < frame.bodies.size(); ++k) {
     now_.bodies[frame.bodies[k]] = frame.states[k];
     bodies_[frame.bodies[k]].touched = false;
   }
   now_.touches.assign(frame.touches.begin(), frame.touches.end());
-  note_substrate(now_.touches);
+  note_substrate(now_.touches, time, now_.bodies);
   note_touches(time_, time, now_);
   for (const std::size_t i : frame.bodies) {
     follow(i, time, now_);
@@ -161,14 +182,25 @@ bool Observer::take_partial(double time, const PartialFrame& frame) {
   return true;
 }
 
-void Observer::note_substrate(std::span<const Touch> touches) {
-  for (const Touch& touch : touches)
-    if (touch.second == kSubstrate) bodies_[static_cast<std::size_t>(touch.first)].touched = true;
+void Observer::note_substrate(std::span<const Touch> touches, double t1,
+                              std::span<const BodyState> now) {
+  for (const Touch& touch : touches) {
+    Body& body = bodies_[static_cast<std::size_t>(touch.first)];
+    if (touch.second == (on_surfaces_ ? body.base : kSubstrate)) body.touched = true;
+  }
+  if (!on_surfaces_) return;
+  // What a body touches once it has left what carried it.
+  for (const Touch& touch : touches) {
+    if (is_body(touch.second)) continue;
+    const auto i = static_cast<std::size_t>(touch.first);
+    if (!bodies_[i].touched) bodies_[i].touched = take_base(i, touch.second, t1, now[i]);
+  }
 }
 
 void Observer::follow(std::size_t i, double t1, const Frame& frame) {
   Body& body = bodies_[i];
   const double t0 = std::exchange(body.seen, t1);
+  if (on_surfaces_) look_at_ground_of(i, t0, t1, frame.bodies[i]);
   const bool touches = touches_substrate(i, frame);
   follow_landing(body, i, frame);
   follow_flight(body, i, touches, t0, t1, frame);
@@ -187,17 +219,23 @@ void Observer::begin(double time, const Frame& frame) {
     Body& body = bodies_[i];
     const BodyState& state = frame.bodies[i];
     body.seen = body.origin_time = time;
+    if (on_surfaces_) {
+      find_base(i, time, state);
+      look_at_ground_of(i, time, time, state);
+    }
     body.origin = position_over(state, ground1_);
     body.after = state;
     body.slide_end = time;
-    body.supported = state.position.z() <= scene_->bodies[i].radius * (1 + 1e-9) &&
-                     !(state.velocity.z() > body.zero.slip);
+    const double radius = scene_->bodies[i].radius;
+    const bool is_low = on_surfaces_ ? gap(i, time, state) <= 1e-9 * radius
+                                     : state.position.z() <= radius * (1 + 1e-9);
+    body.supported = is_low && !(rise(body, state) > body.zero.slip);
     if (body.supported) body.supported_frames = kSupportedFrames;
     if (!body.supported) body.unsupported_since = time;
     body.began_on_plane = body.supported;
     body.sliding = body.supported && slips(i, state, ground1_);
     if (body.supported && !body.sliding) body.rolling_velocity = state.velocity;
-    body.spinning = std::abs(state.angular_velocity.z()) > body.zero.spin;
+    body.spinning = std::abs(spin(body, state)) > body.zero.spin;
     body.spun = body.spinning;
     body.resting = body.supported && !body.sliding && can_rest(i, time) &&
                    velocity_over(state, ground1_).norm() <= body.zero.speed;
@@ -292,7 +330,7 @@ Observables Observer::finish(double end) const {
       out.spin_stopping_time = body.spin_stop_time - body.origin_time;
     out.lift_off_speed = body.lift_off_speed;
     out.flight_time = body.flight_time;
-    if (!std::isnan(body.lift_off_speed) && (!body.jumping || last_.bodies[i].velocity.z() <= 0))
+    if (!std::isnan(body.lift_off_speed) && (!body.jumping || rise(body, last_.bodies[i]) <= 0))
       out.jump_height = body.peak - body.lift_off_height;
     const BodyState &s0 = before.bodies[i], &s1 = after.bodies[i];
     out.final_position = between(s0.position, s1.position, fraction);
@@ -300,7 +338,7 @@ Observables Observer::finish(double end) const {
     out.final_angular_velocity = between(s0.angular_velocity, s1.angular_velocity, fraction);
     if (!std::isnan(body.landing_restitution))
       seen.pairs.push_back({.first = static_cast<int>(i),
-                            .second = kSubstrate,
+                            .second = body.landed_on,
                             .restitution = body.landing_restitution});
   }
   for (const Pair& pair : pairs_) {

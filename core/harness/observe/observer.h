@@ -122,6 +122,8 @@ class Observer final : public FrameSink {
     double faint_time = 0;
     Vector3 faint_way = Vector3::Zero();
     bool began_on_plane = true, touched = false, collided_now = false;
+    int base = kSubstrate;  ///< what carries it, or did last
+    Vector3 up = kUp;       ///< its normal there
     FallingQuantity slip, speed, spin;
     double slide_end = 0, slide_time = 0;
     Vector3 slide = Vector3::Zero();
@@ -142,10 +144,11 @@ class Observer final : public FrameSink {
     Vector3 away = Vector3::Zero();  ///< n from the other body
     double fall_speed = 0;           ///< of the last landing, for the pair with the substrate
     double landing_restitution = kNotObserved;
+    int landed_on = kSubstrate;
     double fastest_landing = 0;
   };
   struct Pair {
-    int first, second;
+    int first, second;   ///< bodies; second maybe a surface_touch()
     double fastest = 0;  ///< approach of its collisions so far [m/s]
     bool touched_before = false, touched_now = false, colliding = false, collided = false;
     bool from_start = false;      ///< it overlaps since the first frame
@@ -161,13 +164,50 @@ class Observer final : public FrameSink {
   };
 
   void begin(double time, const Frame& frame);
-  void note_substrate(std::span<const Touch> touches);
+  void note_substrate(std::span<const Touch> touches, double t1, std::span<const BodyState> now);
   /// What body i has done since it was last seen.
   void follow(std::size_t i, double t1, const Frame& frame);
   void look_at_ground(double t0, double t1);
+  /// The same of what carries one body, beside surfaces.
+  void look_at_ground_of(std::size_t i, double t0, double t1, const BodyState& now);
   void keep_frames_of_the_end();
   bool touches_substrate(std::size_t i, const Frame& frame) const;
   void follow_support(Body& body, bool touches, double t1, const BodyState& now) const;
+
+  // What carries a body: the substrate, or beside surfaces that which it touches below itself.
+  /// The speed at which it goes up [m/s].
+  double rise(const Body& body, const BodyState& state) const {
+    return on_surfaces_ ? body.up.dot(state.velocity) : state.velocity.z();
+  }
+  /// Of its centre [m], of which only differences mean something.
+  double level(const Body& body, const BodyState& state) const {
+    return on_surfaces_ ? body.up.dot(state.position) : state.position.z();
+  }
+  double spin(const Body& body, const BodyState& state) const {
+    return on_surfaces_ ? body.up.dot(state.angular_velocity) : state.angular_velocity.z();
+  }
+  /// Between the body and what carries it [m].
+  double gap(std::size_t i, double t, const BodyState& state) const;
+  NearestPoint nearest(int base, double t, const BodyState& state) const;
+  SubstrateContact contact_with(std::size_t i, int base) const;
+  Resolution resolution(std::size_t i, const SubstrateContact& contact, double gravity) const;
+  /// Where it can lie on a surface: that it does so from now on.
+  bool take_base(std::size_t i, int base, double t, const BodyState& state);
+  void find_base(std::size_t i, double t, const BodyState& state);
+
+  /// The second of a pair: a body, or the place of a surface that the first touches.
+  struct Side {
+    Sphere sphere;
+    BodyState state;
+  };
+  Side second_of(const Pair& pair, double t, const std::vector<BodyState>& states) const;
+  static bool is_body(int second) { return second >= 0; }
+  template <class F>
+  static void for_bodies_of(const Pair& pair, F f) {
+    f(static_cast<std::size_t>(pair.first));
+    if (is_body(pair.second)) f(static_cast<std::size_t>(pair.second));
+  }
+
   /// On the substrate and not sliding, as far as the frames tell.
   bool rolls(const Body& body) const;
   void begin_overlaps(double time, const Frame& frame);
@@ -200,13 +240,14 @@ class Observer final : public FrameSink {
   std::size_t pair_of(int first, int second);  ///< an index of pairs_
   /// From b's nearest image to a.
   Vector3 apart(const BodyState& a, const BodyState& b) const;
-  double overlap(std::size_t i, std::size_t j, const std::vector<BodyState>& states) const;
+  double overlap(const Pair& pair, double t, const std::vector<BodyState>& states) const;
 
   const Scene* scene_;
   double step_;
   double speed_scale_;
   double closing_scale_;  ///< the same of centres alone [m/s]
   bool resolved_;
+  bool on_surfaces_;
   bool started_ = false;
   double time_ = 0, time_before_ = 0;
   Frame last_, before_last_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "harness/observe/observer.h"
 #include "reference/initial_contacts.h"
@@ -22,12 +23,29 @@ Vector3 Observer::apart(const BodyState& a, const BodyState& b) const {
   return scene_->to_nearest_image(a.position - b.position);
 }
 
-double Observer::overlap(std::size_t i, std::size_t j, const std::vector<BodyState>& states) const {
-  return scene_->bodies[i].radius + scene_->bodies[j].radius - apart(states[i], states[j]).norm();
+auto Observer::second_of(const Pair& pair, double t, const std::vector<BodyState>& states) const
+    -> Side {
+  if (is_body(pair.second)) return {scene_->bodies[index(pair.second)], states[index(pair.second)]};
+  // A point of infinite mass.
+  const NearestPoint near = nearest(pair.second, t, states[index(pair.first)]);
+  BodyState place;
+  place.position = near.point;
+  place.velocity =
+      pair.second == kSubstrate
+          ? scene_->motion.velocity(t)
+          : scene_->surfaces[touched_surface(pair.second)].motion.velocity(t, near.point);
+  return {{0, std::numeric_limits<double>::infinity()}, place};
+}
+
+double Observer::overlap(const Pair& pair, double t, const std::vector<BodyState>& states) const {
+  const Side second = second_of(pair, t, states);
+  return scene_->bodies[index(pair.first)].radius + second.sphere.radius -
+         apart(states[index(pair.first)], second.state).norm();
 }
 
 std::size_t Observer::pair_of(int first, int second) {
-  const std::uint64_t key = (std::uint64_t{index(first)} << 32) | index(second);
+  const std::uint64_t key =
+      (std::uint64_t{index(first)} << 32) | static_cast<std::uint32_t>(second);
   const auto [known, is_new] = pair_numbers_.try_emplace(key, pairs_.size());
   if (is_new) {
     Pair& pair = pairs_.emplace_back();
@@ -65,7 +83,9 @@ void Observer::note_touches(double t0, double t1, const Frame& frame) {
     pairs_[k].touched_now = false;
   }
   for (const Touch& touch : frame.touches) {
-    if (touch.second == kSubstrate) continue;
+    const bool carries =
+        touch.second == (on_surfaces_ ? bodies_[index(touch.first)].base : kSubstrate);
+    if (carries) continue;
     const std::size_t number = pair_of(touch.first, touch.second);
     Pair& pair = pairs_[number];
     if (!pair.touched_before && !pair.touched_now) touching_.push_back(number);
@@ -90,9 +110,10 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
   // The reference's contact is a collision or none from its beginning on.
   if ((step_ == 0 || pair.from_start) && pair.touched_before) return pair.colliding;
 
-  const std::size_t i = index(pair.first), j = index(pair.second);
-  const BodyState &si = last_.bodies[i], &sj = last_.bodies[j];
-  const Sphere &a = scene_->bodies[i], &b = scene_->bodies[j];
+  const std::size_t i = index(pair.first);
+  const BodyState& si = last_.bodies[i];
+  const Sphere& a = scene_->bodies[i];
+  const auto [b, sj] = second_of(pair, t0, last_.bodies);
   const Vector3 n = apart(si, sj).normalized();
   const double approach = -n.dot(si.velocity - sj.velocity);
 
@@ -100,11 +121,11 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
   // A blow that passes through a row of bodies in one step finds this pair without an approach;
   // what sliding bodies that lean on each other push in a step is none.
   const double blow = 0.5 * touch.normal_impulse * (1 / a.mass + 1 / b.mass);
+  const auto rubs = [&](int k) {
+    return is_body(k) ? scene_->on_substrate(index(k)).kinetic_friction : 0;
+  };
   const double leaning =
-      ((scene_->on_substrate(i).kinetic_friction + scene_->on_substrate(j).kinetic_friction) *
-           scene_->gravity +
-       scene_->downhill.norm()) *
-      step_;
+      ((rubs(pair.first) + rubs(pair.second)) * scene_->gravity + scene_->downhill.norm()) * step_;
   if (approach <= weakest && (step_ == 0 || blow <= weakest + leaning)) {
     pair.colliding = false;
     return false;
@@ -118,26 +139,28 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
   const Vector3 u = contact_velocity(a, si, b, sj, n);
   pair.tangential = u - n.dot(u) * n;
   pair.begin_time = t0;
-  pair.max_overlap = std::max(0.0, overlap(i, j, last_.bodies));
-  pair.slid_before = bodies_[i].sliding || bodies_[j].sliding;
+  pair.max_overlap = std::max(0.0, overlap(pair, t0, last_.bodies));
+  pair.slid_before = false;
   pair.sliding_onset = kNotObserved;
-  for (std::size_t k : {i, j}) {
+  for_bodies_of(pair, [&](std::size_t k) {
+    pair.slid_before = pair.slid_before || bodies_[k].sliding;
     bodies_[k].collision_begin = t0;
-    bodies_[k].collision_height = last_.bodies[k].position.z();
-  }
+    bodies_[k].collision_height = level(bodies_[k], last_.bodies[k]);
+  });
   return true;
 }
 
 /// What a collision shows that lasts.
 void Observer::resolve(Pair& pair, double t0, double t1, const Frame& frame) {
-  const std::size_t i = index(pair.first), j = index(pair.second);
   pair.contact_time = t1 - pair.begin_time;
-  pair.max_overlap = std::max(pair.max_overlap, overlap(i, j, frame.bodies));
+  pair.max_overlap = std::max(pair.max_overlap, overlap(pair, t1, frame.bodies));
   if (pair.slid_before || !std::isnan(pair.sliding_onset)) return;
-  for (std::size_t k : {i, j})
+  for_bodies_of(pair, [&](std::size_t k) {
+    if (on_surfaces_) look_at_ground_of(k, t0, t1, frame.bodies[k]);
     if (touches_substrate(k, frame) && !slips(k, last_.bodies[k], ground0_) &&
         slips(k, frame.bodies[k], ground1_))
       pair.sliding_onset = t0 - pair.begin_time;
+  });
 }
 
 void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double t1,
@@ -145,9 +168,10 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
   if (!continues_or_begins(pair, touch, t0)) return;
   if (resolved_) resolve(pair, t0, t1, frame);
 
-  const std::size_t i = index(pair.first), j = index(pair.second);
-  const Sphere &a = scene_->bodies[i], &b = scene_->bodies[j];
-  const BodyState &after_i = frame.bodies[i], &after_j = frame.bodies[j];
+  const std::size_t i = index(pair.first);
+  const Sphere& a = scene_->bodies[i];
+  const BodyState& after_i = frame.bodies[i];
+  const auto [b, after_j] = second_of(pair, t1, frame.bodies);
   // The line of centres turns while a contact lasts; an engine's normal is that before the step.
   const Vector3 tangential = pair.tangential;
   Vector3 direction = tangential;
@@ -168,16 +192,16 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
           : kNotObserved;
   pair.effective = kNotObserved;
   // A body that collides again never shows what its earlier collision would have come to.
-  for (const std::size_t k : {i, j}) {
+  for_bodies_of(pair, [&](std::size_t k) {
     if (bodies_[k].last_pair != kNone) pairs_[bodies_[k].last_pair].awaits_rolling = false;
     bodies_[k].last_pair = static_cast<std::size_t>(&pair - pairs_.data());
-  }
+  });
   pair.awaits_rolling = true;
-  for (const auto& [k, away] :
-       {std::pair{i, pair.n}, std::pair<std::size_t, Vector3>{j, -pair.n}}) {
+  for_bodies_of(pair, [&](std::size_t k) {
     Body& body = bodies_[k];
+    if (on_surfaces_) look_at_ground_of(k, t0, t1, frame.bodies[k]);
     body.collided = body.collided_now = true;
-    body.away = away;
+    body.away = k == i ? pair.n : Vector3(-pair.n);
     body.after = frame.bodies[k];
     body.slip_after = slip_of(k, body.after, ground1_);
     body.origin_time = t1;
@@ -188,18 +212,22 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
     body.rolling_velocity = kVectorNotObserved;
     body.stop_time = body.spin_stop_time = kNotObserved;
     body.resting = false;
-    body.spun = std::abs(frame.bodies[k].angular_velocity.z()) > body.zero.spin;
+    body.spun = std::abs(spin(body, frame.bodies[k])) > body.zero.spin;
     body.spinning = body.spun;
     body.jumping = false;
     body.lift_off_speed = body.flight_time = kNotObserved;
-  }
+  });
 }
 
 void Observer::settle_effective_restitution(Pair& pair, double t0, double t1, const Frame& frame) {
   if (!pair.awaits_rolling || pair.colliding) return;
-  const Body &a = bodies_[index(pair.first)], &b = bodies_[index(pair.second)];
-  if (!rolls(a) || !rolls(b)) return;
-  const double both = std::max(a.slide_end, b.slide_end);
+  double both = -std::numeric_limits<double>::infinity();
+  bool all_roll = true;
+  for_bodies_of(pair, [&](std::size_t k) {
+    all_roll = all_roll && rolls(bodies_[k]);
+    both = std::max(both, bodies_[k].slide_end);
+  });
+  if (!all_roll) return;
   const auto velocity_then = [&](int k) -> Vector3 {
     const std::size_t i = index(k);
     const Body& body = bodies_[i];
@@ -212,7 +240,9 @@ void Observer::settle_effective_restitution(Pair& pair, double t0, double t1, co
     const Vector3& before = kink ? body.rolling_velocity : last_.bodies[i].velocity;
     return before + (both - begin) / (t1 - begin) * (now - before);
   };
-  const Vector3 dv = velocity_then(pair.first) - velocity_then(pair.second);
+  const Vector3 other = is_body(pair.second) ? velocity_then(pair.second)
+                                             : second_of(pair, both, frame.bodies).state.velocity;
+  const Vector3 dv = velocity_then(pair.first) - other;
   pair.effective = pair.n.dot(dv) / pair.approach;
   pair.awaits_rolling = false;
 }

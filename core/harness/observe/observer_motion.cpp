@@ -58,7 +58,11 @@ void Observer::follow_sliding(Body& body, std::size_t i, double t0, double t1, c
   else if (std::isnan(body.rolling_velocity.x()))
     body.rolling_velocity = s1.velocity;
   // What is left of a bounce is no part of it.
-  if (!std::isnan(body.rolling_velocity.x())) body.rolling_velocity.z() = 0;
+  if (std::isnan(body.rolling_velocity.x())) return;
+  if (on_surfaces_)
+    body.rolling_velocity -= body.up.dot(body.rolling_velocity) * body.up;
+  else
+    body.rolling_velocity.z() = 0;
 }
 
 void Observer::follow_stopping(Body& body, std::size_t i, double t0, double t1,
@@ -84,8 +88,8 @@ void Observer::follow_stopping(Body& body, std::size_t i, double t0, double t1,
   }
   body.resting = rests;
 
-  const double spin0 = std::abs(s0.angular_velocity.z());
-  const double spin1 = std::abs(s1.angular_velocity.z());
+  const double spin0 = std::abs(spin(body, s0));
+  const double spin1 = std::abs(spin(body, s1));
   const bool spins = spin1 > body.zero.spin;
   if (body.spinning && !spins) {
     body.spin_stop_time =

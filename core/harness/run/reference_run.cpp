@@ -225,6 +225,7 @@ std::vector<std::string> body_names(const Scenario& scenario) {
   std::vector<std::string> names;
   names.reserve(scenario.bodies.size());
   for (const Body& body : scenario.bodies) names.push_back(body.name);
+  for (const NamedSurface& surface : scenario.surfaces) names.push_back(surface.name);
   return names;
 }
 

@@ -54,6 +54,7 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
 void fail_because_of_nan(const std::vector<std::string>& names, ReferenceResult& result);
 
 RunEnd run_end(const Scenario& scenario);
+/// Names of the bodies, and after them those of the surfaces.
 std::vector<std::string> body_names(const Scenario& scenario);
 
 }  // namespace slipcheck

@@ -13,6 +13,7 @@
 #include "reference/events/rate_limit.h"
 #include "reference/events/scan_queue.h"
 #include "reference/events/substrate_world.h"
+#include "reference/events/surface_world.h"
 #include "reference/lasting_contacts.h"
 #include "scene/ode.h"
 
@@ -35,6 +36,12 @@ RateLimit rate_limit(const EventSettings& settings, std::size_t bodies, double n
 
 double speed_scale(const Scene& scene, std::span<const BodyState> states) {
   double scale = scene.motion.largest_speed();
+  for (const Surface& surface : scene.surfaces) {
+    scale = std::max(scale, surface.motion.course().largest_speed());
+    for (const Sphere& sphere : scene.bodies)
+      scale = std::max({scale, sphere.radius * surface.motion.rate().norm(),
+                        std::sqrt(2 * scene.gravity * sphere.radius)});
+  }
   for (std::size_t i = 0; i < states.size(); ++i) {
     const BodyState& s = states[i];
     const double radius = scene.bodies[i].radius;
@@ -76,9 +83,12 @@ class EventSolver::EngineOf final : public Engine {
   std::unique_ptr<Engine> copy() const override { return std::make_unique<EngineOf>(*this); }
   double now() const override { return now_; }
   std::vector<std::string> features() const override {
-    return {World::kIsStill ? "phases on a level, still plane" : "phases on any plane",
-            World::kHasCells ? "neighbours in cells, a calendar queue"
-                             : "all pairs, a scan for the next event"};
+    if constexpr (std::is_same_v<World, SurfaceWorld>)
+      return world_.features();
+    else
+      return {World::kIsStill ? "phases on a level, still plane" : "phases on any plane",
+              World::kHasCells ? "neighbours in cells, a calendar queue"
+                               : "all pairs, a scan for the next event"};
   }
   std::vector<BodyState> states() const override {
     std::vector<BodyState> states(world_.size());
@@ -171,7 +181,11 @@ class EventSolver::EngineOf final : public Engine {
     return !collides_again(end.limit);
   }
 
+  /// Beside surfaces what rolls may also come to one of them, or over an edge.
   bool collides_again(double limit) {
+    if constexpr (std::is_same_v<World, SurfaceWorld>) {
+      if (first_contact(limit) < kNever) return true;
+    }
     const std::size_t after_next = world_.collisions() + 1;
     if (certain_collisions_ == after_next) return true;
     if (is_any_planned() || time_of_next(limit) < kNever) certain_collisions_ = after_next;
@@ -209,6 +223,11 @@ class EventSolver::EngineOf final : public Engine {
 
 EventSolver::EventSolver(const Scene& scene, std::span<const BodyState> initial,
                          const EventSettings& settings) {
+  if (!scene.surfaces.empty()) {
+    engine_ = std::make_unique<EngineOf<SurfaceWorld, ScanQueue>>(
+        scene, initial, settings, least_speeds(scene, initial, settings), settings.start);
+    return;
+  }
   const bool has_cells =
       scene.bodies.size() > settings.most_without_cells || scene.periodic != Vector2::Zero();
   const LeastSpeeds least = least_speeds(scene, initial, settings);
@@ -233,10 +252,12 @@ EventSolver& EventSolver::operator=(EventSolver&&) noexcept = default;
 EventSolver::~EventSolver() = default;
 
 bool EventSolver::is_exact(const Scene& scene) {
+  if (!scene.surfaces.empty()) return true;  // or integrated phases to their bound
   return scene.motion.is_still() && scene.downhill.isZero(0);
 }
 
 bool EventSolver::can_solve(const Scene& scene) {
+  if (!scene.surfaces.empty()) return SurfaceWorld::obstacle(scene).empty();
   return !scene.box && std::ranges::all_of(scene.substrate, [](const SubstrateContact& contact) {
     return contact.coupled_radius == 0 &&
            (!contact.rolling_while_sliding || contact.rolling.is_zero());
@@ -252,6 +273,12 @@ SolvedRun EventSolver::run(const RunEnd& end, FrameSink* sink) {
     failed.failed = true;
     failed.reason = failure.what();
     return failed;
+  } catch (const LastingContacts& lasting) {
+    SolvedRun stopped;
+    stopped.end_time = now();
+    stopped.lasting = true;
+    stopped.reason = lasting.what();
+    return stopped;
   }
 }
 double EventSolver::first_contact(double limit) { return engine_->first_contact(limit); }

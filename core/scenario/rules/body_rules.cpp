@@ -56,6 +56,8 @@ Rule<WrittenBody> body_rule() {
            "in place of the material's density")
       .key("position", &WrittenBody::position, numbers(kLength, kAnyNumber, {2, 3}), required,
            "of the centre: [x, y] at rest on the substrate, [x, y, z], or [x, z] in a container")
+      .key("on", &WrittenBody::on, name_text(NameStyle::any_case), optional,
+           "a surface: the position is moved along its normal until the body touches it")
       .key("velocity", &WrittenBody::velocity, numbers(kVelocity, kAnyNumber, {2, 3}), optional,
            "of the centre: [x, y], [x, y, z], or [x, z] in a container")
       .key("spin", &WrittenBody::spin, spin_rule(), optional, "angular velocity");

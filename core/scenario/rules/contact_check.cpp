@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scenario/rules/spanning_rules.h"
+#include "scenario/surfaces.h"
 
 namespace slipcheck {
 namespace {
@@ -17,6 +18,7 @@ Pair sorted(const std::string& a, const std::string& b) { return a < b ? Pair(a,
 /// What a contact may name beside a material in these surroundings.
 std::vector<std::string> boundaries(const WrittenScene& written) {
   if (written.substrate) return {"substrate"};
+  if (!written.container && !written.surfaces.empty()) return {};
   if (!written.container) return {"substrate", "floor", "wall", "lid"};  // a fault by itself
   if (written.container->height) return {"floor", "wall", "lid"};
   return {"floor", "wall"};
@@ -40,6 +42,11 @@ bool check_between(const WrittenContact& contact, const WrittenScene& written, R
     }
   }
   if (reserved == 2) reading.fault_at(contact.path + ".between", "must name a material");
+  if (reserved == 0 && contact.on_substrate &&
+      std::ranges::none_of(contact.between,
+                           [&](const std::string& name) { return is_of_surface(name, written); }))
+    reading.fault_at(contact.path + ".between",
+                     "must have normal and tangential, as none of the two is of a surface");
   return reading.faults().size() == faults_before;
 }
 
@@ -161,11 +168,17 @@ std::map<std::string, std::int64_t> count_by_material(const WrittenScene& writte
   return count;
 }
 
-void check_all_there(const std::set<Pair>& given, const WrittenScene& written, Reading& reading) {
+/// Pairs of materials with a contact, and those of them that have it in the form of a substrate.
+struct GivenPairs {
+  std::set<Pair> all, of_surfaces;
+};
+
+void check_all_there(const GivenPairs& given, const WrittenScene& written, Reading& reading) {
   const auto count = count_by_material(written);
   std::size_t missing = 0;
-  const auto need = [&](const std::string& a, const std::string& b) {
-    if (given.contains(sorted(a, b))) return;
+  const auto need = [&](const std::string& a, const std::string& b, bool of_bodies = true) {
+    const Pair pair = sorted(a, b);
+    if (given.all.contains(pair) && !(of_bodies && given.of_surfaces.contains(pair))) return;
     ++missing;
     reading.fault_at("contacts",
                      fmt::format("needs a contact between {} and {}, which can meet", a, b));
@@ -174,6 +187,8 @@ void check_all_there(const std::set<Pair>& given, const WrittenScene& written, R
     if (written.substrate || written.container) {
       for (const std::string& boundary : boundaries(written)) need(a->first, boundary);
     }
+    for (const WrittenSurface& surface : written.surfaces)
+      if (written.materials.contains(surface.material)) need(a->first, surface.material, false);
     if (a->second > 1) need(a->first, a->first);
     for (auto b = std::next(a); b != count.end(); ++b) {
       need(a->first, b->first);
@@ -185,7 +200,7 @@ void check_all_there(const std::set<Pair>& given, const WrittenScene& written, R
 }  // namespace
 
 void check_contacts(const WrittenScene& written, Reading& reading) {
-  std::set<Pair> given;
+  GivenPairs given;
   bool all_named = true;
   for (const WrittenContact& contact : written.contacts) {
     if (contact.between.size() != 2 || contact.between[0].empty() || contact.between[1].empty()) {
@@ -193,7 +208,10 @@ void check_contacts(const WrittenScene& written, Reading& reading) {
       continue;
     }
     all_named = check_between(contact, written, reading) && all_named;
-    if (!given.insert(sorted(contact.between[0], contact.between[1])).second) {
+    const Pair pair = sorted(contact.between[0], contact.between[1]);
+    if (contact.on_substrate && !is_reserved_name(pair.first) && !is_reserved_name(pair.second))
+      given.of_surfaces.insert(pair);
+    if (!given.all.insert(pair).second) {
       reading.fault_at(contact.path + ".between",
                        fmt::format("must name a pair once, and {} and {} "
                                    "have a contact above",

@@ -301,7 +301,8 @@ Rule<WrittenContact> contact_rule() {
   constexpr auto kSide = &WrittenContact::substrate;
   Record<WrittenContact> substrate;
   substrate
-      .key("between", &WrittenContact::between, between, required, "a material and the substrate")
+      .key("between", &WrittenContact::between, between, required,
+           "a material and the substrate, or that of a surface")
       .whole("friction", part(kSide, &MaterialOnSubstrate::friction, friction_rule()), optional,
              "of a sliding body; one number or both")
       .whole("rolling", part(kSide, &MaterialOnSubstrate::rolling, rolling_rule()), optional,
@@ -314,17 +315,34 @@ Rule<WrittenContact> contact_rule() {
 
   const auto body_rule = body.rule();
   const auto substrate_rule = substrate.rule();
+  // A surface beside the substrate has contacts of either form; keys of one alone tell.
+  static constexpr std::array kOfSurfaces = {"friction", "rolling", "drilling", "restitution"};
   return {[=](const YamlNode& node, Reading& reading, WrittenContact& target) {
+            const auto has = [&](const char* key) {
+              return is_mapping(node) && node.find(key) != nullptr;
+            };
             const YamlNode* names = is_mapping(node) ? node.find("between") : nullptr;
             target.on_substrate =
-                names && std::ranges::any_of(names->items, [](const YamlPointer& name) {
-                  return is_scalar(*name) && name->text == "substrate";
-                });
+                (names && std::ranges::any_of(names->items,
+                                              [](const YamlPointer& name) {
+                                                return is_scalar(*name) &&
+                                                       name->text == "substrate";
+                                              })) ||
+                (!has("normal") && !has("tangential") && std::ranges::any_of(kOfSurfaces, has));
             return (target.on_substrate ? substrate_rule : body_rule).read(node, reading, target);
           },
           [=] {
             const json named = {{"contains", {{"const", "substrate"}}}};
-            return json{{"if", {{"properties", {{"between", named}}}}},
+            json any = json::array();
+            for (const char* key : kOfSurfaces) any.push_back({{"required", json::array({key})}});
+            const json of_surface = {
+                {"anyOf", any},
+                {"not",
+                 {{"anyOf", json::array({{{"required", json::array({"normal"})}},
+                                         {{"required", json::array({"tangential"})}}})}}}};
+            const json on_substrate = {{"required", json::array({"between"})},
+                                       {"properties", {{"between", named}}}};
+            return json{{"if", {{"anyOf", json::array({on_substrate, of_surface})}}},
                         {"then", substrate_rule.schema()},
                         {"else", body_rule.schema()}};
           }};

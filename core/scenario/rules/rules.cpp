@@ -276,6 +276,12 @@ Rule<Vector2> pair_of(const Dimension& dimension, const Range& range) {
                             [](const std::vector<double>& xy) { return Vector2(xy[0], xy[1]); });
 }
 
+Rule<Vector3> triple_of(const Dimension& dimension, const Range& range) {
+  return made_from<Vector3>(numbers(dimension, range, {3}), [](const std::vector<double>& xyz) {
+    return Vector3(xyz[0], xyz[1], xyz[2]);
+  });
+}
+
 Rule<std::size_t> word(std::vector<std::string> words) {
   return {[words](const YamlNode& node, Reading& reading, std::size_t& target) {
             const auto found = is_scalar(node) ? std::ranges::find(words, node.text) : words.end();

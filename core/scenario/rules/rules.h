@@ -58,6 +58,8 @@ Rule<std::vector<double>> numbers(const Dimension& dimension, const Range& range
 Rule<std::vector<double>> row(const std::vector<std::pair<Dimension, Range>>& columns);
 /// [x, y].
 Rule<Vector2> pair_of(const Dimension& dimension, const Range& range);
+/// [x, y, z].
+Rule<Vector3> triple_of(const Dimension& dimension, const Range& range);
 
 /// One of some words. Reads its index.
 Rule<std::size_t> word(std::vector<std::string> words);

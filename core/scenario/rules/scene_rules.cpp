@@ -145,12 +145,14 @@ Rule<WrittenScene> scene_rule() {
            "an infinite plane z = 0 in its own frame")
       .key("container", &WrittenScene::container, container_rule(), optional,
            "a vertical two-dimensional box")
+      .key("surfaces", &WrittenScene::surfaces, surfaces_rule(), optional,
+           "planes, plates, rods, balls and boxes that stand or move by themselves")
       .key("bodies", &WrittenScene::bodies, bodies_rule(), optional, "the spheres")
       .key("fill", &WrittenScene::fill, fill_rule(), optional, "many spheres in an area")
       .key("run", &WrittenScene::run, run_rule(), required, "how long")
       .key("compare", &WrittenScene::compare, compare_rule(), optional,
            "what is held against the reference")
-      .exactly_one_of({"substrate", "container"})
+      .at_least_one_of({"substrate", "container", "surfaces"})
       .at_least_one_of({"bodies", "fill"});
   return scene.rule();
 }

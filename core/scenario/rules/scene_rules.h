@@ -14,6 +14,7 @@ Rule<UnitSystem> units_rule();
 Rule<std::vector<WrittenContact>> contacts_rule();
 Rule<Substrate> substrate_rule();
 Rule<Container> container_rule();
+Rule<std::vector<WrittenSurface>> surfaces_rule();
 Rule<std::vector<std::variant<WrittenBody, Fill>>> bodies_rule();
 Rule<std::vector<Fill>> fill_rule();
 Rule<WrittenRun> run_rule();

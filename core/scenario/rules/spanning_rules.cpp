@@ -7,6 +7,7 @@
 
 #include "base/stop_scope.h"
 #include "scenario/rules/rules.h"
+#include "scenario/surfaces.h"
 
 namespace slipcheck {
 namespace {
@@ -79,6 +80,13 @@ void check_names(const WrittenScene& written, Reading& reading) {
                        fmt::format("must be unique, but is also {}", path_of.at(name)));
     }
   };
+  for (const WrittenSurface& surface : written.surfaces) {
+    add_name(surface.name, surface.path);
+    if (const auto* box = std::get_if<BoxOfPlates>(&surface.shape))
+      for (const NamedSurface& plate : plates_of(surface, *box))
+        path_of.emplace(plate.name, surface.path);
+    check_material(surface.material, surface.path + ".material", written, reading);
+  }
   std::vector<const Fill*> fills;
   for (const auto& entry : written.bodies) {
     if (const auto* body = std::get_if<WrittenBody>(&entry)) {
@@ -105,8 +113,16 @@ void check_names(const WrittenScene& written, Reading& reading) {
 }
 
 void check_surroundings(const WrittenScene& written, Reading& reading) {
+  if (written.container) {
+    if (written.substrate) reading.fault_at("substrate", "must not stand beside a container");
+    if (!written.surfaces.empty())
+      reading.fault_at("surfaces", "must not stand beside a container");
+  }
+  check_surfaces(written, reading);
   if (!written.substrate) return;
   const Substrate& substrate = *written.substrate;
+  if (!written.surfaces.empty() && substrate.confined)
+    reading.fault_at("substrate.confined", "must be false beside surfaces");
   if (const auto* motion = std::get_if<TableMotion>(&substrate.motion)) {
     check_rising(motion->table, "substrate.motion.table", reading);
   }
@@ -152,7 +168,7 @@ void check_run(const WrittenScene& written, Reading& reading) {
         static_cast<double>(*run.discard) / frequency >= run.time) {
       reading.fault_at("run.discard", "must be fewer periods than fit into until");
     }
-  } else if (written.substrate) {
+  } else if (written.substrate || !written.surfaces.empty()) {
     for (const char* key : {"run.periods", "run.discard", "run.sample"}) {
       if (reading.has(key)) reading.fault_at(key, "is only for a container");
     }

@@ -2,10 +2,11 @@
 export class Touches {
   #sums = new Map();
 
-  /// Two bodies, in any order, or a body and something < 0.
+  /// Two bodies, in any order, or a body and something < 0: floor, walls and lid of a box are one.
   add(first, second, impulse) {
     if (!(impulse > 0)) return;
-    const [low, high] = second >= 0 && second < first ? [second, first] : [first, second];
+    const other = Math.max(second, -1);
+    const [low, high] = other >= 0 && other < first ? [other, first] : [first, other];
     const key = `${low} ${high}`;
     const sum = this.#sums.get(key);
     if (sum) sum[2] += impulse;

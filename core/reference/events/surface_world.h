@@ -1,0 +1,150 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "physics/frame.h"
+#include "physics/motion/driven_phase.h"
+#include "reference/events/cell_grid.h"
+#include "reference/events/event_scheduler.h"
+#include "reference/events/least_speeds.h"
+#include "scene/scene.h"
+
+namespace slipcheck {
+
+/// Bodies stay in contacts that collisions at instants and one plane for each know nothing of.
+class LastingContacts : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Hard spheres beside any surfaces for EventScheduler: each in flight, on a parabola, or in a
+/// DrivenPhase on the one plane or plate that carries it. Own events are the ends of phases,
+/// impacts on surfaces, and edges that a body comes to. An impact is collide() with a partner of
+/// infinite mass, so that what carries the body takes its part in it; on a body in flight it is
+/// land(). Over an edge a body flies where v² > g_n R there, v across the edge; slower it turns
+/// about the edge, which is a LastingContacts, as is a body between two surfaces.
+class SurfaceWorld {
+ public:
+  /// Bodies in the states `initial` at the time `now` [s]. The scene must outlive this.
+  SurfaceWorld(const Scene& scene, std::span<const BodyState> initial, const LeastSpeeds& least,
+               double now);
+
+  /// Why the scene is not for this, "" if it is: drilling coupled to the sliding, rolling friction
+  /// of sliding bodies, plates that turn, a periodic plane.
+  static std::string obstacle(const Scene& scene);
+
+  // --- for EventScheduler ---
+  std::size_t size() const { return bodies_.size(); }
+  double own_event_time(std::uint32_t i, double now);
+  BodyChange do_own_event(std::uint32_t i, double now);
+  double collision_time(std::uint32_t i, std::uint32_t j, double now,
+                        const CellGrid::Shift& shift) const;
+  std::span<const std::uint32_t> collide(std::uint32_t i, std::uint32_t j, double now);
+  template <class F>
+  void for_each_near(std::uint32_t i, F f) const {
+    for (std::uint32_t j = 0; j < bodies_.size(); ++j)
+      if (j != i) f(j, CellGrid::Shift{});
+  }
+  template <class F>
+  void for_each_newly_near(std::uint32_t, F) const {}
+
+  // --- for whoever looks on ---
+  void set_sink(FrameSink* sink) { sink_ = sink; }
+  void show(double now);
+  BodyState state_at(std::uint32_t i, double now) const;
+  std::size_t events() const { return events_; }
+  std::size_t collisions() const { return collisions_; }
+  std::size_t collapses() const { return collapses_; }
+  std::size_t landings() const { return landings_; }  ///< impacts on surfaces
+  double last_impact_speed() const { return last_impact_speed_; }
+  bool is_any_slipping() const;
+  bool is_any_moving() const;
+  bool is_exact_pair(std::uint32_t i, std::uint32_t j) const {
+    return bodies_[i].is_parabola && bodies_[j].is_parabola;
+  }
+  static constexpr bool kHasCells = false;
+  std::vector<std::string> features() const;
+
+ private:
+  static constexpr std::size_t kNone = ~std::size_t{0};
+
+  /// A surface, or the substrate.
+  struct Place {
+    Surface surface;
+    int touch = kSubstrate;  ///< as in frames
+    /// Of a plane or plate that can carry bodies: columns along it and its normal, and a point.
+    bool carries = false;
+    Matrix3 axes = Matrix3::Identity();
+    Vector3 origin = Vector3::Zero();
+    Vector2 half = Vector2::Zero();  ///< of a plate, along the axes; 0: a plane
+    SubstrateMotion motion;          ///< of its matter, along the axes
+    double gravity = 0;              ///< against the normal [m/s²]
+    Vector2 downhill = Vector2::Zero();
+    double bend = 0;  ///< bound of its acceleration [m/s²]
+  };
+  enum class Own { phase, hit, edge };
+  struct Body {
+    Vector3 position, velocity, acceleration;  ///< of a parabola, at its start
+    double start = 0, end = kNever;
+    double bound = 0;  ///< of the acceleration in the phase [m/s²]
+    double last_collision = -kNever;
+    double hardest_impact = 0;
+    std::size_t support = kNone;
+    std::size_t left = kNone;  ///< the plate over whose edge it has just gone
+    bool is_parabola = true;
+    Own next = Own::phase;
+    std::size_t hit = kNone;  ///< the surface of Own::hit
+    BodyState flight;         ///< at its start, where nothing carries it
+  };
+  struct Point {
+    Vector3 position, velocity;
+  };
+  /// A surface beside a body at one instant.
+  struct Beside {
+    NearestPoint near;
+    double gap = 0;      ///< [m]
+    double opening = 0;  ///< its rate [m/s]
+  };
+
+  Place place_of(const Surface& surface, int touch) const;
+  SurfaceContact contact_of(std::uint32_t i, std::size_t place) const;
+  /// Velocity of the place, not of matter that passes by [m/s].
+  Vector3 place_velocity(const Place& place, double now, const Vector3& at) const;
+  Beside beside(std::uint32_t i, const Place& place, const Point& body, double now) const;
+  double touching(std::uint32_t i) const { return 1e-9 * scene_->bodies[i].radius; }
+
+  BodyState to_local(const Place& place, const BodyState& state) const;
+  BodyState from_local(const Place& place, const BodyState& state) const;
+  BodyState path_state(std::uint32_t i, double now) const;
+  Point on_path(std::uint32_t i, double now) const;
+  double first_hit(std::uint32_t i, std::size_t k, double now, double horizon) const;
+  double first_edge(std::uint32_t i, double now, double horizon) const;
+
+  void start_path(std::uint32_t i, BodyState state, double now);
+  /// Impacts on all surfaces that the body touches and approaches.
+  void meet_surfaces(std::uint32_t i, BodyState& state, double now);
+  std::size_t find_support(std::uint32_t i, const BodyState& state, double now) const;
+  void hit_surface(std::uint32_t i, std::size_t k, BodyState& state, double now);
+  void leave_edge(std::uint32_t i, const BodyState& state, double now);
+  [[noreturn]] void give_up(std::uint32_t i, double now, const std::string& why) const;
+
+  const Scene* scene_;
+  LeastSpeeds least_;
+  double slowest_;  ///< that counts as a speed [m/s]
+  std::vector<Place> places_;
+  std::vector<Body> bodies_;
+  std::vector<DrivenPhase> phases_;
+  std::vector<std::uint32_t> changed_;
+  std::size_t events_ = 0, collisions_ = 0, collapses_ = 0, landings_ = 0;
+  double last_impact_speed_ = 0;
+  FrameSink* sink_ = nullptr;
+  Frame frame_;
+};
+
+}  // namespace slipcheck
