@@ -181,7 +181,8 @@ Body resolve(const WrittenBody& written_body, const WrittenScene& written, Readi
       return body;
     }
   }
-  if (!in_container && !written.substrate && written_body.position.size() != 3) {
+  const bool on_surfaces = !written.surfaces.empty() && !reading.has("substrate");
+  if (on_surfaces && written_body.position.size() != 3) {
     reading.fault_at(written_body.path + ".position", "must be [x, y, z] without a substrate");
     return body;
   }

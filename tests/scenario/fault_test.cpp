@@ -21,10 +21,11 @@ TEST(Fault, UnknownKey) {
   expect_fault(with(kHard, "substrate: {}", "substrate: {colour: 5}"),
                "s.yaml:12:13: substrate.colour: is not a key here (there are: periodic, tilt, "
                "confined or motion)");
-  expect_fault(with(kHard, "title:", "engine: 1\ntitle:"),
-               "s.yaml:3:1: engine: is not a key here (there are: slipcheck, name, title, source, "
-               "units, gravity, materials, contacts, substrate, container, bodies, fill, run or "
-               "compare)");
+  expect_fault(
+      with(kHard, "title:", "engine: 1\ntitle:"),
+      "s.yaml:3:1: engine: is not a key here (there are: slipcheck, name, title, source, "
+      "units, gravity, materials, contacts, substrate, container, surfaces, bodies, fill, run or "
+      "compare)");
 }
 
 TEST(Fault, MissingKey) {
@@ -123,7 +124,7 @@ TEST(Fault, ExactlyOneOf) {
       with(kExample, "collision_time: 2.55e-5, ", ""),
       "s.yaml:13:13: contacts[0].normal: needs exactly one of collision_time or stiffness");
   expect_fault(with(kHard, "substrate: {}\n", ""),
-               "s.yaml:1:1: needs exactly one of substrate or container");
+               "s.yaml:1:1: needs at least one of substrate, container or surfaces");
 }
 
 TEST(Fault, Tolerance) {

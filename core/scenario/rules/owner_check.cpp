@@ -7,6 +7,7 @@
 
 #include "scenario/owned_names.h"
 #include "scenario/rules/spanning_rules.h"
+#include "scenario/surfaces.h"
 
 namespace slipcheck {
 namespace {
@@ -38,12 +39,24 @@ std::optional<Place> place_of(const WrittenScene& written, const std::string& na
   return std::nullopt;
 }
 
+/// The substrate, where there is one, and the surfaces.
+std::vector<std::string> carriers(const WrittenScene& written) {
+  std::vector<std::string> names;
+  if (written.substrate) names.emplace_back("substrate");
+  for (const NamedSurface& surface : named_surfaces(written)) names.push_back(surface.name);
+  return names;
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
 /// Why the scene has no such pair, "" if it has.
 std::string fault_of_pair(const WrittenScene& written, const std::string& pair) {
   for (std::size_t at = pair.find('-'); at != std::string::npos; at = pair.find('-', at + 1)) {
     const std::string left = pair.substr(0, at), right = pair.substr(at + 1);
     const auto first = place_of(written, left);
-    if (first && right == "substrate") return "";
+    if (first && has(carriers(written), right)) return "";
     const auto second = place_of(written, right);
     if (!first || !second || *first == *second) continue;
     return *first < *second
@@ -51,9 +64,9 @@ std::string fault_of_pair(const WrittenScene& written, const std::string& pair) 
                : fmt::format("must have the pair in the order of the bodies, {}-{}", right, left);
   }
   return fmt::format(
-      "must be of a pair of this scene's bodies, or of one and the substrate, but "
+      "must be of a pair of this scene's bodies, or of one and the substrate{}, but "
       "{} is none",
-      pair);
+      written.surfaces.empty() ? "" : " or a surface", pair);
 }
 
 /// Whether one of the bodies has a name that a pattern stands for.
@@ -74,10 +87,13 @@ bool any_body_matches(const WrittenScene& written, const std::string& pattern) {
 /// Whether a pattern with wildcards may stand for a pair of the bodies, or one and the substrate.
 bool any_pair_matches(const WrittenScene& written, const std::string& pattern) {
   if (pattern == "*") return true;
+  const std::vector<std::string> others = carriers(written);
   for (std::size_t at = pattern.find('-'); at != std::string::npos; at = pattern.find('-', at + 1))
     if (const std::string left = pattern.substr(0, at), right = pattern.substr(at + 1);
         any_body_matches(written, left) &&
-        (matches(right, "substrate") || any_body_matches(written, right)))
+        (std::ranges::any_of(others,
+                             [&](const std::string& name) { return matches(right, name); }) ||
+         any_body_matches(written, right)))
       return true;
   return false;
 }

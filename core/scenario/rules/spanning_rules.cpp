@@ -123,6 +123,8 @@ void check_surroundings(const WrittenScene& written, Reading& reading) {
   const Substrate& substrate = *written.substrate;
   if (!written.surfaces.empty() && substrate.confined)
     reading.fault_at("substrate.confined", "must be false beside surfaces");
+  if (!written.surfaces.empty() && substrate.periodic)
+    reading.fault_at("substrate.periodic", "must not stand beside surfaces");
   if (const auto* motion = std::get_if<TableMotion>(&substrate.motion)) {
     check_rising(motion->table, "substrate.motion.table", reading);
   }
