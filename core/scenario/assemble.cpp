@@ -121,19 +121,21 @@ void check_beside_surfaces(const Body& body, const WrittenScene& written, const 
   }
 }
 
-/// Onto the surface that it is to touch.
-void place_on(const std::string& name, const WrittenScene& written, const std::string& path,
+/// Onto the surface that it is to touch, if there is one.
+bool place_on(const std::string& name, const WrittenScene& written, const std::string& path,
               Body& body, Reading& reading) {
+  if (!std::ranges::all_of(written.surfaces, &WrittenSurface::complete)) return false;
   const std::vector<NamedSurface> surfaces = named_surfaces(written);
   const auto surface = std::ranges::find(surfaces, name, &NamedSurface::name);
   if (surface == surfaces.end()) {
     std::vector<std::string> names;
     for (const NamedSurface& each : surfaces) names.push_back(each.name);
     reading.fault_at(path + ".on", "must be one of the surfaces" + did_you_mean(name, names));
-    return;
+    return false;
   }
   const NearestPoint near = made_surface(*surface).nearest(0, body.initial.position);
   body.initial.position = near.point + body.sphere.radius * near.normal;
+  return true;
 }
 
 void check_place(Body& body, const WrittenScene& written, const std::string& path,
@@ -188,7 +190,8 @@ Body resolve(const WrittenBody& written_body, const WrittenScene& written, Readi
   }
   body.initial.position = vector_of(written_body.position, in_container, radius);
   body.initial.velocity = vector_of(written_body.velocity, in_container, 0);
-  if (written_body.on) place_on(*written_body.on, written, written_body.path, body, reading);
+  if (written_body.on && !place_on(*written_body.on, written, written_body.path, body, reading))
+    return body;
   body.initial.angular_velocity =
       spin_of(written_body, body.initial, ground_of(body, written), in_container, reading);
   check_place(body, written, written_body.path, reading);

@@ -390,7 +390,9 @@ BodyChange SurfaceWorld::do_own_event(std::uint32_t i, double now) {
       const Beside at = beside(i, places_[body.hit], {state.position, state.velocity}, now);
       if (at.gap > touching(i)) break;  // a search that gave up
       show(now);
-      if (at.opening >= -slowest_) give_up(i, now, "is pressed against two surfaces");
+      const bool is_pressed = body.support != kNone && at.near.normal.dot(body.acceleration) < 0;
+      if (at.opening >= -(is_pressed ? slowest_hop(i, at.near.point) : slowest_))
+        give_up(i, now, "is pressed against two surfaces");
       hit_surface(i, body.hit, state, now);
       meet_surfaces(i, state, now);
       break;
@@ -402,6 +404,11 @@ BodyChange SurfaceWorld::do_own_event(std::uint32_t i, double now) {
   start_path(i, state, now);
   show(now);
   return BodyChange::path;
+}
+
+double SurfaceWorld::slowest_hop(std::uint32_t i, const Vector3& at) const {
+  const double rounding = 16 * kEpsilon * (at.norm() + scene_->bodies[i].radius);
+  return std::max(slowest_, std::sqrt(2 * scene_->gravity_vector().norm() * rounding));
 }
 
 void SurfaceWorld::meet_surfaces(std::uint32_t i, BodyState& state, double now) {
@@ -428,10 +435,8 @@ void SurfaceWorld::hit_surface(std::uint32_t i, std::size_t k, BodyState& state,
   SurfaceContact contact = contact_of(i, k);
   const double speed = -at.near.normal.dot(state.velocity - matter);
   double restitution = restitution_at(contact.impact.restitution, std::max(speed, slowest_));
-  // A hop no higher than the rounding of places is none.
-  const double rounding = 16 * kEpsilon * (at.near.point.norm() + sphere.radius);
-  const double hop = std::sqrt(2 * scene_->gravity_vector().norm() * rounding);
-  if (restitution * speed < std::max(least_.landing, hop)) restitution = 0;
+  if (restitution * speed < std::max(least_.landing, slowest_hop(i, at.near.point)))
+    restitution = 0;
   state.position = at.near.point + sphere.radius * at.near.normal;
   contact.impact.restitution = contact.lasting.restitution = restitution;
 

@@ -127,6 +127,8 @@ class SurfaceWorld {
   double first_edge(std::uint32_t i, double now, double horizon) const;
 
   void start_path(std::uint32_t i, BodyState state, double now);
+  /// A hop no higher than the rounding of places is none: with less than this [m/s].
+  double slowest_hop(std::uint32_t i, const Vector3& at) const;
   /// Impacts on all surfaces that the body touches and approaches.
   void meet_surfaces(std::uint32_t i, BodyState& state, double now);
   std::size_t find_support(std::uint32_t i, const BodyState& state, double now) const;
