@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "harness/observe/motion.h"
@@ -9,15 +10,15 @@ namespace slipcheck {
 
 /// What a motion's frames show, for charts over time.
 struct MotionQuantities {
-  /// Of the lowest point over the substrate, along the plane [m/s], `slip[frame][body]`; NaN while
-  /// the body is off the substrate, and in a box.
+  /// Of the lowest point over what carries the body, along it [m/s], `slip[frame][body]`; NaN while
+  /// nothing does, and in a box.
   std::vector<std::vector<Vector3>> slip;
   std::vector<std::vector<double>> speed;  ///< of the centre [m/s], `speed[frame][body]`
   std::vector<double> kinetic_energy;      ///< of all bodies, rotation included [J], by frame
 };
 
-/// Whether the body's centre is not higher than R (1 + 1e-3) over the substrate.
-bool is_on_substrate(const Sphere& body, const BodyState& state);
+/// Whether there is a substrate and the body's centre is not higher than R (1 + 1e-3) over it.
+bool is_on_substrate(const Scene& scene, std::size_t body, const BodyState& state);
 
 /// `motion` is one of the scene's bodies, in their order.
 MotionQuantities motion_quantities(const Scene& scene, const RecordedMotion& motion);

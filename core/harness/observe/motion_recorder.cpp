@@ -36,7 +36,7 @@ bool MotionThinning::begins_collision(const Pairs& touches) const {
     if (std::ranges::binary_search(last_.touches, pair)) return false;
     if (pair.second != kSubstrate) return true;
     const auto i = static_cast<std::size_t>(pair.first);
-    return !is_on_substrate(scene_->bodies[i], last_.bodies[i]);
+    return !is_on_substrate(*scene_, i, last_.bodies[i]);
   });
 }
 
@@ -115,7 +115,7 @@ void MotionRecorder::begin(double time, std::span<const BodyState> states) {
   phases_.emplace_back(*scene_, most_frames(states.size()));
   std::vector<Touch> touches;
   for (std::size_t i = 0; i < states.size(); ++i)
-    if (is_on_substrate(scene_->bodies[i], states[i]))
+    if (is_on_substrate(*scene_, i, states[i]))
       touches.push_back({static_cast<int>(i), kSubstrate, 1});
   phases_.back().take(time, states, touches);
 }

@@ -44,7 +44,8 @@ class PlaneRun final : public PhaseRun {
         observer_(scene(), step, speed_scale(task.solver->scene()), task.solver->is_resolved()) {
     Frame frame;
     for (std::size_t i = 0; i < scene().bodies.size(); ++i)
-      if (scene().initial[i].position.z() <= scene().bodies[i].radius * (1 + 1e-12))
+      if (scene().has_substrate &&
+          scene().initial[i].position.z() <= scene().bodies[i].radius * (1 + 1e-12))
         frame.touches.push_back({static_cast<int>(i), kSubstrate, 1});
     frame.bodies = scene().initial;
     observer_.take(0, frame);

@@ -115,7 +115,7 @@ RecordedMotion reference_motion(const ReferenceSolver& solver, double end) {
     for (; touch != events.touches().end() && touch->time <= frame.time; ++touch)
       frame.touches.push_back(touch->pair);
     for (std::size_t i = 0; i < states[k].size(); ++i)
-      if (is_on_substrate(scene.bodies[i], states[k][i]))
+      if (is_on_substrate(scene, i, states[k][i]))
         frame.touches.emplace_back(static_cast<int>(i), kSubstrate);
     std::ranges::sort(frame.touches);
     const auto twice = std::ranges::unique(frame.touches);

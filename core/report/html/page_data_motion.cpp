@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/match.h"
 #include "harness/observe/motion_quantities.h"
 #include "report/charts/scene_charts.h"
 #include "report/html/page_channel.h"
@@ -56,8 +57,7 @@ std::vector<MotionFrame> thinned(const std::vector<MotionFrame>& frames, std::si
   keep(0);
   keep(frames.size() - 1);
   const auto met = [](const MotionFrame& frame) {
-    return std::ranges::any_of(frame.touches,
-                               [](const auto& touch) { return touch.second != kSubstrate; });
+    return std::ranges::any_of(frame.touches, [](const auto& touch) { return touch.second >= 0; });
   };
   for (std::size_t k = 1; k < frames.size() && count + 2 <= most / 2; ++k)
     if (met(frames[k])) {
@@ -119,7 +119,7 @@ Json run_motion(const Scene& scene, const RecordedMotion& recorded, int run,
   for (std::size_t k = 0; k < frames.size(); ++k) {
     time.push_back(frames[k].time);
     for (const auto& [first, second] : frames[k].touches)
-      if (second != kSubstrate) touches.push_back({k, first, second});
+      if (second >= 0) touches.push_back({k, first, second});
   }
   Json body_data = Json::array();
   for (std::size_t i = 0; i < bodies; ++i) {
@@ -131,7 +131,7 @@ Json run_motion(const Scene& scene, const RecordedMotion& recorded, int run,
         return frames[k].bodies[i].angular_velocity[axis];
       }));
     }
-    for (int axis = 0; axis < 2; ++axis)
+    for (int axis = 0; axis < (scene.surfaces.empty() ? 2 : 3); ++axis)
       slip.push_back(
           channel_of(frames, scales.speed, [&](std::size_t k) { return shown.slip[k][i][axis]; }));
     body_data.push_back({{"p", std::move(position)},
@@ -152,6 +152,51 @@ Json run_motion(const Scene& scene, const RecordedMotion& recorded, int run,
           {"bodies", std::move(body_data)},
           {"energy", page_channel(shown.kinetic_energy)},
           {"touches", std::move(touches)}};
+}
+
+Json numbers_of(const Vector3& v) {
+  return {page_number(v.x(), 9), page_number(v.y(), 9), page_number(v.z(), 9)};
+}
+
+Json surface_data(const NamedSurface& surface) {
+  Json data = std::visit(Match{[](const PlaneShape& plane) -> Json {
+                                 return {{"kind", "plane"},
+                                         {"point", numbers_of(plane.point)},
+                                         {"normal", numbers_of(plane.normal)}};
+                               },
+                               [](const RectangleShape& plate) -> Json {
+                                 return {{"kind", "plate"},
+                                         {"centre", numbers_of(plate.centre)},
+                                         {"half_length", numbers_of(plate.half_length)},
+                                         {"half_width", numbers_of(plate.half_width)}};
+                               },
+                               [](const RodShape& rod) -> Json {
+                                 return {{"kind", "rod"},
+                                         {"begin", numbers_of(rod.begin)},
+                                         {"end", numbers_of(rod.end)},
+                                         {"radius", page_number(rod.radius, 9)}};
+                               },
+                               [](const BallShape& ball) -> Json {
+                                 return {{"kind", "ball"},
+                                         {"centre", numbers_of(ball.centre)},
+                                         {"radius", page_number(ball.radius, 9)}};
+                               }},
+                         surface.shape);
+  data["name"] = printable(surface.name);
+  std::visit(
+      Match{[](const StillMotion&) {}, [](const BeltMotion&) {},
+            [&](const SurfaceTranslation& moves) { data["velocity"] = numbers_of(moves.velocity); },
+            [&](const SurfaceOscillation& wave) {
+              data["amplitude"] = numbers_of(wave.amplitude);
+              data["frequency"] = page_number(wave.frequency, 9);
+              data["phase"] = page_number(wave.phase, 9);
+            },
+            [&](const SurfaceTurning& turn) {
+              data["about"] = numbers_of(turn.about);
+              data["rate"] = numbers_of(turn.rate);
+            }},
+      surface.motion);
+  return data;
 }
 
 }  // namespace
@@ -196,9 +241,13 @@ Json motion_page_data(const SceneRecord& scene, const MotionDetail& detail) {
   const auto* plane = std::get_if<Substrate>(&scene.scenario.surroundings);
   Json periodic;
   if (plane && plane->periodic) periodic = {plane->periodic->x(), plane->periodic->y()};
+  Json surfaces = Json::array();
+  for (const NamedSurface& surface : scene.scenario.surfaces)
+    surfaces.push_back(surface_data(surface));
   return {{"bodies", std::move(bodies)},
+          {"surfaces", std::move(surfaces)},
           {"tilt", page_number(plane ? plane->tilt * 180 / std::numbers::pi : 0)},
-          {"substrate", plane != nullptr},
+          {"substrate", plane != nullptr && plane->is_there},
           {"periodic", std::move(periodic)},
           {"gravity", page_number(scene.scenario.gravity.norm())},
           {"runs", std::move(runs)}};

@@ -91,6 +91,9 @@ void read_states(const JsonNode& node, RecordedMotion& motion, Vector3 BodyState
   }
 }
 
+
+constexpr std::size_t kMostSurfaces = 1'000'000;
+
 RecordedMotion read_motion(const JsonNode& node, std::size_t bodies) {
   RecordedMotion motion;
   motion.role = node["role"].text();
@@ -115,7 +118,8 @@ RecordedMotion read_motion(const JsonNode& node, std::size_t bodies) {
   for (const JsonNode& touch : node["touches"].items()) {
     const std::vector<JsonNode> parts = touch.items(3);
     motion.frames[parts[0].count(times.size() - 1)].touches.emplace_back(
-        integer(parts[1], 0, bodies - 1), integer(parts[2], kSubstrate, bodies - 1));
+        integer(parts[1], 0, bodies - 1),
+        integer(parts[2], surface_touch(kMostSurfaces), bodies - 1));
   }
   return motion;
 }

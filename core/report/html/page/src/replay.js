@@ -236,7 +236,7 @@ class Replay {
     const other = ghost ? this.bodies_of(ghost) : null;
     this.look(reference, other);
     this.world.show({
-      reference, ghost: other, marks: this.marks(truth, reference), most_slip: this.most_slip,
+      reference, ghost: other, marks: this.marks(truth, reference), most_slip: this.most_slip, time: this.time,
       substrate: truth.substrate.map((column) => between(column, frame_at(truth.time, this.time))),
     });
     this.tell(reference, other, ghost);

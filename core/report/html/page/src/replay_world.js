@@ -6,6 +6,7 @@ import {
   SRGBColorSpace, Vector3, WebGLRenderer,
 } from 'three';
 import { look_of } from './look.js';
+import { SurfaceInSpace } from './surface_in_space.js';
 
 const kMostArrows = 60;
 const kMostMarks = 40;
@@ -63,6 +64,8 @@ export class ReplayWorld {
       this.shadows.renderOrder = -1;
       everything.push(this.shadows, this.ground, this.grid);
     }
+    this.surfaces = (this.motion.surfaces ?? []).map((surface) => new SurfaceInSpace(surface, this.unit));
+    everything.push(...this.surfaces.map((surface) => surface.mesh));
     for (const mesh of everything) mesh.frustumCulled = false;
     this.lab.add(...everything);
     this.arrows = [];
@@ -95,6 +98,7 @@ export class ReplayWorld {
     this.shell.material.color.copy(ghost);
     this.wire.material.color.copy(ghost);
     this.marks.material.color.set('#e8b400');
+    for (const { mesh } of this.surfaces) mesh.material.color.copy(page).lerp(new Color(colours.faint), 0.6);
     this.ground?.material.color.copy(page).lerp(new Color(colours.faint), 0.1);
     const half = this.arrows.length / 2;
     this.arrows.forEach((arrow, k) => arrow.setColor(k < half ? new Color(colours.truth) : ghost));
@@ -107,7 +111,8 @@ export class ReplayWorld {
     this.span = Math.max(4, span / this.unit);
   }
 
-  show({ reference, ghost, marks, substrate, most_slip }) {
+  show({ reference, ghost, marks, substrate, most_slip, time }) {
+    for (const surface of this.surfaces) surface.place(time, this.target);
     this.set_balls([this.balls], reference, 1);
     this.set_balls([this.shell, this.wire], ghost ?? [], 1 + kAhead);
     this.set_marks(marks);
@@ -161,7 +166,7 @@ export class ReplayWorld {
       const [x, y, z] = body.position.map((one) => one / this.unit);
       const length = 0.25 + 2.25 * (speed / most_slip);
       arrow.position.set(x, y, z - this.motion.bodies[k].radius / this.unit + 0.02);
-      arrow.setDirection(new Vector3(body.slip[0], body.slip[1], 0).normalize());
+      arrow.setDirection(new Vector3(body.slip[0], body.slip[1], body.slip[2] ?? 0).normalize());
       arrow.setLength(length, Math.min(0.5, 0.5 * length), Math.min(0.28, 0.3 * length));
     });
   }
