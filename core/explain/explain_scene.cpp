@@ -32,6 +32,8 @@ std::string solver_text(const ContactScene& scene, const ReferenceSolver& solver
           ? (scene.is_hard() ? "asked for by compare.reference; collisions are instants"
                              : "contacts last; all forces are integrated in time")
       : !scene.is_hard() ? "asked for by compare.reference; soft contacts become hard ones"
+      : !scene.hard.surfaces.empty() && solver.is_exact()
+          ? "every contact is hard; impacts on surfaces, phases between them"
       : has_exact_phases(scene.hard) ? "every contact is hard; exact phases between collisions"
       : solver.is_exact()
           ? "every contact is hard; phases between collisions to 1e-13 of the speeds"
@@ -56,6 +58,7 @@ ExplainSections features(const ContactScene& scene) {
 
 /// What tilt and motion do to a body that rolls, K (17), (22)-(25).
 ExplainSections substrate(const Scenario& scenario, const Scene& scene) {
+  if (!scene.has_substrate) return {};
   const Vector3 downhill(scene.downhill.x(), scene.downhill.y(), 0);
   const double shaking = scene.motion.largest_acceleration();
   if (downhill.norm() == 0 && shaking == 0) return {};

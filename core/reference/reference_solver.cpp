@@ -72,7 +72,7 @@ bool goes_straight(const Scene& scene) {
 }  // namespace
 
 bool has_exact_phases(const Scene& scene) {
-  return EventSolver::can_solve(scene) && EventSolver::is_exact(scene);
+  return scene.surfaces.empty() && EventSolver::can_solve(scene) && EventSolver::is_exact(scene);
 }
 
 bool runs_in_phases(const Scene& scene) {

@@ -92,7 +92,7 @@ class ReferenceSolver {
   double collision_time_ = 0;  ///< of made_, where its contacts last [s]
 };
 
-/// Whether EventSolver has an exact solution for what bodies do between collisions.
+/// Whether EventSolver has an exact solution for what bodies do between collisions on one plane.
 bool has_exact_phases(const Scene& scene);
 /// Whether the scene is run from phase to phase: they are exact, or there are many bodies.
 bool runs_in_phases(const Scene& scene);

@@ -60,6 +60,17 @@ Feature by_speed(const ContactKinds& kinds) {
                            : "one number for all speeds"};
 }
 
+Feature surfaces_of(const Scene& scene) {
+  const std::size_t count = scene.surfaces.size();
+  const auto moving = std::ranges::count_if(
+      scene.surfaces, [](const Surface& each) { return !each.motion.is_still(); });
+  return {"surfaces beside the substrate", count > 0,
+          count == 0 ? "none"
+                     : fmt::format("{}{}{}", count,
+                                   moving > 0 ? fmt::format(", {} of them moving", moving) : "",
+                                   scene.has_substrate ? "" : "; there is no substrate")};
+}
+
 std::vector<Feature> box_features(const ContactScene& contacts) {
   const Scene& scene = contacts.hard;
   const Box& box = *scene.box;
@@ -106,7 +117,11 @@ std::vector<Feature> scene_features(const ContactScene& contacts) {
   const ContactKinds kinds = pair_kinds(contacts);
   const bool collisions = scene.bodies.size() > 1;
   const bool rubbing = kinds.rubs();
-  const auto any = [&](const auto& has) { return std::ranges::any_of(scene.substrate, has); };
+  const bool on_surfaces = !scene.surfaces.empty();
+  const auto any = [&](const auto& has) {
+    return (scene.has_substrate && std::ranges::any_of(scene.substrate, has)) ||
+           std::ranges::any_of(scene.on_surfaces, has, &SurfaceContact::lasting);
+  };
   const bool sliding = any([](const auto& c) { return c.kinetic_friction > 0; });
   const bool rolling = any([](const auto& c) { return !c.rolling.is_zero(); });
   const bool table = any([](const auto& c) { return !c.rolling.is_constant(); });
@@ -118,14 +133,15 @@ std::vector<Feature> scene_features(const ContactScene& contacts) {
   const bool periodic = scene.periodic != Vector2::Zero();
   const bool bounces = any([](const auto& c) { return c.restitution > 0; });
   const bool jumps =
-      !scene.confined && (starts_above(scene) || bounces ||
+      !scene.confined && (on_surfaces || starts_above(scene) || bounces ||
                           (collisions && (rubbing || PlanarWorld::features(scene).radii)));
   return {
       collisions_of(scene),
       lasting(kinds),
       by_speed(kinds),
       {"rubbing at collisions", rubbing, kinds.rubbing()},
-      {"sliding friction on the substrate", sliding,
+      surfaces_of(scene),
+      {on_surfaces ? "sliding friction" : "sliding friction on the substrate", sliding,
        !sliding                  ? "what slides goes on sliding"
        : has_exact_phases(scene) ? "straight slip, parabolic paths"
                                  : "Coulomb's, with the stick limit"},
@@ -143,7 +159,9 @@ std::vector<Feature> scene_features(const ContactScene& contacts) {
       {"periodic cell", periodic,
        periodic ? "bodies meet the images of others across its edges" : "the plane has no edges"},
       {"flight and landing", jumps,
-       jumps ? "bodies can leave the substrate" : "bodies stay on the substrate"},
+       on_surfaces ? "bodies can leave what carries them"
+       : jumps     ? "bodies can leave the substrate"
+                   : "bodies stay on the substrate"},
   };
 }
 
