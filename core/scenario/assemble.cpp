@@ -206,6 +206,16 @@ std::vector<Body> resolve(const Fill& fill, const WrittenScene& written,
   if (written.container && fill.spin == SpinKind::rolling) {
     reading.fault_at(fill.path + ".spin", "must be none in a container");
   }
+  const std::size_t faults = reading.faults().size();
+  if (fill.heights && (written.container || (written.substrate && written.substrate->periodic)))
+    reading.fault_at(fill.path + ".volume", "must be area in a container and on a periodic plane");
+  if (fill.heights && fill.arrange == Fill::Arrange::lattice)
+    reading.fault_at(fill.path + ".arrange", "must be random in a volume");
+  if (fill.heights && fill.spin == SpinKind::rolling)
+    reading.fault_at(fill.path + ".spin", "must be none in a volume");
+  if (!fill.heights && !written.container && !written.substrate)
+    reading.fault_at(fill.path + ".area", "must be volume without a substrate");
+  if (reading.faults().size() > faults) return {};
   std::vector<Body> bodies = expand(fill, written, others, reading);
   for (Body& body : bodies) {
     const double radius = body.sphere.radius;

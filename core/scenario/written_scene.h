@@ -52,8 +52,9 @@ struct Fill {
   double most_radius = 0;   ///< [m], >= least_radius
   double shape_factor = Sphere{}.shape_factor;
   std::vector<double>
-      area;          ///< [x0, y0, x1, y1] of the centres [m]; z in place of y in a container
-  double speed = 0;  ///< of each in a random direction [m/s], >= 0
+      area;  ///< [x0, y0, x1, y1] of the centres [m]; z in place of y in a container
+  std::optional<Vector2> heights;  ///< of the centres, where they fill a space [m]
+  double speed = 0;                ///< of each in a random direction [m/s], >= 0
   Arrange arrange = Arrange::random;
   SpinKind spin = SpinKind::none;  ///< none or rolling
   std::int64_t seed = 1;           ///< >= 0

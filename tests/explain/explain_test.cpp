@@ -134,7 +134,7 @@ TEST(Explain, EachFeatureIsNeededOrLeftOut) {
   const Explained seen(bundled("symmetric-30cms"));
   EXPECT_TRUE(seen.has("Needs", "collisions of two bodies"));
   EXPECT_TRUE(seen.has("Left out", "rolling friction"));
-  EXPECT_EQ(seen.section("Needs")->rows.size() + seen.section("Left out")->rows.size(), 12u);
+  EXPECT_EQ(seen.section("Needs")->rows.size() + seen.section("Left out")->rows.size(), 13u);
   const ExplainSection* bodies = seen.section("Bodies");
   ASSERT_EQ(bodies->rows.size(), 1u);  // both look alike
   EXPECT_EQ(bodies->columns.back().head, "slip");

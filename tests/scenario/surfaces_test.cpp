@@ -110,6 +110,32 @@ TEST(Surfaces, EveryMaterialThatCanComeThereNeedsAContact) {
             "s.yaml:8:3: contacts: needs a contact between steel and steel, which can meet");
 }
 
+TEST(Surfaces, AVolumeIsFilledBesideThem) {
+  const std::string pairs =
+      with(kSlope, "surfaces:\n",
+           "  - {between: [steel, steel], normal: {model: hard, restitution: 0.5}}\nsurfaces:\n");
+  const std::string filled = with(
+      pairs,
+      "  - {name: a, material: steel, sphere: {radius: 0.1}, on: slope, position: [1, 0, 2.3]}\n",
+      "  - fill: {prefix: g, count: 60, material: steel, radius: 0.1, volume: [0, -1, 0, 4, 1, 3], "
+      "speed: 2, seed: 3}\n");
+  const Scenario scene = parse_scenario(filled, "s.yaml");
+  ASSERT_EQ(scene.bodies.size(), 60u);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Vector3& at = scene.bodies[i].initial.position;
+    EXPECT_NEAR(scene.bodies[i].initial.velocity.norm(), 2, 1e-12);
+    for (const NamedSurface& surface : scene.surfaces)
+      EXPECT_GE(made_surface(surface).nearest(0, at).distance, 0.1);
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GE((at - scene.bodies[j].initial.position).norm(), 0.2);
+  }
+  EXPECT_EQ(messages(with(filled, "seed: 3", "arrange: lattice")).front(),
+            "s.yaml:14:112: bodies[0].fill.arrange: must be random in a volume, got lattice");
+  EXPECT_EQ(
+      messages(with(filled, "volume: [0, -1, 0, 4, 1, 3]", "area: [0, 0, 1, 1]")).front(),
+      "s.yaml:14:70: bodies[0].fill.area: must be volume without a substrate, got [0, 0, 1, 1]");
+}
+
 TEST(Surfaces, HeightOverAPlaneIsThatOfTheHighestPlace) {
   const PlaneShape up;
   EXPECT_NEAR(highest_over(up, RodShape{Vector3(0, 0, 1), Vector3(3, 0, 5), 2}), 5 + 2 * 0.6,

@@ -11,6 +11,7 @@
 #include "base/stop_scope.h"
 #include "scenario/fill/fill_lattice.h"
 #include "scenario/fill/fill_plane.h"
+#include "scenario/surfaces.h"
 
 namespace slipcheck {
 namespace {
@@ -41,6 +42,21 @@ class Random {
   std::mt19937_64 engine_;
 };
 
+/// A unit vector, evenly over the sphere.
+Vector3 direction_in_space(Random& random) {
+  while (true) {
+    const double x = random.between(-1, 1), y = random.between(-1, 1), z = random.between(-1, 1);
+    const double square = x * x + y * y + z * z;
+    if (square > 1e-4 && square <= 1) return Vector3(x, y, z) / std::sqrt(square);
+  }
+}
+
+Vector3 velocity_of(const Fill& fill, const WrittenScene& scene, Random& random) {
+  if (fill.heights) return fill.speed * direction_in_space(random);
+  const Vector2 v = fill.speed * random.direction();
+  return scene.container ? Vector3(v.x(), 0, v.y()) : Vector3(v.x(), v.y(), 0);
+}
+
 /// Where the centre of a body of this radius may be: [x0, y0, x1, y1].
 std::vector<double> free_area(const Fill& fill, const WrittenScene& scene, double radius) {
   std::vector<double> area = fill.area;
@@ -61,7 +77,7 @@ Vector3 place(const WrittenScene& scene, double x, double y, double radius) {
 class RandomPlaces {
  public:
   RandomPlaces(const Fill& fill, const WrittenScene& scene, const FillPlane& plane)
-      : fill_(fill), scene_(scene), plane_(plane) {}
+      : fill_(fill), scene_(scene), plane_(plane), surfaces_(named_surfaces(scene)) {}
 
   std::optional<Vector3> next(double radius, Random& random) {
     const std::vector<double> area = free_area(fill_, scene_, radius);
@@ -69,16 +85,26 @@ class RandomPlaces {
     for (int i = 0; i < kMostAttempts && attempts_ < kAllAttempts; ++i, ++attempts_) {
       const double x = random.between(area[0], area[2]);
       const double y = random.between(area[1], area[3]);
-      const Vector3 position = place(scene_, x, y, radius);
-      if (plane_.is_free(position, radius)) return position;
+      Vector3 position = place(scene_, x, y, radius);
+      if (fill_.heights) position.z() = random.between(fill_.heights->x(), fill_.heights->y());
+      if (plane_.is_free(position, radius) && is_beside_surfaces(position, radius)) return position;
     }
     return std::nullopt;
   }
 
  private:
+  bool is_beside_surfaces(const Vector3& position, double radius) const {
+    const bool stands_free =
+        !scene_.substrate || scene_.substrate->periodic || position.z() >= radius;
+    return stands_free && std::ranges::all_of(surfaces_, [&](const NamedSurface& surface) {
+             return overlap_of(surface, position, radius) <= 0;
+           });
+  }
+
   const Fill& fill_;
   const WrittenScene& scene_;
   const FillPlane& plane_;
+  const std::vector<NamedSurface> surfaces_;
   std::int64_t attempts_ = 0;
 };
 
@@ -127,7 +153,7 @@ std::vector<Vector3> lattice_sites(const Fill& fill, const WrittenScene& scene,
 
 std::vector<Body> expand(const Fill& fill, const WrittenScene& scene,
                          const std::vector<Body>& others, Reading& reading) {
-  const std::string area_path = fill.path + ".area";
+  const std::string area_path = fill.path + (fill.heights ? ".volume" : ".area");
   if (!(fill.area[0] <= fill.area[2] && fill.area[1] <= fill.area[3])) {
     reading.fault_at(area_path, "must be [x0, y0, x1, y1] with x0 <= x1 and y0 <= y1");
     return {};
@@ -173,10 +199,7 @@ std::vector<Body> expand(const Fill& fill, const WrittenScene& scene,
       return {};
     }
     body.initial.position = *position;
-    if (fill.speed > 0) {
-      const Vector2 v = fill.speed * random.direction();
-      body.initial.velocity = scene.container ? Vector3(v.x(), 0, v.y()) : Vector3(v.x(), v.y(), 0);
-    }
+    if (fill.speed > 0) body.initial.velocity = velocity_of(fill, scene, random);
     plane.insert(body);
     bodies.push_back(std::move(body));
   }

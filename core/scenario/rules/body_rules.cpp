@@ -64,6 +64,20 @@ Rule<WrittenBody> body_rule() {
   return placed(body.rule());
 }
 
+Rule<Fill> volume_rule() {
+  const Rule<std::vector<double>> corners = numbers(kLength, kAnyNumber, {6});
+  return {[corners](const YamlNode& node, Reading& reading, Fill& target) {
+            std::vector<double> read;
+            if (!corners.read(node, reading, read)) return false;
+            target.area = {read[0], read[1], read[3], read[4]};
+            target.heights = Vector2(read[2], read[5]);
+            if (read[0] <= read[3] && read[1] <= read[4] && read[2] <= read[5]) return true;
+            reading.fault(node, "must have x0 <= x1, y0 <= y1 and z0 <= z1");
+            return false;
+          },
+          corners.schema};
+}
+
 Rule<Fill> one_fill_rule() {
   const Rule<double> length = number(kLength, kPositive);
   const Rule<Fill> one_radius = {[length](const YamlNode& node, Reading& reading, Fill& target) {
@@ -99,8 +113,11 @@ Rule<Fill> one_fill_rule() {
              required, "one radius, or evenly between two")
       .key("inertia", &Fill::shape_factor, inertia_rule(), optional,
            "solid, shell, disk, ring or the factor q in I = q m R²")
-      .key("area", &Fill::area, numbers(kLength, kAnyNumber, {4}), required,
+      .key("area", &Fill::area, numbers(kLength, kAnyNumber, {4}), optional,
            "[x0, y0, x1, y1] of the centres; z in place of y in a container")
+      .whole("volume", volume_rule(), optional,
+             "in place of area: [x0, y0, z0, x1, y1, z1] of the centres")
+      .exactly_one_of({"area", "volume"})
       .key("arrange", &Fill::arrange,
            choice<Fill::Arrange>(
                {{"random", Fill::Arrange::random}, {"lattice", Fill::Arrange::lattice}}),
