@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "physics/contact/contact_memory.h"
 #include "physics/contact/normal_force.h"
 #include "physics/contact/tangential_force.h"
 #include "scene/scene.h"
@@ -23,6 +24,8 @@ struct SoftContact {
   /// Bodies that meet exchange the impulse of their hard contact first; these forces only hold what
   /// that leaves together.
   bool after_impact = false;
+  /// Friction and rolling resistance with memory, in place of `tangential`.
+  std::optional<ContactMemory> memory = {};
 };
 
 /// What a box's surfaces do to bodies where those contacts last; by material.
@@ -57,6 +60,15 @@ struct ContactScene {
     };
     return all_hard(soft) && all_hard(soft_surfaces) && all_hard(soft_box.on_floor) &&
            all_hard(soft_box.on_wall) && all_hard(soft_box.on_lid);
+  }
+  /// A contact remembers more than one tangential law: only PileSolver keeps that.
+  bool has_memory() const {
+    const auto remembers = [](const std::vector<std::optional<SoftContact>>& contacts) {
+      return std::ranges::any_of(contacts,
+                                 [](const auto& each) { return each && each->memory; });
+    };
+    return remembers(soft) || remembers(soft_surfaces) || remembers(soft_box.on_floor) ||
+           remembers(soft_box.on_wall) || remembers(soft_box.on_lid);
   }
 };
 

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+
+#include "physics/contact/capped_spring.h"
+#include "reference/piles/pile_law.h"
+
+namespace slipcheck {
+
+/// How the surface of a contact's first body moves against the second's.
+struct PileMotion {
+  Vector3 normal = kUp;  ///< unit, from the second to the first
+  double overlap = 0;    ///< ξ [m]
+  double closing = 0;    ///< −n·v [m/s]
+  Vector3 slip = Vector3::Zero();  ///< across n [m/s]
+  Vector3 spin = Vector3::Zero();  ///< Ω of the first against the second [rad/s]
+  /// Half a step before, and the mean spin of both about n [rad/s].
+  Vector3 slip_before = Vector3::Zero(), spin_before = Vector3::Zero();
+  double turning_before = 0;
+  double speed = 0;  ///< of the centre over the second [m/s]
+  /// Of the matter of a surface half a step before.
+  Vector3 carried_by = Vector3::Zero(), turned_by = Vector3::Zero();
+};
+
+/// On the first of the two.
+struct PileForce {
+  Vector3 all = Vector3::Zero();     ///< [N]
+  Vector3 across = Vector3::Zero();  ///< of that the part across n, which turns both [N]
+  Vector3 torque = Vector3::Zero();  ///< against rolling and drilling [N m]
+
+  PileForce operator+(const PileForce& o) const {
+    return {all + o.all, across + o.across, torque + o.torque};
+  }
+  PileForce operator-(const PileForce& o) const {
+    return {all - o.all, across - o.across, torque - o.torque};
+  }
+  friend PileForce operator*(double factor, const PileForce& f) {
+    return {factor * f.all, factor * f.across, factor * f.torque};
+  }
+};
+
+/// Two that are near each other, and what they remember while they touch.
+struct PileContact {
+  std::uint32_t first = 0;
+  int second = kSubstrate;  ///< as of Touch
+  bool touching = false;
+  double impulse = 0;  ///< normal, since it was shown [N s]
+  PileLaw law;
+
+  // As of the instant before.
+  double overlap = 0;
+  Vector3 normal = kUp;
+  PileForce force;
+  double normal_force = 0;
+  double normal_dashpot = 0;                  ///< the part of it that the overlap's rate makes [N]
+  double stiffness = 0;                       ///< k_t [N/m]
+  Vector3 sliding_dashpot = Vector3::Zero();  ///< the tangential force without the spring's [N]
+  Vector3 rolling_dashpot = Vector3::Zero();  ///< [N m]
+  double drilling_dashpot = 0;                ///< [N m]
+  SpringMemory<Vector3> sliding{Vector3::Zero()}, rolling{Vector3::Zero()};
+  SpringMemory<double> drilling{0};
+};
+
+}  // namespace slipcheck

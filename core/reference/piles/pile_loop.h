@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "physics/frame.h"
+#include "reference/piles/pile_body.h"
+#include "reference/piles/pile_law.h"
+
+namespace slipcheck {
+
+/// What the loop runs, at the instant n.
+struct PileWorld {
+  const ContactScene* scene = nullptr;
+  const PileLaws* laws = nullptr;
+  double step = 0;        ///< h [s], > 0
+  std::uint64_t n = 0;    ///< steps since time 0
+  bool started = false;   ///< velocities lie half a step before the positions
+  Vector3 gravity = Vector3::Zero();  ///< [m/s²]
+  double drag = 0;        ///< rate at which all motion dies out [1/s], >= 0
+  std::vector<PileBody> bodies;
+  PileLedger ledger;
+  std::size_t collisions = 0;  ///< contacts of two bodies that have begun
+  bool slid = false;           ///< a contact slid, since somebody looked
+
+  double time() const { return static_cast<double>(n) * step; }
+  /// A body at the time of the positions, once its forces are known.
+  BodyState state(std::size_t i) const {
+    const PileBody& b = bodies[i];
+    const double half = started ? 0.5 * step : 0;
+    return {b.position, b.velocity + half * (b.force / b.mass + b.load * gravity),
+            b.angular_velocity + half / b.inertia * b.torque};
+  }
+};
+
+/// Velocity Verlet with contacts that remember, for one kind of scene:
+///   x_{n+1} = x_n + h v_{n+1/2},  v_{n+1/2} = v_{n−1/2} + (h/m) F(x_n, ṽ_n),
+///   ṽ_n = v_{n−1/2} + ½ (v_{n−1/2} − v_{n−3/2}).
+/// What a contact remembers goes on by h times the slip half a step before, seen along the mean of
+/// the directions at both ends. A contact that begins or ends within a step has the impulse of its
+/// part of the step by the trapezoidal rule. So all is of second order, but for where it changes
+/// within a step to slide with less friction than held it, which is then known to a step.
+///
+/// The ledger counts for each contact what its dashpots, its sliding springs and the springs that
+/// it drops take, each as force times way by the trapezoidal rule.
+class PileLoop {
+ public:
+  virtual ~PileLoop() = default;
+  /// The forces of now. Throws StepTooLong where bodies are deeper in each other than meant, or
+  /// their speed is no number.
+  virtual void find_forces(PileWorld& world) = 0;
+  virtual void advance(PileWorld& world, std::size_t steps) = 0;
+  /// What has touched since this was asked before, with its impulses.
+  virtual void take_touches(std::vector<Touch>& touches) = 0;
+  /// Normal impulses go on as they are for so long [s], with nothing else.
+  virtual void wait(double time) = 0;
+  virtual double elastic_energy() const = 0;  ///< of all springs, now [J]
+  virtual bool bodies_touch() const = 0;      ///< a body touches another one, or a surface
+  /// All of so many bodies touch the substrate and do not slide on it.
+  virtual bool rolls_on_substrate(std::size_t bodies) const = 0;
+  virtual std::vector<std::string> features() const = 0;
+};
+
+/// The loop without what the scene lacks; `general`: with all there is.
+std::unique_ptr<PileLoop> make_pile_loop(const PileLaws& laws, bool general);
+
+}  // namespace slipcheck

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reference/solver.h"
+#include "scene/contact_scene.h"
+
+namespace slipcheck {
+
+struct PileSettings {
+  double steps_per_contact = 40;  ///< of the shortest half period of all springs [-], > 0
+  /// Of that length [s] in place of it, where > 0.
+  double step = 0;
+  double collision_time = 0;  ///< of hard contacts [s]; 0: pile_collision_time()
+  /// Shows a frame every so many steps, >= 1, and at the end.
+  std::size_t steps_per_frame = 1;
+  /// Bodies that rest at the start where others or surfaces carry them are loaded slowly first.
+  bool prepare = true;
+  bool skip_rest = true;  ///< the rest of a run in which nothing changes any more
+  bool general = false;   ///< takes the loop that leaves out nothing
+};
+
+/// Spheres that touch each other, the substrate and surfaces, any number at once, in contacts that
+/// remember (PileLaws, PileLoop), in steps of fixed length.
+///
+/// A scene in which everything is at rest at the start, on still surfaces under gravity, is
+/// prepared: gravity grows from nothing over kLoadingTime collisions while all motion is damped at
+/// the rate of a collision, with all springs and caps at work, and then stays until no force is
+/// left or kSettlingTime collisions are over. The run starts from there, at rest, with what the
+/// contacts remember: from an equilibrium where there is one near, and else from where a pile that
+/// cannot stand has begun to fall, less than 1e-2 of a radius away.
+///
+/// Where nothing but the state changes (still surfaces), and for kStillFalls times √(R/g) no body
+/// moves or turns by more than 1e-12 of its radius, all is at rest for ever: the rest of the run is
+/// skipped.
+class PileSolver final : public Solver {
+ public:
+  /// The scene must outlive the solver. Throws Unsupported for what PileLaws has not.
+  PileSolver(const ContactScene& scene, std::span<const BodyState> initial,
+             const PileSettings& settings = {});
+  ~PileSolver() override;
+  PileSolver(PileSolver&&) noexcept;
+
+  /// Until rolling: nothing slides and nobody touches another body, on a still, level substrate
+  /// alone, and nobody will; or all is at rest for ever. A run that steps too long has failed.
+  SolvedRun run(const RunEnd& end, FrameSink* sink) override;
+  std::vector<BodyState> states() const override;
+  double now() const override;
+  std::vector<std::string> features() const override;
+
+  double step() const;            ///< h [s]
+  double collision_time() const;  ///< of hard contacts [s]; 0 where there are none
+  EnergyBalance balance() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace slipcheck
