@@ -23,7 +23,13 @@ struct EngineScene : Scene {
   /// A scene in which every contact is hard.
   EngineScene(Scene scene) : Scene(std::move(scene)) {}  // NOLINT: a scene is one for engines
   explicit EngineScene(const ContactScene& scene) : Scene(scene.hard) {
-    if (!scene.is_hard()) soft = SoftContacts{scene.soft, scene.soft_box};
+    if (scene.is_hard()) return;
+    soft = SoftContacts{scene.soft, scene.soft_box};
+    // No engine takes springs that remember: it gets the hard contact closest to them.
+    for (auto* contacts :
+         {&soft->pairs, &soft->box.on_floor, &soft->box.on_wall, &soft->box.on_lid})
+      for (std::optional<SoftContact>& contact : *contacts)
+        if (contact && contact->memory) contact.reset();
   }
 
   /// Nothing where every contact is hard.

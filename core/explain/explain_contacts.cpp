@@ -147,6 +147,20 @@ void add_tangential(ExplainSection& section, const AsperityForce& law, double) {
   section.add("ζ0", quantity(law.size, kLength), "size of asperities");
 }
 
+void add_memory(ExplainSection& section, const ContactMemory& memory) {
+  const SpringFriction& sliding = memory.sliding;
+  const bool constant = sliding.form == SpringFriction::Form::constant;
+  section.add(
+      "k_t", constant ? in_unit(sliding.stiffness, "N/m") : in_unit(sliding.stiffness, "N/m^1.5"),
+      constant ? "tangential stiffness" : "tangential stiffness over the root of the overlap");
+  section.add("c_t", in_unit(sliding.damping, "N s/m"), "tangential dashpot");
+  if (sliding.damping_ratio > 0)
+    section.add("c_t/c_n", pure(sliding.damping_ratio), "and that part of the normal one");
+  section.add("μ_s", pure(sliding.static_friction), "holds");
+  section.add("μ_k", pure(sliding.kinetic_friction), "slides");
+  if (memory.rolling.length > 0)
+    section.add("M_r/F_N", in_unit(memory.rolling.length, "m"), "largest torque against rolling");
+}
 void add_tangential(ExplainSection& section, const ImpactAngleForce& law, double) {
   section.add("μ", pure(law.friction), "friction");
   section.add("β0", pure(law.tangential_restitution), "tangential restitution where it sticks");
@@ -216,11 +230,13 @@ ExplainSections explain_contacts(const Scenario& scenario, const ContactScene& s
       add_hard(section, *found->hard, speed);
       continue;
     }
-    section.title += fmt::format("{}, {}, {}", kNormal[soft->normal.index()], end_name(soft->end),
-                                 kTangential[soft->tangential.index()]);
+    section.title +=
+        fmt::format("{}, {}, {}", kNormal[soft->normal.index()], end_name(soft->end),
+                    soft->memory ? "springs that remember" : kTangential[soft->tangential.index()]);
     std::visit([&](const auto& law) { add_normal(section, law, *soft, mass, speed); },
                soft->normal);
     std::visit([&](const auto& law) { add_tangential(section, law, mass); }, soft->tangential);
+    if (soft->memory) add_memory(section, *soft->memory);
     if (!std::holds_alternative<LinearForce>(soft->normal) &&
         !std::holds_alternative<PowerForce>(soft->normal))
       add_sound(section, scenario, contact, speed);

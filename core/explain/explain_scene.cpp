@@ -26,6 +26,7 @@ std::string solver_text(const ContactScene& scene, const ReferenceSolver& solver
   const std::string text =
       boxed && solver.is_resolved() ? "contacts last; their forces are integrated in time"
       : boxed && scene.is_hard() ? "every contact is hard; exact flight from collision to collision"
+      : solver.is_piled()        ? "contacts last and remember; in steps of fixed length"
       : solver.is_stepped()
           ? fmt::format("contacts last; in steps of {}", in_unit(solver.step(), "s"))
       : solver.is_resolved()

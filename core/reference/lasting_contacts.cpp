@@ -25,23 +25,11 @@ bool is_integrable(const Scene& scene) {
 bool rests_on(const Scene& scene, std::size_t i, std::size_t j) {
   const BodyState &upper = scene.initial[i], &lower = scene.initial[j];
   const double radius = scene.bodies[i].radius;
-  if (upper.position.z() <= radius * (1 + kTouching)) return false;  // the substrate carries it
+  if (scene.has_substrate && upper.position.z() <= radius * (1 + kTouching))
+    return false;  // the substrate carries it
   const Vector3 way = upper.position - lower.position;
   const double contact = radius + scene.bodies[j].radius;
   return way.norm() <= (1 + kTouching) * contact && way.z() >= 1e-3 * contact;
-}
-
-bool rests_on_bodies(const Scene& scene) {
-  const auto is_still = [](const BodyState& state) {
-    return state.velocity.isZero(0) && state.angular_velocity.isZero(0);
-  };
-  if (scene.gravity == 0 || !scene.motion.is_still() ||
-      !std::ranges::all_of(scene.initial, is_still))
-    return false;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    for (std::size_t j = 0; j < scene.bodies.size(); ++j)
-      if (i != j && rests_on(scene, i, j)) return true;
-  return false;
 }
 
 bool never_rebounds(const PairContact& pair) {
@@ -70,7 +58,7 @@ Scene one_class_each(Scene scene) {
 }
 
 std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, const Sphere& b,
-                                   double collision_time, double most_restitution) {
+                                   double collision_time) {
   constexpr double kLeastRestitution = 1e-5, kLeastSlip = 1e-4;
   const double* e = std::get_if<double>(&hard.restitution);
   if (!e || (hard.friction > 0 && hard.tangential_restitution > 0)) return std::nullopt;
@@ -78,8 +66,7 @@ std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, con
   SoftContact made;
   made.end = ContactEnd::zero_force;
   made.after_impact = never_rebounds(hard);
-  const double restitution =
-      made.after_impact ? kCritical : std::clamp(*e, kLeastRestitution, most_restitution);
+  const double restitution = made.after_impact ? kCritical : std::max(*e, kLeastRestitution);
   const LinearContact linear =
       LinearContact::with_collision_time(mass, restitution, collision_time, made.end);
   made.normal = LinearForce{linear.stiffness(), linear.damping_rate() * mass};
@@ -92,7 +79,36 @@ std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, con
   return made;
 }
 
+/// Along x, so that only bodies whose shadows meet are looked at.
+template <class Holds>
+bool any_shadows_meet(const Scene& scene, Holds holds) {
+  const auto left = [&](std::size_t i) {
+    return scene.initial[i].position.x() - (1 + kTouching) * scene.bodies[i].radius;
+  };
+  std::vector<std::size_t> order(scene.bodies.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, left);
+  for (std::size_t p = 0; p < order.size(); ++p) {
+    const double right = left(order[p]) + 2 * (1 + kTouching) * scene.bodies[order[p]].radius;
+    for (std::size_t q = p + 1; q < order.size() && left(order[q]) <= right; ++q)
+      if (holds(order[p], order[q]) || holds(order[q], order[p])) return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+bool rests_on_bodies(const Scene& scene) {
+  const auto is_still = [](const BodyState& state) {
+    return state.velocity.isZero(0) && state.angular_velocity.isZero(0);
+  };
+  if (scene.gravity == 0 || scene.box || !scene.periodic.isZero(0) || scene.confined ||
+      !scene.motion.is_still() || !std::ranges::all_of(scene.initial, is_still) ||
+      !std::ranges::all_of(scene.surfaces, [](const Surface& s) { return s.motion.is_still(); }))
+    return false;
+  return any_shadows_meet(scene,
+                          [&](std::size_t i, std::size_t j) { return rests_on(scene, i, j); });
+}
 
 bool is_rubbed(const Scene& scene) {
   return scene.gravity != 0 && std::ranges::any_of(scene.substrate, [](const auto& contact) {
@@ -100,25 +116,14 @@ bool is_rubbed(const Scene& scene) {
          });
 }
 
-bool has_lasting_contacts(const Scene& scene) {
-  return is_integrable(scene) && (rests_on_bodies(scene) || sticks(scene));
-}
-
-bool has_come_apart(const Scene& scene, std::span<const BodyState> states) {
-  if (!rests_on_bodies(scene)) return false;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const double way = (states[i].position - scene.initial[i].position).norm();
-    if (way > 1e-2 * scene.bodies[i].radius) return true;
-  }
-  return false;
-}
+bool has_lasting_contacts(const Scene& scene) { return is_integrable(scene) && sticks(scene); }
 
 double short_collision_time(const Scene& scene) {
-  const double part = rests_on_bodies(scene) ? 1e-3 : 1e-4;
+  constexpr double kPart = 1e-4;
   double radius = kNever;
   for (const Sphere& sphere : scene.bodies) radius = std::min(radius, sphere.radius);
   const double fall = std::sqrt(2 * scene.gravity * radius);
-  return part * radius / std::max(fall, speed_scale(scene, scene.initial));
+  return kPart * radius / std::max(fall, speed_scale(scene, scene.initial));
 }
 
 std::optional<ContactScene> with_lasting_contacts(const Scene& scene, double collision_time) {
@@ -126,15 +131,14 @@ std::optional<ContactScene> with_lasting_contacts(const Scene& scene, double col
   ContactScene made;
   made.hard = one_class_each(scene);
   made.touching = kTouching;
-  const bool rests = rests_on_bodies(scene), others_part = !rests && sticks(scene);
-  const double most = rests ? kCritical : 1;
+  const bool others_part = sticks(scene);
   const std::size_t count = scene.bodies.size();
   made.soft.resize(count * count);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) {
       if (others_part && !never_rebounds(scene.between(i, j))) continue;
       made.soft[i * count + j] =
-          lasting(scene.between(i, j), scene.bodies[i], scene.bodies[j], collision_time, most);
+          lasting(scene.between(i, j), scene.bodies[i], scene.bodies[j], collision_time);
       if (!made.soft[i * count + j]) return std::nullopt;
     }
   return made;

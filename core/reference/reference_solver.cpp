@@ -14,6 +14,8 @@
 #include "reference/forces/soft_box_solver.h"
 #include "reference/initial_contacts.h"
 #include "reference/lasting_contacts.h"
+#include "reference/piles/pile_law.h"
+#include "reference/piles/pile_solver.h"
 #include "reference/run_variation.h"
 #include "reference/steps/step_length.h"
 #include "reference/steps/step_solver.h"
@@ -61,6 +63,18 @@ bool needs_cells(const Scene& scene) {
          scene.periodic != Vector2::Zero();
 }
 
+/// Contacts last that no other solver knows.
+bool needs_piles(const ContactScene& scene) {
+  return scene.has_memory() || !scene.hard.surfaces.empty() ||
+         (scene.is_hard() && rests_on_bodies(scene.hard));
+}
+
+/// Steps in the shortest contact of a scene in which none was asked for: hard contacts that last
+/// have an error of their own, soft ones are what is to be solved.
+constexpr double kStepsPerHard = 40, kStepsPerSoft = 200;
+/// Between two frames of a scene with hard contacts alone.
+constexpr std::size_t kStepsPerFrame = 8;
+
 /// Bodies go straight on from collision to collision, and the rule for collapse is the one that
 /// PlanarSolver and EventSolver share.
 bool goes_straight(const Scene& scene) {
@@ -89,6 +103,10 @@ ReferenceSolver::ReferenceSolver(const ContactScene& scene, const ReferenceSetti
 void ReferenceSolver::choose_in_box() {
   if (settings_.asked == Compare::Reference::steps)
     throw Unsupported("a container has no steps of fixed length; compare.reference may be contact");
+  if (scene_->has_memory())
+    throw Unsupported(
+        "a container has no contacts with memory (the tangential models spring and mindlin, and "
+        "rolling)");
   resolved_ = settings_.asked == Compare::Reference::contact ||
               (settings_.asked == Compare::Reference::automatic && !scene_->is_hard());
   phases_ = !resolved_;
@@ -111,6 +129,15 @@ void ReferenceSolver::choose_on_plane() {
   const bool soft = !scene.is_hard();
   const bool automatic = settings_.asked == Compare::Reference::automatic;
   const bool periodic = !scene.hard.periodic.isZero(0);
+  if (settings_.asked == Compare::Reference::event && scene.has_memory())
+    throw Unsupported(
+        "event has no contacts with memory (the tangential models spring and mindlin, and "
+        "rolling); "
+        "compare.reference may be contact or steps");
+  if (settings_.asked != Compare::Reference::event && needs_piles(scene)) {
+    choose_piles();
+    return;
+  }
   const bool stepped =
       settings_.asked == Compare::Reference::steps ||
       (automatic && soft && (periodic || scene.hard.bodies.size() > kMostIntegrated));
@@ -141,28 +168,55 @@ void ReferenceSolver::choose_on_plane() {
   StepSolver(scene, scene.hard.initial, {.step = step_, .general = settings_.general});  // throws
 }
 
+void ReferenceSolver::choose_piles() {
+  resolved_ = piled_ = true;
+  const double shortest = shortest_collision(*scene_);
+  // What a soft contact presses onto the substrate is to find it hard.
+  constexpr double kHarder = 0.2;
+  collision_time_ = std::min(pile_collision_time(*scene_), kHarder * shortest);
+  const PileLaws laws(*scene_, collision_time_);  // throws
+  if (settings_.asked == Compare::Reference::steps)
+    step_ = laws.shortest_contact() / settings_.steps_per_contact;
+  if (!laws.has_hard()) collision_time_ = 0;
+}
+
 std::vector<std::string> ReferenceSolver::loop() const {
   return at_start(scene(), {}, {})->features();
 }
 
 // --- what runs -----------------------------------------------------------------------------------
 
-/// The length of a step [s], such that the last one ends where the run does.
-double ReferenceSolver::step_to(const RunEnd& end, double factor) const {
-  const double step = factor * step_;
+namespace {
+
+/// The length of a step near `step` [s], such that the last one ends where the run does.
+double ends_on(const RunEnd& end, double step) {
   if (end.until != Run::Until::time || end.time == 0) return step;
   return end.time / std::max(1.0, std::round(end.time / step));
 }
+
+}  // namespace
 
 /// `scene` at time 0; `end` sets the length of its steps.
 std::unique_ptr<Solver> ReferenceSolver::at_start(const ContactScene& scene,
                                                   const SolverAccuracy& accuracy,
                                                   const RunEnd& end) const {
   const std::vector<BodyState>& initial = scene.hard.initial;
+  if (is_piled()) {
+    PileSettings settings;
+    settings.collision_time = accuracy.softness * collision_time_;
+    settings.general = settings_.general;
+    const double per_contact = is_stepped()      ? settings_.steps_per_contact
+                               : scene.is_hard() ? kStepsPerHard
+                                                 : kStepsPerSoft;
+    if (scene.is_hard()) settings.steps_per_frame = kStepsPerFrame;
+    const PileLaws laws(scene, settings.collision_time > 0 ? settings.collision_time : 1);
+    settings.step = ends_on(end, accuracy.step * laws.shortest_contact() / per_contact);
+    return std::make_unique<PileSolver>(scene, initial, settings);
+  }
   if (is_stepped())
     return std::make_unique<StepSolver>(
         scene, initial,
-        StepSettings{.step = step_to(end, accuracy.step), .general = settings_.general});
+        StepSettings{.step = ends_on(end, accuracy.step * step_), .general = settings_.general});
   if (scene.hard.box && resolved_) return std::make_unique<SoftBoxSolver>(scene, initial);
   if (scene.hard.box || straight_)
     return std::make_unique<PlanarSolver>(scene.hard, initial,
@@ -194,7 +248,7 @@ SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
                                const SolverAccuracy& accuracy) const {
   if (accuracy.reversed || accuracy.other_rule) return run_varied(end, sink, accuracy);
   std::optional<ContactScene> softer;
-  if (softened_to() > 0 && accuracy.softness != 1)
+  if (softened_to() > 0 && !is_piled() && accuracy.softness != 1)
     softer = with_lasting_contacts(scene_->hard, accuracy.softness * collision_time_);
   if (hardens() && accuracy.softness != 1) {
     softer = scene();
@@ -202,16 +256,11 @@ SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
       softer->hard.laws = instant_collisions(*scene_, accuracy.softness);
   }
   std::optional<StepsAsEvents> events;
-  if (is_stepped() && sink) events.emplace(*sink);
+  if (is_stepped() && !is_piled() && sink) events.emplace(*sink);
   const std::unique_ptr<Solver> solver = at_start(softer ? *softer : scene(), accuracy, end);
   SolvedRun solved = solver->run(end, events ? &*events : sink);
   if (is_stepped() && solved.failed) return solved;
   const std::vector<BodyState> states = solver->states();
-  if (softened_to() > 0 && has_come_apart(scene_->hard, states)) {
-    solved.reached = false;
-    solved.reason =
-        "bodies that rested on each other come apart: how they then collide is not known";
-  }
   return checked(std::move(solved), states);
 }
 

@@ -33,6 +33,8 @@ struct SolverAccuracy {
 /// `automatic` takes it also for hard ones where bodies stay in contact (has_lasting_contacts()).
 /// steps: the same in steps of fixed length (StepSolver); for scenes of so many bodies that
 /// `contact` would not come to an end, which `automatic` leaves to it.
+/// Contacts that remember, surfaces beside the substrate and bodies that rest on others take
+/// PileSolver, whichever of the two was asked for, in steps of their own length.
 class ReferenceSolver {
  public:
   /// `scene` must outlive the solver. Throws Unsupported.
@@ -44,6 +46,8 @@ class ReferenceSolver {
   bool is_exact() const { return phases_; }       ///< no integrator is needed
   bool is_resolved() const { return resolved_; }  ///< contacts of bodies last
   bool is_stepped() const { return step_ > 0; }
+  /// In steps of fixed length with contacts that remember; is_stepped() only where that was asked.
+  bool is_piled() const { return piled_; }
   double step() const { return step_; }  ///< of `steps` [s], else 0
   const ReferenceSettings& settings() const { return settings_; }
   /// What the loop that runs the scene was made for, in a few words each.
@@ -52,7 +56,9 @@ class ReferenceSolver {
   bool hardens() const { return !resolved_ && !scene_->is_hard(); }
   /// Hard contacts are taken as short ones that last (lasting_contacts.h), as bodies stay in
   /// contact: so long is a collision [s], else 0.
-  double softened_to() const { return made_ && resolved_ ? collision_time_ : 0; }
+  double softened_to() const {
+    return resolved_ && (made_.has_value() || piled_) ? collision_time_ : 0;
+  }
   /// What is solved.
   const ContactScene& scene() const { return made_ ? *made_ : *scene_; }
 
@@ -74,8 +80,8 @@ class ReferenceSolver {
  private:
   void choose_in_box();
   void choose_on_plane();
+  void choose_piles();
   void harden();
-  double step_to(const RunEnd& end, double factor) const;
   std::unique_ptr<Solver> at_start(const ContactScene& scene, const SolverAccuracy& accuracy,
                                    const RunEnd& end) const;
   std::unique_ptr<LookingSolver> looking(std::span<const BodyState> states, double start,
@@ -88,8 +94,9 @@ class ReferenceSolver {
   ReferenceSettings settings_;
   bool resolved_ = false, phases_ = false;
   bool straight_ = false;      ///< so are the phases, of many bodies
+  bool piled_ = false;         ///< PileSolver
   double step_ = 0;            ///< [s]
-  double collision_time_ = 0;  ///< of made_, where its contacts last [s]
+  double collision_time_ = 0;  ///< of hard contacts, where they are taken as lasting [s]
 };
 
 /// Whether EventSolver has an exact solution for what bodies do between collisions on one plane.

@@ -34,6 +34,19 @@ AsperityForce asperity_force(const AsperityTangential& model, double effective_r
   return force;
 }
 
+SpringFriction mindlin_friction(const MindlinTangential& model, const ElasticMaterial& first,
+                                const ElasticMaterial& second, double effective_radius) {
+  SpringFriction made;
+  made.form = model.form == MindlinTangential::Form::passive
+                  ? SpringFriction::Form::mindlin
+                  : SpringFriction::Form::mindlin_displacement;
+  made.stiffness = mindlin_modulus(first, second, effective_radius);
+  made.damping_ratio = model.damping_ratio;
+  made.static_friction = model.friction.static_;
+  made.kinetic_friction = model.friction.kinetic;
+  return made;
+}
+
 bool depends_on_bodies(const BodyContact& contact) {
   const auto* hard = std::get_if<HardNormal>(&contact.normal);
   return !hard || std::holds_alternative<ViscoelasticRestitution>(hard->restitution);

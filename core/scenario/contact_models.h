@@ -1,5 +1,6 @@
 #pragma once
 
+#include "physics/contact/contact_memory.h"
 #include "physics/contact/elastic_pair.h"
 #include "physics/contact/linear_contact.h"
 #include "physics/contact/normal_force.h"
@@ -23,6 +24,11 @@ ElasticMaterial elastic_material(const Material& material);
 
 /// The asperities of B (35), (37) between spheres of that effective radius [m].
 AsperityForce asperity_force(const AsperityTangential& model, double effective_radius);
+
+/// Mindlin's contact between spheres of that effective radius [m], of materials with elastic
+/// constants; its damping is a ratio to the normal one.
+SpringFriction mindlin_friction(const MindlinTangential& model, const ElasticMaterial& first,
+                                const ElasticMaterial& second, double effective_radius);
 
 /// The contact between two materials, in whichever order the file names them, or null.
 const BodyContact* find_contact(const Scenario& scenario, const std::string& first,

@@ -30,6 +30,7 @@ class Scale {
   void operator()(BodyContact& contact) const {
     std::visit(*this, contact.normal);
     std::visit(*this, contact.tangential);
+    if (contact.rolling) times(contact.rolling->stiffness, of(kStiffness));
   }
 
   void operator()(HardNormal& model) const {
@@ -62,6 +63,11 @@ class Scale {
     times(model.asperity_size, length);
   }
   void operator()(HardTangential&) const {}
+  void operator()(SpringTangential& model) const {
+    times(model.stiffness, of(kStiffness));
+    times(model.damping_rate, 1 / time);
+  }
+  void operator()(MindlinTangential&) const {}
 
   void operator()(MaterialOnSubstrate& contact) const {
     for (auto& point : contact.rolling.table) point.first *= speed();

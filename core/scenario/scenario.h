@@ -110,23 +110,53 @@ struct HardTangential {
   double friction = 0;                ///< μ [-], >= 0
   double tangential_restitution = 0;  ///< β0 [-], in [−1, 1]
 };
-using TangentialModel =
-    std::variant<NoTangential, ViscousTangential, AsperityTangential, HardTangential>;
+/// Coefficients of Coulomb's friction.
+struct FrictionCoefficients {
+  double static_ = 0;  ///< μ_s [-], >= kinetic
+  double kinetic = 0;  ///< μ_k [-], >= 0
+};
+/// Cundall and Strack: a spring beside a dashpot that gives way at Coulomb's cap. An extension.
+/// Exactly one of the first two is given, and at most one damping.
+struct SpringTangential {
+  std::optional<double> stiffness;        ///< k_t [N/m], > 0
+  std::optional<double> stiffness_ratio;  ///< k_t over the normal k [-], > 0
+  std::optional<double> damping_rate;     ///< γ_S [1/s], >= 0
+  std::optional<double> damping_ratio;    ///< c_t over the normal dashpot's [-], >= 0
+  FrictionCoefficients friction;
+};
+/// Mindlin's contact of spheres that do not slip, from the materials, with the same cap. An
+/// extension.
+struct MindlinTangential {
+  /// passive: the force falls with the stiffness; displacement: it is the present stiffness times
+  /// the whole displacement.
+  enum class Form { passive, displacement };
+  double damping_ratio = 0;  ///< c_t over the normal dashpot's [-], >= 0
+  FrictionCoefficients friction;
+  Form form = Form::passive;
+};
+using TangentialModel = std::variant<NoTangential, ViscousTangential, AsperityTangential,
+                                     HardTangential, SpringTangential, MindlinTangential>;
+
+/// Resistance against rolling on each other: a spring that gives way. An extension.
+struct RollingResistance {
+  double friction = 0;                    ///< μ_r: largest torque over F_N R_eff [-], >= 0
+  std::optional<double> stiffness;        ///< k_r: torque over R_eff² and angle [N/m], > 0
+  std::optional<double> stiffness_ratio;  ///< k_r over the normal k [-], > 0
+  double damping = 1;                     ///< of the critical one [-], >= 0
+};
 
 /// A body pair, or a body and floor, wall or lid of a container.
 struct BodyContact {
   std::string first, second;  ///< materials; second may be "floor", "wall", "lid"
   NormalModel normal;
   TangentialModel tangential = NoTangential{};
+  std::optional<RollingResistance> rolling;
   std::string path;  ///< of its keys in the file, as in "contacts[0]"
 };
 
 // --- contact with the substrate ------------------------------------------------------------------
 
-struct SubstrateFriction {
-  double static_ = 0;  ///< μ_s [-], >= kinetic
-  double kinetic = 0;  ///< μ_k [-], >= 0
-};
+using SubstrateFriction = FrictionCoefficients;
 struct RollingLaw {
   /// (speed [m/s], μ_r [-]) with rising speeds, linear between and constant outside; one point is a
   /// constant. Never empty.

@@ -46,6 +46,64 @@ TangentialForce tangential(const AsperityTangential& model, const NormalForce&,
 TangentialForce tangential(const HardTangential&, const NormalForce&, const ClassPair&) {
   return NoTangentialForce{};  // made by soft(), which knows the restitution
 }
+// Those remember: sliding_memory().
+TangentialForce tangential(const SpringTangential&, const NormalForce&, const ClassPair&) {
+  return NoTangentialForce{};
+}
+TangentialForce tangential(const MindlinTangential&, const NormalForce&, const ClassPair&) {
+  return NoTangentialForce{};
+}
+
+SpringFriction spring_friction(const SpringTangential& model, const NormalForce& normal,
+                               const ClassPair& pair) {
+  SpringFriction made;
+  made.stiffness = model.stiffness
+                       ? *model.stiffness
+                       : *model.stiffness_ratio * std::get<LinearForce>(normal).stiffness;
+  made.damping = model.damping_rate.value_or(0) * pair.mass();
+  made.damping_ratio = model.damping_ratio.value_or(0);
+  made.static_friction = model.friction.static_;
+  made.kinetic_friction = model.friction.kinetic;
+  return made;
+}
+
+/// A torque k_r R_eff² θ up to μ_r R_eff F_N; critical for two free spheres that roll on each
+/// other.
+SpringTorque spring_torque(const RollingResistance& model, const NormalForce& normal,
+                           const ClassPair& pair) {
+  const double k = model.stiffness
+                       ? *model.stiffness
+                       : *model.stiffness_ratio * std::get<LinearForce>(normal).stiffness;
+  const double radius = pair.radius();
+  const double inertia =
+      1 / (1 / pair.first.moment_of_inertia() + 1 / pair.second.moment_of_inertia());
+  SpringTorque made;
+  made.stiffness = k * radius * radius;
+  made.damping = model.damping * 2 * std::sqrt(made.stiffness * inertia);
+  made.length = model.friction * radius;
+  return made;
+}
+
+/// The dashpot of a linear contact [N s/m]; of others, which begin without one, nothing.
+double linear_dashpot(const NormalForce& normal) {
+  const auto* linear = std::get_if<LinearForce>(&normal);
+  return linear ? linear->damping : 0;
+}
+
+/// What of the slip is left of it, −β, after a contact of `duration` in which it sticks: of the
+/// oscillator u̇ = −ω² s − 2 ζ ω u with ω² = k_t/(κ m_eff).
+double left_by_spring(double stiffness, double damping, double mass, double duration) {
+  const double omega = std::sqrt(stiffness / mass), rate = 0.5 * damping / mass;
+  const double square = (omega - rate) * (omega + rate), phase = std::sqrt(std::abs(square));
+  if (phase * duration < 1e-9) return std::exp(-rate * duration) * (1 - rate * duration);
+  if (square > 0)
+    return std::exp(-rate * duration) *
+           (std::cos(phase * duration) - rate / phase * std::sin(phase * duration));
+  // Over critical damping cosh and sinh, as exponentials that only fall.
+  const double slow = std::exp((phase - rate) * duration);
+  const double fast = std::exp(-(phase + rate) * duration);
+  return 0.5 * (slow + fast) - 0.5 * rate / phase * (slow - fast);
+}
 
 /// [s]; of a law whose duration depends on the speed, that at 1 m/s.
 double duration(const SoftContact& soft, double mass) {
@@ -99,8 +157,29 @@ SoftContact ContactMaker::soft(const ClassPair& pair) {
     made.tangential = ImpactAngleForce{hard->friction, hard->tangential_restitution,
                                        tangential_mass_ratio(pair.first, pair.second),
                                        restitution_of(made, pair)};
+  made.memory = memory(made.normal, pair);
+  if (made.memory) made.tangential = NoTangentialForce{};
   check_stiffness(made, pair);
   check_damping(made, pair);
+  return made;
+}
+
+std::optional<ContactMemory> ContactMaker::memory(const NormalForce& normal,
+                                                  const ClassPair& pair) const {
+  ContactMemory made;
+  const auto* spring = std::get_if<SpringTangential>(&contact_.tangential);
+  const auto* mindlin = std::get_if<MindlinTangential>(&contact_.tangential);
+  if (!spring && !mindlin && !contact_.rolling) return std::nullopt;
+  if (spring) made.sliding = spring_friction(*spring, normal, pair);
+  if (mindlin)
+    made.sliding = mindlin_friction(*mindlin, elastic_material(pair.first_material),
+                                    elastic_material(pair.second_material), pair.radius());
+  if (const auto* viscous = std::get_if<ViscousTangential>(&contact_.tangential)) {
+    const auto force = std::get<ViscousForce>(tangential(*viscous, normal, pair));
+    made.sliding.damping = force.damping;
+    made.sliding.static_friction = made.sliding.kinetic_friction = force.friction;
+  }
+  if (contact_.rolling) made.rolling = spring_torque(*contact_.rolling, normal, pair);
   return made;
 }
 
@@ -165,6 +244,25 @@ PairContact ContactMaker::hard_equivalent(const SoftContact& soft, const ClassPa
     // slip is given back here.
     hard.friction = 0.5 * asperity->friction;
     hard.tangential_restitution = 0;
+  } else if (soft.memory) {
+    const SpringFriction& spring = soft.memory->sliding;
+    const double mass = tangential_mass_ratio(pair.first, pair.second) * pair.mass();
+    const double time = duration(soft, pair.mass());
+    double stiffness = spring.stiffness;
+    if (spring.form != SpringFriction::Form::constant) {
+      // k_t goes with √ξ as the normal dF/dξ = α ρ ξ^(α−1) does: that of a linear contact which
+      // lasts as long and has the same proportion of both comes close.
+      const double scale = impact_scales(soft.normal, pair.mass(), 1).time;  // ξ at 1 m/s [m]
+      const auto elastic = [&](double overlap) {
+        return std::visit([&](const auto& law) { return law.elastic(overlap); }, soft.normal);
+      };
+      const double normal = (elastic(1.01 * scale) - elastic(0.99 * scale)) / (0.02 * scale);
+      stiffness = spring.stiffness_at(scale) / normal * pair.mass() * std::pow(M_PI / time, 2);
+    }
+    const double damping = spring.damping + spring.damping_ratio * linear_dashpot(soft.normal);
+    hard.friction = spring.kinetic_friction;
+    hard.tangential_restitution =
+        std::clamp(-left_by_spring(stiffness, damping, mass, time), -1.0, 1.0);
   } else if (const auto* angle = std::get_if<ImpactAngleForce>(&soft.tangential)) {
     hard.friction = angle->friction;
     hard.tangential_restitution = angle->tangential_restitution;

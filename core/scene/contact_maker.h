@@ -58,6 +58,8 @@ class ContactMaker {
 
  private:
   ContactEnd end() const;
+  /// What the contact remembers, where it does.
+  std::optional<ContactMemory> memory(const NormalForce& normal, const ClassPair& pair) const;
   std::string written_place(std::initializer_list<const char*> keys) const;
   void check_stiffness(const SoftContact& made, const ClassPair& pair) const;
   void check_damping(const SoftContact& made, const ClassPair& pair) const;

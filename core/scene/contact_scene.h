@@ -64,8 +64,7 @@ struct ContactScene {
   /// A contact remembers more than one tangential law: only PileSolver keeps that.
   bool has_memory() const {
     const auto remembers = [](const std::vector<std::optional<SoftContact>>& contacts) {
-      return std::ranges::any_of(contacts,
-                                 [](const auto& each) { return each && each->memory; });
+      return std::ranges::any_of(contacts, [](const auto& each) { return each && each->memory; });
     };
     return remembers(soft) || remembers(soft_surfaces) || remembers(soft_box.on_floor) ||
            remembers(soft_box.on_wall) || remembers(soft_box.on_lid);

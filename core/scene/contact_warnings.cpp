@@ -181,6 +181,14 @@ std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneO
                      "not break asperities; passive never does",
                      worst.passive_speed));
   }
+  const auto* mindlin = std::get_if<MindlinTangential>(&contact.tangential);
+  if (mindlin && mindlin->form == MindlinTangential::Form::displacement)
+    warn(".tangential.form",
+         "a bent contact that is pressed harder gains energy; passive never does");
+  if (contact.rolling && contact.rolling->friction > 0)
+    warn(".rolling.friction",
+         "engines are given the contact without its resistance against rolling of bodies on each "
+         "other");
   return warnings;
 }
 

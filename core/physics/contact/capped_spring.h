@@ -70,8 +70,7 @@ SpringResponse<V> respond(const SpringNow& law, const V& way, const V& rate,
 /// by the least rotation between them, and turns it around it by `angle` [rad], small.
 inline Vector3 carried(const Vector3& across, const Vector3& before, const Vector3& now,
                        double angle) {
-  const Vector3 tilted =
-      across - across.dot(now) / (1 + before.dot(now)) * Vector3(before + now);
+  const Vector3 tilted = across - across.dot(now) / (1 + before.dot(now)) * Vector3(before + now);
   return (1 - 0.5 * angle * angle) * tilted + angle * now.cross(tilted);
 }
 

@@ -22,10 +22,10 @@ namespace slipcheck {
 struct SpringFriction {
   enum class Form { constant, mindlin, mindlin_displacement };
   Form form = Form::constant;
-  double stiffness = 0;        ///< k_t [N/m], or of Mindlin k_t/√ξ = 8 G* √R_eff [N/m^1.5], >= 0
-  double damping = 0;          ///< c_t [N s/m], >= 0
-  double damping_ratio = 0;    ///< c_t over the normal dashpot's, which is added [-], >= 0
-  double static_friction = 0;  ///< μ_s [-], >= kinetic_friction
+  double stiffness = 0;      ///< k_t [N/m], or of Mindlin k_t/√ξ = 8 G* √R_eff [N/m^1.5], >= 0
+  double damping = 0;        ///< c_t [N s/m], >= 0
+  double damping_ratio = 0;  ///< c_t over the normal dashpot's, which is added [-], >= 0
+  double static_friction = 0;   ///< μ_s [-], >= kinetic_friction
   double kinetic_friction = 0;  ///< μ_k [-], >= 0
 
   /// k_t [N/m] at the overlap ξ [m].
@@ -35,8 +35,8 @@ struct SpringFriction {
 };
 
 /// Resistance against rolling, or against drilling about the line of centres: a torque that grows
-/// with the angle rolled up to `length` F_N and then is that. J. Ai et al., Powder Technol. 206, 269
-/// (2011), model C; Luding 2008, Sec. 2.5; LAMMPS's `rolling sds` and `twisting sds`.
+/// with the angle rolled up to `length` F_N and then is that. J. Ai et al., Powder Technol. 206,
+/// 269 (2011), model C; Luding 2008, Sec. 2.5; LAMMPS's `rolling sds` and `twisting sds`.
 struct SpringTorque {
   double stiffness = 0;  ///< [N m/rad], >= 0
   double damping = 0;    ///< [N m s/rad], >= 0

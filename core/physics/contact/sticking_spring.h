@@ -13,8 +13,8 @@ struct StickingSpring {
 /// through it; β in [−1, 1).
 ///
 /// From s = 0, u(t)/u(0) = e^(−a φ) (cos φ − a sin φ), φ = ω √(1 − ζ²) t, a = ζ/√(1 − ζ²), which
-/// falls from 1 to −e^(−a φ') at φ' = π − 2 atan a. The damping is a = 1/2, or less where β asks for
-/// more of the slip: then half of what that extreme allows. Without damping −β = cos(π √(k_t/(κ
+/// falls from 1 to −e^(−a φ') at φ' = π − 2 atan a. The damping is a = 1/2, or less where β asks
+/// for more of the slip: then half of what that extreme allows. Without damping −β = cos(π √(k_t/(κ
 /// k_n))) for a linear contact of an undamped k_n: 1 for k_t/k_n = κ, 2/7 for solid spheres.
 StickingSpring sticking_spring(double beta, double duration);
 

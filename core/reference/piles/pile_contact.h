@@ -9,9 +9,9 @@ namespace slipcheck {
 
 /// How the surface of a contact's first body moves against the second's.
 struct PileMotion {
-  Vector3 normal = kUp;  ///< unit, from the second to the first
-  double overlap = 0;    ///< ξ [m]
-  double closing = 0;    ///< −n·v [m/s]
+  Vector3 normal = kUp;            ///< unit, from the second to the first
+  double overlap = 0;              ///< ξ [m]
+  double closing = 0;              ///< −n·v [m/s]
   Vector3 slip = Vector3::Zero();  ///< across n [m/s]
   Vector3 spin = Vector3::Zero();  ///< Ω of the first against the second [rad/s]
   /// Half a step before, and the mean spin of both about n [rad/s].

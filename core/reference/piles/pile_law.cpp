@@ -111,7 +111,8 @@ PileLaw PileLaws::of_soft(const SoftContact& contact) const {
     law.sliding.static_friction = law.sliding.kinetic_friction = viscous->friction;
   } else if (!std::holds_alternative<NoTangentialForce>(contact.tangential)) {
     throw Unsupported(
-        "asperities, and the tangential model hard of soft contacts, are not solved beside contacts "
+        "asperities, and the tangential model hard of soft contacts, are not solved beside "
+        "contacts "
         "with memory, surfaces or bodies that rest on each other");
   }
   return law;
@@ -143,10 +144,10 @@ PileLaw PileLaws::of(std::size_t body, int second) const {
     const auto other = static_cast<std::size_t>(second);
     const Sphere& partner = scene.bodies[other];
     const std::optional<SoftContact>& soft = scene_->between(body, other);
-    PileLaw law = soft ? of_soft(*soft)
-                       : of_hard(*pairs_[m * materials + scene.material[other]],
-                                 scene.between(body, other), effective_mass(sphere, partner),
-                                 tangential_mass_ratio(sphere, partner));
+    PileLaw law =
+        soft ? of_soft(*soft)
+             : of_hard(*pairs_[m * materials + scene.material[other]], scene.between(body, other),
+                       effective_mass(sphere, partner), tangential_mass_ratio(sphere, partner));
     law.most_overlap = (soft ? 1 : kDeepest) * std::min(sphere.radius, partner.radius);
     return law;
   }
@@ -187,8 +188,7 @@ double PileLaws::shortest_contact() const {
     if (const auto* linear = std::get_if<LinearForce>(&law.normal)) {
       shortest = std::min(shortest, half_period(linear->stiffness, mass));
       // A dashpot over critical damping is the faster one.
-      if (linear->damping > 0)
-        shortest = std::min(shortest, M_PI * mass / linear->damping);
+      if (linear->damping > 0) shortest = std::min(shortest, M_PI * mass / linear->damping);
     } else if (speed > 0) {
       const ContactEnd end = law.clamped ? ContactEnd::zero_force : ContactEnd::zero_overlap;
       const Impact hit = impact(law.normal, mass, speed, end, 1e-6);

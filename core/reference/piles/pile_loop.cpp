@@ -173,10 +173,10 @@ class PileLoopOf final : public PileLoop {
       }
     }
     if (c.law.drilling.length > 0)
-      torque += take(c.law.drilling.at(pressed), c.law.drilling.stiffness,
-                     way * m.spin_before.dot(m.normal), about, c.drilling, c.drilling_dashpot,
-                     lost) *
-                m.normal;
+      torque +=
+          take(c.law.drilling.at(pressed), c.law.drilling.stiffness,
+               way * m.spin_before.dot(m.normal), about, c.drilling, c.drilling_dashpot, lost) *
+          m.normal;
     return torque;
   }
 
@@ -294,10 +294,11 @@ class PileLoopOf final : public PileLoop {
     const std::string other = c.second >= 0            ? fmt::format("body {}", c.second)
                               : c.second == kSubstrate ? "the substrate"
                                                        : "a surface";
-    throw StepTooLong(fmt::format(
-        "body {} is {:.3g} m deep in {} at {:.9g} s, more than {:.3g} m: what presses them together "
-        "is too much for the contact's stiffness",
-        c.first, overlap, other, world.time(), c.law.most_overlap));
+    throw StepTooLong(
+        fmt::format("body {} is {:.3g} m deep in {} at {:.9g} s, more than {:.3g} m: what presses "
+                    "them together "
+                    "is too much for the contact's stiffness",
+                    c.first, overlap, other, world.time(), c.law.most_overlap));
   }
 
   // --- how the two move --------------------------------------------------------------------------
@@ -322,7 +323,8 @@ class PileLoopOf final : public PileLoop {
 
   PileMotion of_bodies(const PileWorld& world, const PileContact& c, const Vector3& apart,
                        double reach, double distance) const {
-    const PileBody &a = world.bodies[c.first], &b = world.bodies[static_cast<std::size_t>(c.second)];
+    const PileBody &a = world.bodies[c.first],
+                   &b = world.bodies[static_cast<std::size_t>(c.second)];
     PileMotion m;
     m.overlap = reach - distance;
     const Half before{a.velocity - b.velocity, a.angular_velocity - b.angular_velocity};
@@ -330,14 +332,15 @@ class PileLoopOf final : public PileLoop {
                    before.spin + 0.5 * (a.turn_change - b.turn_change)};
     const Vector3 turning = a.radius * a.angular_velocity + b.radius * b.angular_velocity;
     const Vector3 n = apart / distance;
-    look(c, n, now, before,
-         turning + 0.5 * (a.radius * a.turn_change + b.radius * b.turn_change), turning, m);
+    look(c, n, now, before, turning + 0.5 * (a.radius * a.turn_change + b.radius * b.turn_change),
+         turning, m);
     m.turning_before = 0.5 * (a.angular_velocity + b.angular_velocity).dot(n);
     if constexpr (kTurns) m.speed = now.velocity.norm();
     return m;
   }
 
-  PileMotion on_surface(const PileWorld& world, const PileContact& c, const NearestPoint& at) const {
+  PileMotion on_surface(const PileWorld& world, const PileContact& c,
+                        const NearestPoint& at) const {
     const PileBody& a = world.bodies[c.first];
     const Scene& scene = world.scene->hard;
     PileMotion m;
@@ -358,8 +361,8 @@ class PileLoopOf final : public PileLoop {
     const Half before{a.velocity - m.carried_by, a.angular_velocity - turned};
     const Half now{a.velocity + 0.5 * a.change - matter,
                    a.angular_velocity + 0.5 * a.turn_change - turned};
-    look(c, at.normal, now, before,
-         a.radius * (a.angular_velocity + 0.5 * a.turn_change), a.radius * a.angular_velocity, m);
+    look(c, at.normal, now, before, a.radius * (a.angular_velocity + 0.5 * a.turn_change),
+         a.radius * a.angular_velocity, m);
     m.turning_before = 0.5 * (a.angular_velocity + turned).dot(at.normal);
     if constexpr (kTurns) m.speed = now.velocity.norm();
     return m;
@@ -388,7 +391,7 @@ class PileLoopOf final : public PileLoop {
           at.point = {a.position.x(), a.position.y(), 0};
         } else {
           at = world.scene->hard.surfaces[touched_surface(c.second)].nearest(world.time(),
-                                                                            a.position);
+                                                                             a.position);
         }
         if (at.distance > a.radius && !c.touching) continue;
         act(world, c, on_surface(world, c, at));
@@ -455,7 +458,8 @@ class PileLoopOf final : public PileLoop {
     surfaces_speed_ = 0;
     for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
       const PileBody& b = world.bodies[i];
-      if (scene.has_substrate && b.position.z() - b.radius <= skin) near.emplace_back(i, kSubstrate);
+      if (scene.has_substrate && b.position.z() - b.radius <= skin)
+        near.emplace_back(i, kSubstrate);
       for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
         const SurfaceMotion& motion = scene.surfaces[k].motion;
         const bool turns = !motion.rate().isZero(0) && !motion.is_belt();

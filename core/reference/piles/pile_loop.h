@@ -16,11 +16,11 @@ namespace slipcheck {
 struct PileWorld {
   const ContactScene* scene = nullptr;
   const PileLaws* laws = nullptr;
-  double step = 0;        ///< h [s], > 0
-  std::uint64_t n = 0;    ///< steps since time 0
-  bool started = false;   ///< velocities lie half a step before the positions
+  double step = 0;                    ///< h [s], > 0
+  std::uint64_t n = 0;                ///< steps since time 0
+  bool started = false;               ///< velocities lie half a step before the positions
   Vector3 gravity = Vector3::Zero();  ///< [m/s²]
-  double drag = 0;        ///< rate at which all motion dies out [1/s], >= 0
+  double drag = 0;                    ///< rate at which all motion dies out [1/s], >= 0
   std::vector<PileBody> bodies;
   PileLedger ledger;
   std::size_t collisions = 0;  ///< contacts of two bodies that have begun

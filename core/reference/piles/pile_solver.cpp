@@ -89,8 +89,8 @@ class PileSolver::Impl {
   Impl(const ContactScene& scene, std::span<const BodyState> initial, const PileSettings& settings)
       : scene_(&scene),
         settings_(settings),
-        laws_(scene, settings.collision_time > 0 ? settings.collision_time
-                                                 : pile_collision_time(scene)),
+        laws_(scene,
+              settings.collision_time > 0 ? settings.collision_time : pile_collision_time(scene)),
         loop_(make_pile_loop(laws_, settings.general)) {
     world_.scene = &scene;
     world_.laws = &laws_;
@@ -101,7 +101,8 @@ class PileSolver::Impl {
     else if (std::isfinite(shortest))
       world_.step = shortest / settings.steps_per_contact;
     else
-      throw Unsupported("steps of fixed length need a contact to be measured by, and nothing moves");
+      throw Unsupported(
+          "steps of fixed length need a contact to be measured by, and nothing moves");
     for (std::size_t i = 0; i < initial.size(); ++i) {
       const Sphere& sphere = scene.hard.bodies[i];
       PileBody& body = world_.bodies.emplace_back();
@@ -148,8 +149,8 @@ class PileSolver::Impl {
     balance.initial = initial_energy_.value_or(balance.energy);
     balance.dissipated = world_.ledger.dissipated;
     balance.work = world_.ledger.work;
-    balance.scale = std::max({largest_kinetic_, initial_elastic_, std::abs(balance.dissipated),
-                              std::abs(balance.work)});
+    balance.scale = std::max(
+        {largest_kinetic_, initial_elastic_, std::abs(balance.dissipated), std::abs(balance.work)});
     return balance;
   }
 
@@ -167,7 +168,7 @@ class PileSolver::Impl {
 
  private:
   static constexpr double kLoadingTime = 200, kSettlingTime = 3000;  // collisions
-  static constexpr double kMostMoved = 1e-2;                          // radii
+  static constexpr double kMostMoved = 1e-2;                         // radii
   static constexpr double kStillFalls = 10;
   /// Steps between two looks at whether the run may end.
   static constexpr std::uint64_t kLook = 64;
@@ -227,8 +228,8 @@ class PileSolver::Impl {
       from.push_back(world_.bodies[i].position);
     }
     const Vector3 gravity = world_.gravity;
-    const double unit = std::max(laws_.has_hard() ? laws_.collision_time() : 0.0,
-                                 laws_.shortest_contact());
+    const double unit =
+        std::max(laws_.has_hard() ? laws_.collision_time() : 0.0, laws_.shortest_contact());
     world_.drag = M_PI / unit;
     const auto per_unit = static_cast<std::size_t>(std::ceil(unit / world_.step));
     try {

@@ -64,6 +64,65 @@ void need_elastic(const std::string& material, const std::string& path, const st
   need(found->second.poisson_ratio.has_value(), "poisson_ratio");
 }
 
+/// Whether the normal force has a dashpot in proportion to the overlap's rate.
+bool has_dashpot(const NormalModel& normal) {
+  const auto* viscoelastic = std::get_if<ViscoelasticNormal>(&normal);
+  return std::holds_alternative<LinearNormal>(normal) ||
+         std::holds_alternative<PowerNormal>(normal) ||
+         (viscoelastic && viscoelastic->form == ViscoelasticNormal::Form::expanded);
+}
+
+/// Springs that remember, beside the normal force.
+void check_memory(const WrittenContact& contact, const WrittenScene& written, Reading& reading) {
+  const NormalModel& normal = contact.body.normal;
+  const bool is_linear = std::holds_alternative<LinearNormal>(normal);
+  const auto check_friction = [&](const FrictionCoefficients& friction) {
+    if (friction.static_ < friction.kinetic)
+      reading.fault_at(contact.path + ".tangential.friction.static",
+                       fmt::format("must be at least the kinetic friction {}", friction.kinetic));
+  };
+  const auto check_damping = [&](bool has_ratio) {
+    if (has_ratio && !has_dashpot(normal))
+      reading.fault_at(
+          contact.path + ".tangential.damping_ratio",
+          "needs the normal model linear, power or viscoelastic (form expanded), whose "
+          "dashpot goes with the rate of the overlap");
+  };
+  if (const auto* spring = std::get_if<SpringTangential>(&contact.body.tangential)) {
+    check_friction(spring->friction);
+    check_damping(spring->damping_ratio.has_value());
+    if (spring->damping_ratio && spring->damping_rate)
+      reading.fault_at(contact.path + ".tangential.damping_ratio",
+                       "must not stand beside damping_rate");
+    if (spring->stiffness_ratio && !is_linear)
+      reading.fault_at(contact.path + ".tangential.stiffness_ratio",
+                       "needs the normal model linear; give stiffness");
+  }
+  if (const auto* mindlin = std::get_if<MindlinTangential>(&contact.body.tangential)) {
+    check_friction(mindlin->friction);
+    check_damping(mindlin->damping_ratio > 0);
+    if (is_linear)
+      reading.fault_at(contact.path + ".tangential.model",
+                       "mindlin needs the normal model hertz, viscoelastic or power, of spheres");
+    for (const std::string& name : std::set(contact.between.begin(), contact.between.end()))
+      need_elastic(name, contact.path + ".tangential", "mindlin", written, reading);
+  }
+  if (!contact.body.rolling) return;
+  if (std::holds_alternative<HardNormal>(normal))
+    reading.fault_at(contact.path + ".rolling",
+                     "needs a normal model whose contacts last: a collision at an instant rolls "
+                     "nowhere");
+  else if (contact.body.rolling->stiffness_ratio && !is_linear)
+    reading.fault_at(contact.path + ".rolling.stiffness_ratio",
+                     "needs the normal model linear; give stiffness");
+  const bool has_friction_law =
+      std::holds_alternative<AsperityTangential>(contact.body.tangential) ||
+      std::holds_alternative<HardTangential>(contact.body.tangential);
+  if (has_friction_law && !std::holds_alternative<HardNormal>(normal))
+    reading.fault_at(contact.path + ".tangential.model",
+                     "must be none, viscous, spring or mindlin beside rolling");
+}
+
 void check_models(const WrittenContact& contact, const WrittenScene& written, Reading& reading) {
   const NormalModel& normal = contact.body.normal;
   const auto* hard = std::get_if<HardNormal>(&normal);
@@ -84,10 +143,13 @@ void check_models(const WrittenContact& contact, const WrittenScene& written, Re
     reading.fault_at(contact.path + ".tangential.damping_ratio",
                      "needs the normal model linear; give damping_rate");
   }
-  if (hard && (viscous || std::holds_alternative<AsperityTangential>(contact.body.tangential))) {
+  const TangentialModel& tangential = contact.body.tangential;
+  if (hard && !std::holds_alternative<NoTangential>(tangential) &&
+      !std::holds_alternative<HardTangential>(tangential)) {
     reading.fault_at(contact.path + ".tangential.model",
                      "must be none or hard with the normal model hard");
   }
+  check_memory(contact, written, reading);
 }
 
 /// The least radius of the bodies of a material [m]; infinite where there are none.

@@ -140,6 +140,67 @@ Rule<NormalModel> normal_rule() {
        alternative<NormalModel>("viscoelastic", "viscoelastic spheres; B (24)", viscoelastic)});
 }
 
+Rule<FrictionCoefficients> friction_rule() {
+  const Rule<double> coefficient = number(kPureNumber, kNotNegative);
+  Record<FrictionCoefficients> both;
+  both.key("static", &FrictionCoefficients::static_, coefficient, required, "μ_s, at least μ_k")
+      .key("kinetic", &FrictionCoefficients::kinetic, coefficient, required, "μ_k");
+  return one_form_of<FrictionCoefficients>(
+      "must be a number or {static: …, kinetic: …}",
+      {{is_mapping, both.rule()},
+       {is_scalar, made_from<FrictionCoefficients>(coefficient, [](double value) {
+          return FrictionCoefficients{value, value};
+        })}});
+}
+
+constexpr const char* kSpringFrictionDoc =
+    "Coulomb coefficient between the bodies; one number or both";
+
+Record<SpringTangential> spring_record() {
+  Record<SpringTangential> spring;
+  spring
+      .key("stiffness", &SpringTangential::stiffness, number(kStiffness, kPositive), optional,
+           "k_t of the tangential spring")
+      .key("stiffness_ratio", &SpringTangential::stiffness_ratio, number(kPureNumber, kPositive),
+           optional, "k_t over the normal stiffness")
+      .key("damping_rate", &SpringTangential::damping_rate, number(kRate, kNotNegative), optional,
+           "γ_S as of K (4)")
+      .key("damping_ratio", &SpringTangential::damping_ratio, number(kPureNumber, kNotNegative),
+           optional, "tangential dashpot over the normal one")
+      .key("friction", &SpringTangential::friction, friction_rule(), required, kSpringFrictionDoc)
+      .exactly_one_of({"stiffness", "stiffness_ratio"});
+  return spring;
+}
+
+Record<MindlinTangential> mindlin_record() {
+  using Form = MindlinTangential::Form;
+  Record<MindlinTangential> mindlin;
+  mindlin
+      .key("friction", &MindlinTangential::friction, friction_rule(), required, kSpringFrictionDoc)
+      .key("damping_ratio", &MindlinTangential::damping_ratio, number(kPureNumber, kNotNegative),
+           optional, "tangential dashpot over the normal one")
+      .key("form", &MindlinTangential::form,
+           choice<Form>({{"passive", Form::passive}, {"displacement", Form::displacement}}),
+           optional, "what falls with the overlap: the force, or nothing but the stiffness");
+  return mindlin;
+}
+
+Rule<std::optional<RollingResistance>> rolling_resistance_rule() {
+  Record<RollingResistance> rolling;
+  rolling
+      .key("friction", &RollingResistance::friction, number(kPureNumber, kNotNegative), required,
+           "μ_r, largest torque over F_N R_eff")
+      .key("stiffness", &RollingResistance::stiffness, number(kStiffness, kPositive), optional,
+           "torque over R_eff² and the angle rolled")
+      .key("stiffness_ratio", &RollingResistance::stiffness_ratio, number(kPureNumber, kPositive),
+           optional, "the same over the normal stiffness")
+      .key("damping", &RollingResistance::damping, number(kPureNumber, kNotNegative), optional,
+           "over critical damping")
+      .exactly_one_of({"stiffness", "stiffness_ratio"});
+  return made_from<std::optional<RollingResistance>>(
+      rolling.rule(), [](const RollingResistance& each) { return std::optional(each); });
+}
+
 Rule<TangentialModel> tangential_rule() {
   const Rule<double> friction = number(kPureNumber, kNotNegative);
   constexpr const char* kFrictionDoc = "Coulomb coefficient between the bodies";
@@ -195,20 +256,11 @@ Rule<TangentialModel> tangential_rule() {
        alternative<TangentialModel>("asperity", "breaking asperities; B (35)", asperity),
        alternative<TangentialModel>(
            "hard", "sticking or sliding collisions; L (5)-(12), of soft contacts by L App. B",
-           hard)});
-}
-
-Rule<SubstrateFriction> friction_rule() {
-  const Rule<double> coefficient = number(kPureNumber, kNotNegative);
-  Record<SubstrateFriction> both;
-  both.key("static", &SubstrateFriction::static_, coefficient, required, "μ_s, at least μ_k")
-      .key("kinetic", &SubstrateFriction::kinetic, coefficient, required, "μ_k");
-  return one_form_of<SubstrateFriction>(
-      "must be a number or {static: …, kinetic: …}",
-      {{is_mapping, both.rule()},
-       {is_scalar, made_from<SubstrateFriction>(coefficient, [](double value) {
-          return SubstrateFriction{value, value};
-        })}});
+           hard),
+       alternative<TangentialModel>("spring", "spring that gives way; Cundall and Strack 1979",
+                                    spring_record()),
+       alternative<TangentialModel>(
+           "mindlin", "elastic spheres that do not slip, from the materials", mindlin_record())});
 }
 
 using RollingTable = decltype(RollingLaw::table);
@@ -296,7 +348,10 @@ Rule<WrittenContact> contact_rule() {
       .whole("normal", part(&WrittenContact::body, &BodyContact::normal, normal_rule()), required,
              "force along the line of centres")
       .whole("tangential", part(&WrittenContact::body, &BodyContact::tangential, tangential_rule()),
-             optional, "force across it");
+             optional, "force across it")
+      .whole("rolling",
+             part(&WrittenContact::body, &BodyContact::rolling, rolling_resistance_rule()),
+             optional, "torque against rolling on each other");
 
   constexpr auto kSide = &WrittenContact::substrate;
   Record<WrittenContact> substrate;
