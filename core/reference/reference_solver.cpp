@@ -9,6 +9,7 @@
 #include "physics/numbers.h"
 #include "reference/events/event_solver.h"
 #include "reference/events/planar_solver.h"
+#include "reference/events/surface_world.h"
 #include "reference/forces/contact_solver.h"
 #include "reference/forces/instant_collision.h"
 #include "reference/forces/soft_box_solver.h"
@@ -63,10 +64,12 @@ bool needs_cells(const Scene& scene) {
          scene.periodic != Vector2::Zero();
 }
 
-/// Contacts last that no other solver knows.
-bool needs_piles(const ContactScene& scene) {
-  return scene.has_memory() || !scene.hard.surfaces.empty() ||
-         (scene.is_hard() && rests_on_bodies(scene.hard));
+/// Contacts last that no other solver knows. Beside surfaces hard ones are tried as instants where
+/// nothing else is asked for; what then lasts shows (SolvedRun::lasting).
+bool needs_piles(const ContactScene& scene, bool automatic) {
+  if (scene.has_memory() || (scene.is_hard() && rests_on_bodies(scene.hard))) return true;
+  if (scene.hard.surfaces.empty()) return false;
+  return !automatic || !scene.is_hard() || !EventSolver::can_solve(scene.hard);
 }
 
 /// Steps in the shortest contact of a scene in which none was asked for: hard contacts that last
@@ -134,7 +137,11 @@ void ReferenceSolver::choose_on_plane() {
         "event has no contacts with memory (the tangential models spring and mindlin, and "
         "rolling); "
         "compare.reference may be contact or steps");
-  if (settings_.asked != Compare::Reference::event && needs_piles(scene)) {
+  if (settings_.asked == Compare::Reference::event && !scene.hard.surfaces.empty())
+    if (const std::string obstacle = SurfaceWorld::obstacle(scene.hard); !obstacle.empty())
+      throw Unsupported("event knows no " + obstacle +
+                        " beside surfaces; compare.reference may be contact");
+  if (settings_.asked != Compare::Reference::event && needs_piles(scene, automatic)) {
     choose_piles();
     return;
   }

@@ -10,9 +10,22 @@
 namespace slipcheck {
 namespace {
 
-ReferenceResult reference_of(const PreparedScene& scene) {
+/// Where contacts last that were taken as instants, and nobody asked for that, the solver that
+/// resolves them takes over from the start.
+ReferenceResult reference_of(PreparedScene& scene) {
   if (scene.contact->hard.box) return run_box_reference(scene.solver, scene.scenario);
-  return run_reference(scene.solver, run_end(scene.scenario), body_names(scene.scenario));
+  const auto solve = [&] {
+    return run_reference(scene.solver, run_end(scene.scenario), body_names(scene.scenario));
+  };
+  ReferenceResult result = solve();
+  ReferenceSettings settings = scene.solver.settings();
+  if (!result.run.lasting || settings.asked != Compare::Reference::automatic) return result;
+  const std::string why = result.run.reason;
+  settings.asked = Compare::Reference::contact;
+  scene.solver = ReferenceSolver(*scene.contact, settings);
+  result = solve();
+  result.warnings.push_back("contact has taken over from event: " + why);
+  return result;
 }
 
 /// What a reference that shows nothing leaves of itself.
@@ -26,7 +39,7 @@ ReferenceResult failed_reference(const PreparedScene& scene, std::string reason)
   return result;
 }
 
-ReferenceResult guarded_reference(const PreparedScene& scene, double time_limit) {
+ReferenceResult guarded_reference(PreparedScene& scene, double time_limit) {
   try {
     const StopScope limit(time_limit);
     return reference_of(scene);
