@@ -220,8 +220,8 @@ template <class Fields>
 void describe(Fields& f, Configured& reply) {
   f("settings", reply.applied.settings);
   if constexpr (Fields::kReads)
-    if (reply.applied.settings.size() > kMostSettings)
-      f["settings"].fault_alone(fmt::format("must be at most {} settings", kMostSettings));
+    if (reply.applied.settings.size() > kMostApplied)
+      f["settings"].fault_alone(fmt::format("must be at most {} settings", kMostApplied));
   describe_lacks(f, reply.applied.not_represented);
   if constexpr (Fields::kReads)
     f.if_any("left_out", reply.applied.left_out);

@@ -239,9 +239,9 @@ TEST(Protocol, SettingsAreLimited) {
   EXPECT_EQ(test::refusal_of<BadJson>([&] { through<Welcome>(welcome); }),
             "reply: settings: must be at most 1000 settings");
   Configured configured;
-  for (int k = 0; k < 1001; ++k) configured.applied.settings["s" + std::to_string(k)] = true;
+  for (int k = 0; k <= 1'000'000; ++k) configured.applied.settings["s" + std::to_string(k)] = true;
   EXPECT_EQ(test::refusal_of<BadJson>([&] { through<Configured>(configured); }),
-            "reply: settings: must be at most 1000 settings");
+            "reply: settings: must be at most 1000000 settings");
 }
 
 TEST(Protocol, KindsOfLacksMayBeMissingButNotSome) {

@@ -75,6 +75,7 @@ std::string value_name(const Observables& observables, const std::vector<std::st
   const std::size_t of_bodies = kOfBody * observables.bodies.size();
   if (index < of_bodies) return kKeys[index % kOfBody].of(body_names[index / kOfBody]).text();
   const std::size_t left = index - of_bodies;
+  if (left == kPairScalars.size() * observables.pairs.size()) return "all.height";
   const PairObservables& pair = observables.pairs[left / kPairScalars.size()];
   const auto second = [&]() -> std::string_view {
     if (pair.second == kSubstrate) return "substrate";
@@ -88,7 +89,7 @@ std::string value_name(const Observables& observables, const std::vector<std::st
 std::vector<double> flat_values(const Observables& observables) {
   std::vector<double> values;
   values.reserve(kOfBody * observables.bodies.size() +
-                 kPairScalars.size() * observables.pairs.size());
+                 kPairScalars.size() * observables.pairs.size() + 1);
   for (const BodyObservables& body : observables.bodies) {
     for (const auto& scalar : kScalars) values.push_back(body.*scalar.value);
     for (const auto& vector : kVectors) {
@@ -98,6 +99,7 @@ std::vector<double> flat_values(const Observables& observables) {
   }
   for (const PairObservables& pair : observables.pairs)
     for (const auto& scalar : kPairScalars) values.push_back(pair.*scalar.value);
+  values.push_back(observables.height);
   return values;
 }
 
@@ -113,6 +115,7 @@ std::map<std::string, double> named_values(const Observables& observables,
 Observables aligned(const Observables& observables, const Observables& like) {
   Observables result;
   result.bodies = observables.bodies;
+  result.height = observables.height;
   result.bodies.resize(like.bodies.size());
   result.pairs.reserve(like.pairs.size());
   for (const PairObservables& wanted : like.pairs) {

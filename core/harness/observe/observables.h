@@ -60,6 +60,8 @@ struct PairObservables {
 struct Observables {
   std::vector<BodyObservables> bodies;
   std::vector<PairObservables> pairs;  ///< that collided, in order of the bodies
+  /// Of the centre of mass over z = 0 at the end, beside surfaces [m].
+  double height = kNotObserved;
 };
 
 /// The full name of a value that these bodies and pairs can have: "i.sliding_time",

@@ -355,6 +355,14 @@ Observables Observer::finish(double end) const {
     out.max_overlap = pair.max_overlap;
     out.sliding_onset = pair.sliding_onset;
   }
+  if (on_surfaces_ && bodies_.size() > 1) {
+    double mass = 0, moment = 0;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      mass += scene_->bodies[i].mass;
+      moment += scene_->bodies[i].mass * seen.bodies[i].final_position.z();
+    }
+    seen.height = moment / mass;
+  }
   std::sort(seen.pairs.begin(), seen.pairs.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second < b.second;
   });

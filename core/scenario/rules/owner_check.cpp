@@ -104,9 +104,13 @@ std::string fault_of_owner(const WrittenScene& written, const std::string& name)
   const ObservableKey key = observable_key(name);
   const std::string owner(key.owner);
   const ObservableScope scope = key.known()->scope;
+  if (!written.surfaces.empty() && name == "all.height") return "";
   if (written.container.has_value() != (scope == ObservableScope::all))
     return written.container ? "must be of all, as nothing else is seen in a container"
-                             : "must be of a body or a pair: all is only for a container";
+                             : (written.surfaces.empty()
+                                    ? "must be of a body or a pair: all is only for a container"
+                                    : "must be of a body or a pair, or all.height: other "
+                                      "observables of all are only for a container");
   if (scope == ObservableScope::body && !any_body_matches(written, owner))
     return fmt::format("must be of one of the bodies, but {} is none", owner);
   if (scope == ObservableScope::pair && owner.find('*') != std::string::npos)
