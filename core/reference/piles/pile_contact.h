@@ -45,10 +45,13 @@ struct PileContact {
   int second = kSubstrate;  ///< as of Touch
   bool touching = false;
   double impulse = 0;  ///< normal, since it was shown [N s]
+  /// What a hard contact's normal spring is longer by than the bodies overlap, since it was
+  /// prepared, until it opens [m].
+  double offset = 0;
   PileLaw law;
 
   // As of the instant before.
-  double overlap = 0;
+  double overlap = 0;  ///< with the offset
   Vector3 normal = kUp;
   PileForce force;
   double normal_force = 0;

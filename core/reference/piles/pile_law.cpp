@@ -88,6 +88,7 @@ PileLaws::Hard PileLaws::hard(const PairContact& contact) const {
 PileLaw PileLaws::of_hard(const Hard& hard, const PairContact& contact, double mass,
                           double kappa) const {
   PileLaw law;
+  law.hard = true;
   law.normal = LinearForce{hard.stiffness * mass, hard.damping * mass};
   const double slides = kappa * mass, omega = hard.sticking.frequency;
   law.sliding.stiffness = omega * omega * slides;

@@ -17,6 +17,7 @@ namespace slipcheck {
 struct PileLaw {
   NormalForce normal;
   bool clamped = true;      ///< ContactEnd::zero_force
+  bool hard = false;        ///< stands for a hard contact; the normal force is linear
   double most_overlap = 0;  ///< beyond which nothing is meant to overlap [m], > 0
   SpringFriction sliding;
   SpringTorque rolling, drilling;

@@ -17,6 +17,8 @@ namespace {
 
 /// Of the smallest radius, the gap up to which bodies are looked at for a contact.
 constexpr double kSkin = 0.1;
+/// Of Coulomb's cap, what a contact is prepared with: the rest of it holds what shakes later.
+constexpr double kPrepared = 0.998;
 
 template <class V>
 double energy_of(double stiffness, const V& stretch) {
@@ -116,10 +118,11 @@ class PileLoopOf final : public PileLoop {
   ///   −½ (f_d0 + f_d1)·w − ½ (f_e0 + f_e1)·cut − ½ (k − k0) s0·s1.
   template <class V>
   static V take(const SpringNow& law, double stiffness_before, const V& way, const V& rate,
-                SpringMemory<V>& memory, V& dashpot, double& lost) {
+                SpringMemory<V>& memory, V& dashpot, double& lost, V* cut = nullptr) {
     const V stretch = memory.stretch;
     const SpringResponse<V> now = respond(law, way, rate, memory);
     const V dashpot_now = now.force - now.elastic;
+    if (cut) *cut = now.cut;
     lost -= 0.5 * product(V(dashpot + dashpot_now), way) +
             0.5 * product(V(now.elastic - stiffness_before * stretch), now.cut) +
             0.5 * (law.stiffness - stiffness_before) * product(stretch, memory.stretch);
@@ -139,19 +142,35 @@ class PileLoopOf final : public PileLoop {
   }
 
   static Vector3 slide(PileContact& c, const PileMotion& m, double overlap, double normal,
-                       double way, double& lost) {
+                       double way, bool dilates, double& lost) {
     const SpringFriction& law = c.law.sliding;
     if (law.static_friction == 0) return Vector3::Zero();
-    SpringNow now{law.stiffness_at(overlap), law.damping,
-                  law.static_friction * std::max(0.0, normal),
-                  law.kinetic_friction * std::max(0.0, normal)};
+    const bool opens = dilates && c.law.hard;
+    const double pressed = std::max(0.0, normal);
+    SpringNow now{law.stiffness_at(overlap), law.damping, law.static_friction * pressed,
+                  law.kinetic_friction * pressed};
+    if (opens) now.holds = now.slides = kPrepared * now.holds;
     if (law.damping_ratio > 0)
       now.damping +=
           law.damping_ratio * (normal_force_of(c, overlap, 1) - elastic_force(c, overlap));
     lost += stiffen(c, now.stiffness);
     const double before = std::exchange(c.stiffness, now.stiffness);
-    return take(now, before, Vector3(way * m.slip_before), m.slip, c.sliding, c.sliding_dashpot,
-                lost);
+    Vector3 cut;
+    const Vector3 force = take(now, before, Vector3(way * m.slip_before), m.slip, c.sliding,
+                               c.sliding_dashpot, lost, &cut);
+    if (opens && c.sliding.slides) open(c, cut);
+    return force;
+  }
+
+  /// Shares a cut of the tangential spring between it and the normal one, so that both come back to
+  /// the cone |F_T| = μ F_N along its normal.
+  static void open(PileContact& c, const Vector3& cut) {
+    const double mu = c.law.sliding.static_friction;
+    const double normal = mu * mu * std::get_if<LinearForce>(&c.law.normal)->stiffness;
+    const double part = c.stiffness / (c.stiffness + normal);
+    c.sliding.stretch += (1 - part) * cut;
+    c.sliding.slides = false;
+    c.offset += mu * part * cut.norm();
   }
 
   static Vector3 turn(PileContact& c, const PileMotion& m, double normal, double way,
@@ -187,7 +206,7 @@ class PileLoopOf final : public PileLoop {
     double lost = 0;
     const double angle = way * m.turning_before;
     c.sliding.stretch = carried(c.sliding.stretch, c.normal, m.normal, angle);
-    const Vector3 across = slide(c, m, overlap, normal, way, lost);
+    const Vector3 across = slide(c, m, overlap, normal, way, world.dilates, lost);
     Vector3 torque = Vector3::Zero();
     if constexpr (kTurns) {
       c.rolling.stretch = carried(c.rolling.stretch, c.normal, m.normal, angle);
@@ -279,6 +298,7 @@ class PileLoopOf final : public PileLoop {
     world.ledger.dissipated += elastic(c) + memory_energy(c);
     c.touching = false;
     c.sliding.slides = false;
+    c.offset = 0;
   }
 
   /// Two that touched a step ago and overlap no more.
@@ -344,7 +364,7 @@ class PileLoopOf final : public PileLoop {
     const PileBody& a = world.bodies[c.first];
     const Scene& scene = world.scene->hard;
     PileMotion m;
-    m.overlap = a.radius - at.distance;
+    m.overlap = a.radius + c.offset - at.distance;
     const double t = world.time(), half = t - (world.started ? 0.5 * world.step : 0);
     Vector3 matter = Vector3::Zero(), turned = Vector3::Zero();
     if (c.second == kSubstrate) {
@@ -381,7 +401,7 @@ class PileLoopOf final : public PileLoop {
       if (c.second >= 0) {
         const PileBody& b = world.bodies[static_cast<std::size_t>(c.second)];
         const Vector3 apart = a.position - b.position;
-        const double reach = a.radius + b.radius, distance2 = apart.squaredNorm();
+        const double reach = a.radius + b.radius + c.offset, distance2 = apart.squaredNorm();
         if (distance2 > reach * reach && !c.touching) continue;
         act(world, c, of_bodies(world, c, apart, reach, std::sqrt(distance2)));
       } else {

@@ -21,6 +21,7 @@ struct PileWorld {
   bool started = false;               ///< velocities lie half a step before the positions
   Vector3 gravity = Vector3::Zero();  ///< [m/s²]
   double drag = 0;                    ///< rate at which all motion dies out [1/s], >= 0
+  bool dilates = false;               ///< hard contacts that slide press themselves open, below
   std::vector<PileBody> bodies;
   PileLedger ledger;
   std::size_t collisions = 0;  ///< contacts of two bodies that have begun
@@ -43,6 +44,11 @@ struct PileWorld {
 /// the directions at both ends. A contact that begins or ends within a step has the impulse of its
 /// part of the step by the trapezoidal rule. So all is of second order, but for where it changes
 /// within a step to slide with less friction than held it, which is then known to a step.
+///
+/// Where contacts dilate, one that is cut back by s also gets an offset μ s: an associated law, by
+/// which a pile under growing weights comes to an equilibrium whenever there is one (the limit
+/// theorems of plasticity; Drucker, Q. Appl. Math. 11, 381 (1954), on why Coulomb's law itself need
+/// not). What it then remembers is within the caps of Coulomb's law, which holds it from there on.
 ///
 /// The ledger counts for each contact what its dashpots, its sliding springs and the springs that
 /// it drops take, each as force times way by the trapezoidal rule.

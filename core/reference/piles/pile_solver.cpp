@@ -168,7 +168,8 @@ class PileSolver::Impl {
 
  private:
   static constexpr double kLoadingTime = 200, kSettlingTime = 3000;  // collisions
-  static constexpr double kMostMoved = 1e-2;                         // radii
+  static constexpr double kDragPerTime = 0.2;
+  static constexpr double kMostMoved = 1e-2;  // radii
   static constexpr double kStillFalls = 10;
   /// Steps between two looks at whether the run may end.
   static constexpr std::uint64_t kLook = 64;
@@ -230,7 +231,8 @@ class PileSolver::Impl {
     const Vector3 gravity = world_.gravity;
     const double unit =
         std::max(laws_.has_hard() ? laws_.collision_time() : 0.0, laws_.shortest_contact());
-    world_.drag = M_PI / unit;
+    world_.drag = kDragPerTime / unit;
+    world_.dilates = true;
     const auto per_unit = static_cast<std::size_t>(std::ceil(unit / world_.step));
     try {
       for (int k = 1; k <= kLoadingTime + kSettlingTime && !has_moved(from); ++k) {
@@ -246,6 +248,7 @@ class PileSolver::Impl {
     loop_->take_touches(unused);
     world_.gravity = gravity;
     world_.drag = 0;
+    world_.dilates = false;
     for (PileBody& b : world_.bodies) {
       b.load = 1;
       for (Vector3* each : {&b.velocity, &b.angular_velocity, &b.change, &b.turn_change, &b.turned})

@@ -28,13 +28,15 @@ struct PileSettings {
 /// remember (PileLaws, PileLoop), in steps of fixed length.
 ///
 /// A scene in which everything is at rest at the start, on still surfaces under gravity, is
-/// prepared: gravity grows from nothing over kLoadingTime collisions while all motion is damped at
-/// the rate of a collision, with all springs and caps at work, and then stays until no force is
-/// left or kSettlingTime collisions are over. The run starts from there, at rest, with what the
-/// contacts remember: from an equilibrium where there is one near, and else from where a pile that
-/// cannot stand has begun to fall, less than 1e-2 of a radius away.
+/// prepared: gravity grows from nothing over 200 collisions, while all motion is damped at a fifth
+/// of a collision's rate, with all springs and caps at work, and then stays until 1e-6 of it is
+/// left as acceleration, 3000 collisions are over or a body has moved by 1e-2 of its radius.
+/// Contacts that slide meanwhile are associated (PileLoop), so that an equilibrium is found
+/// whenever the caps, less 0.2 %, allow one; which of many the contacts' stiffnesses tell. The run
+/// starts from there, at rest, with what the contacts remember, and with Coulomb's law. What
+/// touches nothing at the start, within 1e-5 of a radius, is not loaded before that.
 ///
-/// Where nothing but the state changes (still surfaces), and for kStillFalls times √(R/g) no body
+/// Where nothing but the state changes (still surfaces), and for 10 √(R/g) no body
 /// moves or turns by more than 1e-12 of its radius, all is at rest for ever: the rest of the run is
 /// skipped.
 class PileSolver final : public Solver {
