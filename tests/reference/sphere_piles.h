@@ -24,8 +24,7 @@ inline Scene pile(int layers, double friction, double on_ground) {
     for (int row = 0; row < side; ++row)
       for (int k = 0; k + row < side; ++k) {
         BodyState state;
-        state.position =
-            corner + Vector3(2 * R * k + R * row, std::sqrt(3.0) * R * row, 0);
+        state.position = corner + Vector3(2 * R * k + R * row, std::sqrt(3.0) * R * row, 0);
         scene.bodies.push_back(sphere);
         scene.material.push_back(0);
         scene.initial.push_back(state);
@@ -41,8 +40,8 @@ inline std::vector<ConeContact> contacts_of(const Scene& scene) {
     const Vector3& a = scene.initial[i].position;
     const double R = scene.bodies[i].radius;
     if (a.z() <= R * (1 + 1e-9))
-      found.push_back({static_cast<int>(i), -1, a - R * kUp, kUp,
-                       scene.on_substrate(i).static_friction});
+      found.push_back(
+          {static_cast<int>(i), -1, a - R * kUp, kUp, scene.on_substrate(i).static_friction});
     for (std::size_t j = 0; j < i; ++j) {
       const Vector3& b = scene.initial[j].position;
       if ((a - b).norm() > 2 * R * (1 + 1e-9)) continue;

@@ -141,12 +141,11 @@ class PileLoopOf final : public PileLoop {
     return energy - energy_of(stiffness, c.sliding.stretch);
   }
 
-  static Vector3 slide(PileContact& c, const PileMotion& m, double overlap, double normal,
+  static Vector3 slide(PileContact& c, const PileMotion& m, double overlap, double pressed,
                        double way, bool dilates, double& lost) {
     const SpringFriction& law = c.law.sliding;
     if (law.static_friction == 0) return Vector3::Zero();
     const bool opens = dilates && c.law.hard;
-    const double pressed = std::max(0.0, normal);
     SpringNow now{law.stiffness_at(overlap), law.damping, law.static_friction * pressed,
                   law.kinetic_friction * pressed};
     if (opens) now.holds = now.slides = kPrepared * now.holds;
@@ -173,9 +172,9 @@ class PileLoopOf final : public PileLoop {
     c.offset += mu * part * cut.norm();
   }
 
-  static Vector3 turn(PileContact& c, const PileMotion& m, double normal, double way,
+  static Vector3 turn(PileContact& c, const PileMotion& m, double pressed, double way,
                       double& lost) {
-    const double pressed = std::max(0.0, normal), about = m.spin.dot(m.normal);
+    const double about = m.spin.dot(m.normal);
     Vector3 torque = Vector3::Zero();
     if (c.law.rolling.length > 0 || c.law.rolling_table) {
       if (c.sliding.slides && !c.law.rolls_while_sliding) {
@@ -199,18 +198,19 @@ class PileLoopOf final : public PileLoop {
     return torque;
   }
 
-  /// Takes a contact that touches on to now, over `part` of the step, and counts its energy.
+  /// Takes a contact that touches on to now, over `part` of the step, and counts its energy. Caps
+  /// are those of the normal force `pressed`.
   void follow(PileWorld& world, PileContact& c, const PileMotion& m, double overlap, double normal,
-              double part) const {
+              double pressed, double part) const {
     const double way = part * world.step;
     double lost = 0;
     const double angle = way * m.turning_before;
     c.sliding.stretch = carried(c.sliding.stretch, c.normal, m.normal, angle);
-    const Vector3 across = slide(c, m, overlap, normal, way, world.dilates, lost);
+    const Vector3 across = slide(c, m, overlap, std::abs(pressed), way, world.dilates, lost);
     Vector3 torque = Vector3::Zero();
     if constexpr (kTurns) {
       c.rolling.stretch = carried(c.rolling.stretch, c.normal, m.normal, angle);
-      torque = turn(c, m, normal, way, lost);
+      torque = turn(c, m, std::abs(pressed), way, lost);
     }
     const double dashpot = normal - elastic_force(c, overlap);
     lost += 0.5 * (c.normal_dashpot + dashpot) * (overlap - c.overlap);
@@ -253,7 +253,7 @@ class PileLoopOf final : public PileLoop {
       return;
     }
     if (c.touching) {
-      follow(world, c, m, m.overlap, normal, 1);
+      follow(world, c, m, m.overlap, normal, normal, 1);
       push(world, c, c.force, m.normal);
       c.impulse += std::abs(normal) * world.step;
     } else {
@@ -280,9 +280,9 @@ class PileLoopOf final : public PileLoop {
     if (!within) world.ledger.dissipated -= elastic(c);  // came with it
     double first = normal_force_of(c, c.overlap, closing);
     if (c.law.clamped) first = std::max(0.0, first);
-    follow(world, c, m, c.overlap, first, 0);
+    follow(world, c, m, c.overlap, first, first, 0);
     const PileForce begun = c.force;
-    follow(world, c, m, m.overlap, normal, part);
+    follow(world, c, m, m.overlap, normal, normal, part);
     push(world, c, within ? 0.5 * ((1 + part) * c.force + part * begun) : c.force, m.normal);
     c.impulse += std::abs(normal) * world.step;
     world.collisions += c.second >= 0;
@@ -293,7 +293,9 @@ class PileLoopOf final : public PileLoop {
   void end(PileWorld& world, PileContact& c, const PileMotion& m, double part, double overlap,
            double normal) {
     const PileForce before = c.force;
-    follow(world, c, m, overlap, normal, part);
+    // The cap goes with F_N to its end, which what sticks follows in no time: the step sees a jump.
+    const double before_end = c.normal_force;
+    follow(world, c, m, overlap, normal, before_end, part);
     push(world, c, 0.5 * (part * (before + c.force) - before), m.normal);
     world.ledger.dissipated += elastic(c) + memory_energy(c);
     c.touching = false;

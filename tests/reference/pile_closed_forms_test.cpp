@@ -1,0 +1,293 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "../scenes.h"
+#include "physics/contact/linear_contact.h"
+#include "reference/piles/pile_law.h"
+#include "reference/piles/pile_solver.h"
+
+// Contacts that remember beside closed forms of what spheres then do.
+
+namespace slipcheck {
+namespace {
+
+constexpr double kTime = 2.55e-5;  // t_col [s]
+constexpr double kRadius = 0.002;  // of steel_scene()
+constexpr double kGravity = 9.81;
+
+/// Two spheres that touch and approach with 30 cm/s, far from everything.
+ContactScene collision(double restitution, const SpringFriction& sliding, double slip) {
+  ContactScene scene = with_hard_contacts(test::free_pair(0.15, -0.15));
+  scene.hard.has_substrate = false;
+  const double mass = scene.hard.bodies[0].mass / 2;
+  const LinearContact law =
+      LinearContact::with_collision_time(mass, restitution, kTime, ContactEnd::zero_overlap);
+  SoftContact contact{LinearForce{law.stiffness(), law.damping_rate() * mass},
+                      ContactEnd::zero_overlap, NoTangentialForce{}};
+  contact.memory = ContactMemory{sliding, {}, {}};
+  scene.soft[0] = contact;
+  // Both turn alike, so that nothing but their surfaces moves across the line of centres.
+  for (BodyState& state : scene.hard.initial) state.angular_velocity.z() = 0.5 * slip / kRadius;
+  return scene;
+}
+
+double stiffness_of(const ContactScene& scene) {
+  return std::get<LinearForce>(scene.soft[0]->normal).stiffness;
+}
+
+std::vector<BodyState> after(const ContactScene& scene, double time, double step,
+                             EnergyBalance* balance = nullptr) {
+  PileSolver solver(scene, scene.hard.initial, {.step = step});
+  const SolvedRun run = solver.run(until_time(time), nullptr);
+  EXPECT_TRUE(run.reached) << run.reason;
+  if (balance) *balance = *run.balance;
+  return solver.states();
+}
+
+double slip_of(const std::vector<BodyState>& s) {
+  const Vector3 n = (s[0].position - s[1].position).normalized(), v = s[0].velocity - s[1].velocity;
+  const Vector3 turning = kRadius * (s[0].angular_velocity + s[1].angular_velocity);
+  return (v - v.dot(n) * n - turning.cross(n)).norm();
+}
+
+TEST(PileCollision, RestitutionIsThatOfTheLinearContactToSecondOrder) {
+  for (const double e : {1.0, 0.9, 0.5}) {
+    const ContactScene scene = collision(e, {}, 0);
+    double before = 0;
+    for (const int steps : {50, 100, 200, 400}) {
+      const auto s = after(scene, 1.5 * kTime, kTime / steps);
+      const double error = std::abs((s[1].velocity.x() - s[0].velocity.x()) / 0.3 - e) + 1e-14;
+      // (h ω)²/24 and the like, and the damping's: 8e-4 at t_col/50, a quarter with each half of
+      // the step.
+      EXPECT_LT(error, 2.0 / (steps * steps)) << e << " " << steps;
+      // The last step of the contact is cut wherever its end falls, which scatters the quarter.
+      if (before > 1e-9) {
+        EXPECT_LT(error, 0.6 * before) << e << " " << steps;
+      }
+      before = error;
+    }
+  }
+}
+
+TEST(PileCollision, ASpringThatSticksGivesBackWhatItsHalfPeriodSays) {
+  // κ m̄ ü = −k_t u from u(0): over t_col = π/ω_n it becomes cos(π √(k_t/(κ k_n))) of itself.
+  constexpr double kappa = 2.0 / 7, kSlip = 1e-3;
+  ContactScene scene = collision(1, {}, kSlip);
+  for (const double ratio : {kappa / 4, kappa, 0.1, 1.0}) {
+    SpringFriction spring;
+    spring.stiffness = ratio * stiffness_of(scene);
+    spring.static_friction = spring.kinetic_friction = 10;
+    scene.soft[0]->memory->sliding = spring;
+    const double expected = std::cos(M_PI * std::sqrt(ratio / kappa));
+    double before = 0;
+    for (const int steps : {100, 200, 400}) {
+      EnergyBalance balance;
+      const auto s = after(scene, 1.5 * kTime, kTime / steps, &balance);
+      // From the surfaces' turning, whose sign tells the slip's.
+      const double slip =
+          kRadius * (s[0].angular_velocity + s[1].angular_velocity).z() -
+          (s[0].velocity - s[1].velocity).y() * (s[0].position.x() < s[1].position.x() ? -1 : 1);
+      const double error = std::abs(slip / kSlip - expected);
+      // (h ω)²/24 · π for each of the two oscillators; the line of centres turns by 1e-6.
+      EXPECT_LT(error, 30.0 / (steps * steps) + 3e-6) << ratio << " " << steps;
+      if (before > 1e-5) {
+        EXPECT_LT(error, 0.5 * before) << ratio << " " << steps;
+      }
+      before = error;
+      EXPECT_LT(std::abs(balance.error()), 1.0 / (steps * steps)) << ratio << " " << steps;
+    }
+  }
+}
+
+TEST(PileCollision, WhatSlidesThroughoutLosesMuOfTheNormalImpulse) {
+  // Slip 2 m/s, μ = 0.1: ΔP_t = μ P_n, Δu = −μ (1 + e) g/κ.
+  constexpr double kSlip = 2, kMu = 0.1, kClosing = 0.3, kappa = 2.0 / 7;
+  SpringFriction spring;
+  spring.stiffness = 1e9;  // at the cap within 1e-5 of the collision
+  spring.static_friction = spring.kinetic_friction = kMu;
+  ContactScene scene = collision(0.9, {}, kSlip);
+  spring.stiffness = 0.3 * stiffness_of(scene);
+  scene.soft[0]->memory->sliding = spring;
+  for (const int steps : {200, 400}) {
+    EnergyBalance balance;
+    const auto s = after(scene, 1.5 * kTime, kTime / steps, &balance);
+    // Until the cap is reached the spring's force is smaller, by the way μ F_N/k_t at the touch:
+    // second order in the time (μ k_n g/(k_t u)) t_col that this takes.
+    EXPECT_NEAR(slip_of(s), kSlip - kMu * 1.9 * kClosing / kappa, 5e-3 * kSlip);
+    EXPECT_LT(std::abs(balance.error()), 3.0 / (steps * steps)) << steps;
+  }
+}
+
+TEST(PileCollision, MindlinsPassiveContactMakesNoEnergyAndTheOtherDoes) {
+  // Pressed, bent, pressed harder: the displacement form gains what the passive one loses.
+  const double rho = 1.25 * test::free_pair(0, 0).bodies[0].mass / 2 *
+                     std::pow(kTime / 2.9433 * std::pow(0.3, 0.2), -2.5);
+  for (const auto form :
+       {SpringFriction::Form::mindlin, SpringFriction::Form::mindlin_displacement}) {
+    SpringFriction spring;
+    spring.form = form;
+    spring.stiffness = 1.2 * rho;
+    spring.static_friction = spring.kinetic_friction = 10;
+    ContactScene scene = collision(1, spring, 0.1);
+    scene.soft[0]->normal = HertzForce{rho};
+    EnergyBalance fine, coarse;
+    after(scene, 0.6 * kTime, kTime / 800, &fine);
+    after(scene, 0.6 * kTime, kTime / 400, &coarse);
+    EXPECT_LT(std::abs(fine.error()), 2e-6);
+    EXPECT_LT(std::abs(fine.error()), 0.4 * std::abs(coarse.error()) + 1e-9);
+    after(scene, 1.5 * kTime, kTime / 400, &fine);
+    if (form == SpringFriction::Form::mindlin) {
+      EXPECT_GT(fine.dissipated, 0);
+    }
+  }
+}
+
+// --- on the substrate ----------------------------------------------------------------------------
+
+/// A steel ball on a slope whose tangent is given.
+ContactScene on_slope(double tangent, double friction) {
+  Scene scene = test::steel_scene(1);
+  const double angle = std::atan(tangent);
+  scene.gravity = kGravity * std::cos(angle);
+  scene.downhill = {0, -kGravity * std::sin(angle)};
+  scene.substrate[0].static_friction = scene.substrate[0].kinetic_friction = friction;
+  return with_hard_contacts(std::move(scene));
+}
+
+double downhill_speed(const ContactScene& scene, double time) {
+  PileSolver solver(scene, scene.hard.initial, {.collision_time = kTime});
+  EXPECT_TRUE(solver.run(until_time(time), nullptr).reached);
+  return -solver.states()[0].velocity.y();
+}
+
+TEST(PileSlope, ABallRollsOrSlipsByItsFriction) {
+  // It rolls at 5/7 g sin up to tan = 7/2 μ, and slips beyond at g (sin − μ cos).
+  constexpr double kSpan = 0.05, kMu = 0.2;
+  const double critical = 3.5 * kMu;
+  for (const double tangent : {0.5, 0.98 * critical, 1.02 * critical, 1.5}) {
+    const ContactScene scene = on_slope(tangent, kMu);
+    const double sine = tangent / std::hypot(1, tangent), cosine = 1 / std::hypot(1, tangent);
+    const double expected =
+        kSpan * kGravity * (tangent < critical ? 5.0 / 7 * sine : sine - kMu * cosine);
+    // The start is from rest, without the few t_col that it takes to roll.
+    EXPECT_NEAR(downhill_speed(scene, kSpan), expected, 5 * kTime * kGravity) << tangent;
+  }
+}
+
+TEST(PileSlope, RollingFrictionHoldsUpToItsTangent) {
+  // K (24): a/(1 + q) against μ_r g: a body that rolls down with 5/7 g sin is held by μ_r g cos.
+  constexpr double kRolling = 0.05;
+  for (const double part : {0.98, 1.02}) {
+    ContactScene scene = on_slope(part * 1.4 * kRolling, 0.5);
+    scene.hard.substrate[0].rolling = RollingFriction(kRolling);
+    const double speed = downhill_speed(scene, 0.1);
+    const double tangent = part * 1.4 * kRolling;
+    const double free = 0.1 * kGravity * (5.0 / 7 * tangent - kRolling) / std::hypot(1, tangent);
+    EXPECT_NEAR(speed, std::max(0.0, free), 5 * kTime * kGravity) << part;
+    if (part < 1) {
+      EXPECT_LT(speed, 1e-9);
+    }
+  }
+}
+
+TEST(PileRolling, ABallRollsToRestAndASpinDies) {
+  ContactScene scene = on_slope(0, 0.5);
+  SubstrateContact& ground = scene.hard.substrate[0];
+  ground.rolling = RollingFriction(0.02);
+  ground.drilling_length = 1e-4;
+  constexpr double kSpeed = 0.1;
+  scene.hard.initial[0] = test::rolling_at(0, 0, kSpeed, 0);
+  PileSolver solver(scene, scene.hard.initial, {.collision_time = kTime});
+  SolvedRun run = solver.run({Run::Until::rest, 0, 10}, nullptr);
+  ASSERT_TRUE(run.reached) << run.reason;
+  // v²/(2 μ_r g); its springs give way at the end by the weight over their stiffness.
+  EXPECT_NEAR(solver.states()[0].position.x(), kSpeed * kSpeed / (2 * 0.02 * kGravity), 2e-6);
+  EXPECT_LT(std::abs(run.balance->error()), 1e-6);
+
+  constexpr double kSpin = 20, kPart = 0.005;
+  scene.hard.initial[0] = test::rolling_at(0, 0, 0, 0);
+  scene.hard.initial[0].angular_velocity.z() = kSpin;
+  PileSolver spinning(scene, scene.hard.initial, {.collision_time = kTime});
+  run = spinning.run(until_time(kPart), nullptr);
+  // I dΩ/dt = −L m g, from a start that lies on the ground within some t_col.
+  const double rate = 1e-4 * kGravity / (0.4 * kRadius * kRadius);
+  EXPECT_NEAR(spinning.states()[0].angular_velocity.z(), kSpin - rate * kPart, 10 * rate * kTime);
+}
+
+// --- on surfaces ---------------------------------------------------------------------------------
+
+/// A ball held between two plates that move past it at ±V: overlaps them by `squeeze` [m].
+ContactScene between_belts(double speed, double squeeze, double friction) {
+  Scene scene = test::steel_scene(1);
+  scene.gravity = 0;
+  scene.has_substrate = false;
+  scene.initial[0].position.setZero();
+  SurfaceContact contact;
+  contact.lasting.static_friction = contact.lasting.kinetic_friction = friction;
+  contact.impact = {0.5, friction, 0.0};
+  for (const double side : {-1.0, 1.0}) {
+    Surface plate;
+    plate.shape = PlaneShape{side * (kRadius - squeeze) * kUp, -side * kUp};
+    plate.motion = SurfaceMotion::belt(SubstrateMotion::constant({side * speed, 0}),
+                                       Vector3::UnitX(), Vector3::UnitY());
+    scene.surfaces.push_back(plate);
+    scene.on_surfaces.push_back(contact);
+  }
+  return with_hard_contacts(std::move(scene));
+}
+
+TEST(PileSurfaces, ABallBetweenBeltsIsSpunUpByBoth) {
+  // I dΩ/dt = 2 μ N R about y until R Ω = V; N = k ξ of the plates' hard contact.
+  constexpr double kSpeed = 0.5, kMu = 0.3, kSqueeze = 1e-8;
+  const ContactScene scene = between_belts(kSpeed, kSqueeze, kMu);
+  const PileLaws laws(scene, kTime);
+  const double force =
+      laws.of(0, surface_touch(0)).normal.index() == 0
+          ? std::get<LinearForce>(laws.of(0, surface_touch(0)).normal).stiffness * kSqueeze
+          : 0;
+  const double rate = 2 * kMu * force * kRadius / scene.hard.bodies[0].moment_of_inertia();
+  const double until = kSpeed / kRadius / rate;
+  // So many collisions that what the springs need to give way does not count.
+  ASSERT_GT(until, 20 * kTime);
+  PileSolver solver(scene, scene.hard.initial, {.collision_time = kTime});
+  ASSERT_TRUE(solver.run(until_time(0.5 * until), nullptr).reached);
+  EXPECT_NEAR(solver.states()[0].angular_velocity.y(), 0.5 * kSpeed / kRadius, 2 * rate * kTime);
+  const SolvedRun run = solver.run(until_time(3 * until), nullptr);
+  const BodyState end = solver.states()[0];
+  EXPECT_NEAR(end.angular_velocity.y(), kSpeed / kRadius, 1e-6 * kSpeed / kRadius);
+  EXPECT_NEAR(end.position.norm(), 0, 1e-12);
+  EXPECT_LT(std::abs(run.balance->error()), 1e-4);
+  EXPECT_GT(run.balance->work, 0);
+}
+
+TEST(PileSurfaces, ABallOnATurningPlateGoesRoundAsTheTurntableSays) {
+  // A solid sphere that rolls on a plate turning at Ω goes in a circle of its own at 2/7 Ω.
+  constexpr double kRate = 5;
+  Scene scene = test::steel_scene(1);
+  scene.has_substrate = false;
+  SurfaceContact contact;
+  contact.lasting.static_friction = contact.lasting.kinetic_friction = 1;
+  contact.impact = {0.5, 1.0, 0.0};
+  Surface plate;
+  plate.motion = SurfaceMotion::turning(Vector3::Zero(), kRate * kUp);
+  scene.surfaces = {plate};
+  scene.on_surfaces = {contact};
+  constexpr double kPlace = 0.05, kSpeed = 2.0 / 7 * kRate * kPlace;
+  // About the axis itself: v = 2/7 Ω r, and what rolls turns with Ω × r − v below.
+  BodyState& ball = scene.initial[0];
+  ball.position = {kPlace, 0, kRadius};
+  ball.velocity = {0, kSpeed, 0};
+  ball.angular_velocity = rolling_angular_velocity({0, kSpeed - kRate * kPlace, 0}, kRadius);
+  ball.angular_velocity.z() = 0;
+  const ContactScene hard = with_hard_contacts(scene);
+  PileSolver solver(hard, scene.initial, {.collision_time = kTime});
+  const double quarter = 0.5 * M_PI / (2.0 / 7 * kRate);
+  ASSERT_TRUE(solver.run(until_time(quarter), nullptr).reached);
+  // It begins without the stretch that turns it: some μm.
+  EXPECT_LT((solver.states()[0].position.head<2>() - Vector2(0, kPlace)).norm(), 1e-3 * kPlace);
+}
+
+}  // namespace
+}  // namespace slipcheck
