@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "scenario/contact_models.h"
+#include "scenario/cue_start.h"
 #include "scenario/fill/fill.h"
 #include "scenario/rules/overlap.h"
+#include "scenario/rules/solid_check.h"
 #include "scenario/rules/spanning_rules.h"
 
 namespace slipcheck {
@@ -18,8 +20,18 @@ namespace {
 /// Round-off that positions and radii from a file may carry.
 constexpr double kRoundOff = 1e-12;
 
+double volume_of_sphere(double radius) {
+  return 4.0 / 3 * std::numbers::pi * radius * radius * radius;
+}
+
+double volume_of(const Body& body) {
+  if (!body.extent) return volume_of_sphere(body.sphere.radius);
+  const double of_box = body.extent->size.prod();
+  return body.sphere.shape == Shape::cylinder ? std::numbers::pi / 4 * of_box : of_box;
+}
+
 /// From the density; 0 where there is none.
-double mass_of(const WrittenScene& written, const std::string& material, double radius,
+double mass_of(const WrittenScene& written, const std::string& material, double volume,
                const std::string& path, Reading& reading) {
   const auto found = written.materials.find(material);
   if (found == written.materials.end()) return 0;
@@ -28,7 +40,7 @@ double mass_of(const WrittenScene& written, const std::string& material, double 
     reading.fault_at(path, "needs a mass, as its material " + material + " has no density");
     return 0;
   }
-  const double mass = *found->second.density * 4 / 3 * std::numbers::pi * radius * radius * radius;
+  const double mass = *found->second.density * volume;
   if (!(mass >= 1e-30 && mass <= 1e30)) {
     reading.fault_at(path, "must have a mass between 1e-30 and 1e30 kg");
   }
@@ -95,11 +107,11 @@ void check_place(Body& body, const WrittenScene& written, const std::string& pat
 
 Body resolve(const WrittenBody& written_body, const WrittenScene& written, Reading& reading) {
   const bool in_container = written.container.has_value();
-  Body body{written_body.name, written_body.material, written_body.sphere, {}};
+  Body body{written_body.name, written_body.material, written_body.sphere, {}, written_body.extent};
   const double radius = body.sphere.radius;
-  body.sphere.mass = written_body.mass
-                         ? *written_body.mass
-                         : mass_of(written, body.material, radius, written_body.path, reading);
+  body.sphere.mass = written_body.mass ? *written_body.mass
+                                       : mass_of(written, body.material, volume_of(body),
+                                                 written_body.path, reading);
   for (const auto& [key, values] : {std::pair(".position", &written_body.position),
                                     std::pair(".velocity", &written_body.velocity)}) {
     if (in_container && values->size() != 2) {
@@ -115,14 +127,17 @@ Body resolve(const WrittenBody& written_body, const WrittenScene& written, Readi
     sliding -= Vector3(substrate.x(), substrate.y(), 0);
   }
   body.initial.angular_velocity = spin_of(written_body, sliding, in_container, reading);
+  if (written_body.cue) strike(written_body, written, body, reading);
   check_place(body, written, written_body.path, reading);
+  if (body.extent) check_solid(written_body, written, body, reading);
   return body;
 }
 
 /// Spheres of a fill, once what stands explicitly is in place.
 std::vector<Body> resolve(const Fill& fill, const WrittenScene& written,
                           const std::vector<Body>& others, Reading& reading) {
-  const double least_mass = mass_of(written, fill.material, fill.least_radius, fill.path, reading);
+  const double least_mass =
+      mass_of(written, fill.material, volume_of_sphere(fill.least_radius), fill.path, reading);
   if (least_mass == 0) return {};
   if (written.container && fill.spin == SpinKind::rolling) {
     reading.fault_at(fill.path + ".spin", "must be none in a container");
@@ -130,7 +145,8 @@ std::vector<Body> resolve(const Fill& fill, const WrittenScene& written,
   std::vector<Body> bodies = expand(fill, written, others, reading);
   for (Body& body : bodies) {
     const double radius = body.sphere.radius;
-    body.sphere.mass = mass_of(written, fill.material, radius, fill.path, reading);
+    body.sphere.mass =
+        mass_of(written, fill.material, volume_of_sphere(radius), fill.path, reading);
     if (fill.spin == SpinKind::rolling && written.substrate) {
       const Vector2 substrate = initial_velocity(written.substrate->motion);
       body.initial.angular_velocity = rolling_angular_velocity(

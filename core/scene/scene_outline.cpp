@@ -153,8 +153,13 @@ SceneOutline make_outline(const Scenario& scenario) {
     }
     scene.bodies.push_back(sphere);
     scene.initial.push_back(body.initial);
+    if (body.extent) {
+      scene.extents.resize(scene.bodies.size());
+      scene.extents.back() = body.extent;
+    }
     scene.material.push_back(entry->second);
   }
+  if (!scene.extents.empty()) scene.extents.resize(scene.bodies.size());
   scene.pairs.resize(outline.classes.size() * outline.classes.size());
   if (scene.box) {
     for (auto* contacts : {&scene.box->on_floor, &scene.box->on_wall, &scene.box->on_lid})

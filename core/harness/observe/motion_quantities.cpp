@@ -11,7 +11,7 @@ namespace {
 Vector3 slip_over_substrate(const Scene& scene, const Sphere& body, double time,
                             const BodyState& state) {
   if (scene.box || !is_on_substrate(body, state)) return kVectorNotObserved;
-  Vector3 slip = slip_velocity(state, body.radius) - scene.motion.velocity(time);
+  Vector3 slip = slip_velocity(state, body) - scene.motion.velocity(time);
   slip.z() = 0;
   return slip;
 }

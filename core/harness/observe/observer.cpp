@@ -82,7 +82,7 @@ void Observer::look_at_ground(double t0, double t1) {
 }
 
 Vector3 Observer::slip_of(std::size_t i, const BodyState& state, const Ground& ground) const {
-  Vector3 slip = slip_velocity(state, scene_->bodies[i].radius) - ground.velocity;
+  Vector3 slip = slip_velocity(state, scene_->bodies[i]) - ground.velocity;
   slip.z() = 0;
   return slip;
 }

@@ -159,12 +159,12 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
   return std::visit(
       [&](const auto& normal, const auto& tangential) {
         using Normal = std::decay_t<decltype(normal)>;
-        using Surface = std::decay_t<decltype(tangential)>;
-        using Law = StepLaw<Normal, Surface>;
+        using Rubbing = std::decay_t<decltype(tangential)>;
+        using Law = StepLaw<Normal, Rubbing>;
         return make(laws(Law{normal, tangential, false},
                          [](const SoftContact& contact) {
                            return Law{std::get<Normal>(contact.normal),
-                                      std::get<Surface>(tangential_of(contact)), false};
+                                      std::get<Rubbing>(tangential_of(contact)), false};
                          }),
                     scene, initial, false, {name_of(some->normal), name_of(tangential_of(*some))});
       },

@@ -16,6 +16,8 @@ Rule<Substrate> substrate_rule();
 Rule<Container> container_rule();
 Rule<std::vector<std::variant<WrittenBody, Fill>>> bodies_rule();
 Rule<std::vector<Fill>> fill_rule();
+/// `cue` of a body.
+Rule<Cue> cue_rule();
 Rule<WrittenRun> run_rule();
 Rule<Compare> compare_rule();
 /// `tolerance` in `compare`, by what they judge.
