@@ -6,6 +6,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "bullet_backend/convert.h"
+#include "physics/solid.h"
 
 namespace slipcheck::bullet {
 namespace {
@@ -25,26 +26,17 @@ std::unique_ptr<btConvexShape> make_shape(const Scene& scene, std::size_t body) 
 /// About the body's own axes; of a sphere whatever mass distribution the scene gives it.
 btVector3 inertia_of(const Scene& scene, std::size_t body) {
   const Sphere& sphere = scene.bodies[body];
-  if (!extent_of(scene, body)) {
-    const auto inertia = static_cast<btScalar>(sphere.moment_of_inertia());
-    return btVector3(inertia, inertia, inertia);
-  }
-  const Vector3 square = extent_of(scene, body)->size.cwiseAbs2();
-  if (sphere.shape == Shape::block)
-    return to_bullet(
-        sphere.mass / 12 *
-        Vector3(square.y() + square.z(), square.x() + square.z(), square.x() + square.y()));
-  const double across = sphere.mass * (square.y() / 16 + square.x() / 12);
-  return to_bullet(Vector3(sphere.moment_of_inertia(), across, across));
+  if (const Extent* extent = extent_of(scene, body))
+    return to_bullet(moments_of_inertia(sphere, *extent));
+  const auto inertia = static_cast<btScalar>(sphere.moment_of_inertia());
+  return btVector3(inertia, inertia, inertia);
 }
 
 /// From the body's own axes to the world's.
 btQuaternion orientation_of(const Scene& scene, std::size_t body, const Eigen::Matrix3d& turn) {
   const Extent* extent = extent_of(scene, body);
   if (!extent) return btQuaternion::getIdentity();
-  Eigen::Matrix3d own;
-  own << extent->axis.x(), -extent->axis.y(), 0, extent->axis.y(), extent->axis.x(), 0, 0, 0, 1;
-  const Eigen::Quaterniond q(Eigen::Matrix3d(turn * own));
+  const Eigen::Quaterniond q(Eigen::Matrix3d(turn * turn_of(*extent).toRotationMatrix()));
   return {btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())};
 }
 
