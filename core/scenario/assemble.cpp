@@ -20,19 +20,17 @@ namespace {
 /// Round-off that positions and radii from a file may carry.
 constexpr double kRoundOff = 1e-12;
 
-double volume_of_sphere(double radius) {
-  return 4.0 / 3 * std::numbers::pi * radius * radius * radius;
-}
-
-double volume_of(const Body& body) {
-  if (!body.extent) return volume_of_sphere(body.sphere.radius);
-  const double of_box = body.extent->size.prod();
-  return body.sphere.shape == Shape::cylinder ? std::numbers::pi / 4 * of_box : of_box;
+/// Homogeneous [kg].
+double mass_with(double density, const Sphere& body, const std::optional<Extent>& extent) {
+  const double r = body.radius;
+  if (!extent) return density * 4 / 3 * std::numbers::pi * r * r * r;
+  const double of_box = density * extent->size.prod();
+  return body.shape == Shape::cylinder ? std::numbers::pi / 4 * of_box : of_box;
 }
 
 /// From the density; 0 where there is none.
-double mass_of(const WrittenScene& written, const std::string& material, double volume,
-               const std::string& path, Reading& reading) {
+double mass_of(const WrittenScene& written, const std::string& material, const Sphere& body,
+               const std::optional<Extent>& extent, const std::string& path, Reading& reading) {
   const auto found = written.materials.find(material);
   if (found == written.materials.end()) return 0;
   if (!found->second.density) {
@@ -40,7 +38,7 @@ double mass_of(const WrittenScene& written, const std::string& material, double 
     reading.fault_at(path, "needs a mass, as its material " + material + " has no density");
     return 0;
   }
-  const double mass = *found->second.density * volume;
+  const double mass = mass_with(*found->second.density, body, extent);
   if (!(mass >= 1e-30 && mass <= 1e30)) {
     reading.fault_at(path, "must have a mass between 1e-30 and 1e30 kg");
   }
@@ -110,7 +108,7 @@ Body resolve(const WrittenBody& written_body, const WrittenScene& written, Readi
   Body body{written_body.name, written_body.material, written_body.sphere, {}, written_body.extent};
   const double radius = body.sphere.radius;
   body.sphere.mass = written_body.mass ? *written_body.mass
-                                       : mass_of(written, body.material, volume_of(body),
+                                       : mass_of(written, body.material, body.sphere, body.extent,
                                                  written_body.path, reading);
   for (const auto& [key, values] : {std::pair(".position", &written_body.position),
                                     std::pair(".velocity", &written_body.velocity)}) {
@@ -136,8 +134,8 @@ Body resolve(const WrittenBody& written_body, const WrittenScene& written, Readi
 /// Spheres of a fill, once what stands explicitly is in place.
 std::vector<Body> resolve(const Fill& fill, const WrittenScene& written,
                           const std::vector<Body>& others, Reading& reading) {
-  const double least_mass =
-      mass_of(written, fill.material, volume_of_sphere(fill.least_radius), fill.path, reading);
+  const double least_mass = mass_of(written, fill.material, Sphere{.radius = fill.least_radius},
+                                    std::nullopt, fill.path, reading);
   if (least_mass == 0) return {};
   if (written.container && fill.spin == SpinKind::rolling) {
     reading.fault_at(fill.path + ".spin", "must be none in a container");
@@ -146,7 +144,7 @@ std::vector<Body> resolve(const Fill& fill, const WrittenScene& written,
   for (Body& body : bodies) {
     const double radius = body.sphere.radius;
     body.sphere.mass =
-        mass_of(written, fill.material, volume_of_sphere(radius), fill.path, reading);
+        mass_of(written, fill.material, body.sphere, std::nullopt, fill.path, reading);
     if (fill.spin == SpinKind::rolling && written.substrate) {
       const Vector2 substrate = initial_velocity(written.substrate->motion);
       body.initial.angular_velocity = rolling_angular_velocity(
