@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scenario/file_text.h"
 #include "scenario/preset_data.h"
 #include "scenes.h"
 
@@ -47,6 +48,17 @@ TEST(Presets, EveryValueOfEveryOneHasASource) {
             << preset.name << ' ' << value.key;
     }
   }
+}
+
+TEST(Presets, EveryValueIsInTheDocument) {
+  const std::string document = read_file(SLIPCHECK_SOURCE_DIR "/docs/presets.md");
+  for (const Preset& preset : presets())
+    for (const auto& [part, node] : preset.parts)
+      for (const PresetValue& value : preset_values(*node)) {
+        const std::string row = "| `" + preset.name + "` | " + name_of(part) + " | `" + value.key +
+                                ": " + value.value + "` |";
+        EXPECT_NE(document.find(row), std::string::npos) << row;
+      }
 }
 
 TEST(Presets, EveryOneStandsInAScene) {
