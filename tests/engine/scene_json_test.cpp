@@ -104,7 +104,7 @@ TEST(SceneJson, ABoxComesThroughWhole) {
   EXPECT_TRUE(box.moving_walls);
   EXPECT_EQ(box.lid, 0.3);
   ASSERT_EQ(box.on_floor.size(), 2u);
-  EXPECT_EQ(std::get<double>(box.on_floor[1].friction), 0.4);
+  EXPECT_EQ(box.on_floor[1].friction, 0.4);
   EXPECT_EQ(restitution_at(box.on_floor[1].restitution, 0.01), 0.32);
   EXPECT_EQ(box.on_wall[0].tangential_restitution, -0.5);
   EXPECT_EQ(restitution_at(box.on_wall[1].restitution, 0.2),

@@ -57,10 +57,10 @@ TEST(BoxScene, HasTheBoxInPlaceOfTheSubstrate) {
   ASSERT_EQ(box.on_lid.size(), 1u);
   EXPECT_EQ(std::get<double>(scene.hard.between(0, 1).restitution), 0.9);
   EXPECT_EQ(std::get<double>(box.on_floor[0].restitution), 0.8);
-  EXPECT_EQ(std::get<double>(box.on_floor[0].friction), 0.3);
+  EXPECT_EQ(box.on_floor[0].friction, 0.3);
   EXPECT_EQ(box.on_floor[0].tangential_restitution, 0.2);
   EXPECT_EQ(std::get<double>(box.on_wall[0].restitution), 0.7);
-  EXPECT_EQ(std::get<double>(box.on_wall[0].friction), 0);
+  EXPECT_EQ(box.on_wall[0].friction, 0);
   EXPECT_EQ(std::get<double>(box.on_lid[0].restitution), 0.6);
   EXPECT_EQ(scene.hard.gravity, 9.80665);
   EXPECT_TRUE(scene.hard.downhill.isZero(0));
@@ -94,7 +94,7 @@ TEST(BoxScene, LinearFloorActsOnTheWholeMass) {
   EXPECT_NEAR(std::get<ViscousForce>(soft.tangential).damping / (2e4 * kMass), 1, 1e-13);
   const PairContact& hard = scene.hard.box->on_floor[0];
   EXPECT_NEAR(std::get<double>(hard.restitution), 0.8, 1e-13);
-  EXPECT_EQ(std::get<double>(hard.friction), 0.4);
+  EXPECT_EQ(hard.friction, 0.4);
   // m u̇ = −γ m (1 + 1/q) u for 1e-5 s, q = 2/5.
   EXPECT_NEAR(hard.tangential_restitution, -std::exp(-2e4 * 3.5 * 1e-5), 1e-12);
 }

@@ -192,7 +192,7 @@ TEST(ContactScene, ViscousEquivalentLeavesTheSlipThatTheForceLeaves) {
     const PairContact& hard = scene.hard.between(0, 1);
     // The duration is known to 1e-8.
     EXPECT_NEAR(hard.tangential_restitution, -left, 1e-7) << normal;
-    EXPECT_EQ(std::get<double>(hard.friction), 0.3);
+    EXPECT_EQ(hard.friction, 0.3);
   }
   const ContactScene smooth =
       scene_of(pair_text("hertz", "{model: viscous, damping_rate: 0, friction: 0.3}"));
@@ -209,7 +209,7 @@ TEST(ContactScene, AsperitiesByFrictionOrRoughness) {
   EXPECT_EQ(one.friction, 0.3);
   EXPECT_EQ(one.size, 1e-6);
   EXPECT_EQ(one.form, AsperityForce::Form::passive);
-  EXPECT_EQ(std::get<double>(hard.friction), 0.15);
+  EXPECT_EQ(hard.friction, 0.15);
   EXPECT_EQ(hard.tangential_restitution, 0);
   // μ = α √ζ0 with ζ0 = 2e-4 · 0.05 m and α = 1 cm^−1/2: √(1e-3).
   const auto [two, unused] =
@@ -266,7 +266,7 @@ TEST(ContactScene, HardViscoelasticRestitutionIsB24) {
                     .restitution,
                 1e-6);
   }
-  EXPECT_EQ(std::get<double>(scene.hard.between(0, 1).friction), 0.1);
+  EXPECT_EQ(scene.hard.between(0, 1).friction, 0.1);
 }
 
 TEST(ContactScene, HardViscoelasticNeedsDissipationTimes) {

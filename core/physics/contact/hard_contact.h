@@ -49,6 +49,12 @@ struct FrictionLaw : std::variant<double, TabulatedFriction, ExponentialFriction
   FrictionLaw(ExponentialFriction law) : variant(law) {}               // NOLINT
 };
 
+/// Whether it is this number.
+inline bool operator==(const FrictionLaw& law, double mu) {
+  const double* number = std::get_if<double>(&law);
+  return number && *number == mu;
+}
+
 /// μ at the speed of slip v [m/s], >= 0.
 inline double friction_at(const FrictionLaw& law, double v) {
   if (const double* mu = std::get_if<double>(&law)) return *mu;
