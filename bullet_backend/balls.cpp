@@ -6,13 +6,38 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "bullet_backend/convert.h"
+#include "physics/solid.h"
 
 namespace slipcheck::bullet {
 namespace {
 
-btVector3 inertia_of(const Sphere& sphere) {
+const Extent* extent_of(const Scene& scene, std::size_t body) {
+  return scene.extents.empty() || !scene.extents[body] ? nullptr : &*scene.extents[body];
+}
+
+std::unique_ptr<btConvexShape> make_shape(const Scene& scene, std::size_t body) {
+  const Extent* extent = extent_of(scene, body);
+  if (!extent) return std::make_unique<btSphereShape>(btScalar(scene.bodies[body].radius));
+  const btVector3 half = to_bullet(extent->size / 2);
+  if (scene.bodies[body].shape == Shape::block) return std::make_unique<btBoxShape>(half);
+  return std::make_unique<btCylinderShapeX>(half);
+}
+
+/// About the body's own axes; of a sphere whatever mass distribution the scene gives it.
+btVector3 inertia_of(const Scene& scene, std::size_t body) {
+  const Sphere& sphere = scene.bodies[body];
+  if (const Extent* extent = extent_of(scene, body))
+    return to_bullet(moments_of_inertia(sphere, *extent));
   const auto inertia = static_cast<btScalar>(sphere.moment_of_inertia());
   return btVector3(inertia, inertia, inertia);
+}
+
+/// From the body's own axes to the world's.
+btQuaternion orientation_of(const Scene& scene, std::size_t body, const Eigen::Matrix3d& turn) {
+  const Extent* extent = extent_of(scene, body);
+  if (!extent) return btQuaternion::getIdentity();
+  const Eigen::Quaterniond q(Eigen::Matrix3d(turn * turn_of(*extent).toRotationMatrix()));
+  return {btScalar(q.x()), btScalar(q.y()), btScalar(q.z()), btScalar(q.w())};
 }
 
 /// What rigid bodies and multibodies have in common.
@@ -31,14 +56,15 @@ void set_up(btCollisionObject& object, int index, const BulletSettings& settings
 class RigidBalls final : public Balls {
  public:
   RigidBalls(btDiscreteDynamicsWorld& world, const Scene& scene, std::span<const BodyState> states,
-             const BulletSettings& settings)
+             const Eigen::Matrix3d& turn, const BulletSettings& settings)
       : world_(world) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       const Sphere& sphere = scene.bodies[i];
       const auto radius = static_cast<btScalar>(sphere.radius);
-      shapes_.push_back(std::make_unique<btSphereShape>(radius));
+      shapes_.push_back(make_shape(scene, i));
       btRigidBody::btRigidBodyConstructionInfo info(btScalar(sphere.mass), nullptr,
-                                                    shapes_.back().get(), inertia_of(sphere));
+                                                    shapes_.back().get(), inertia_of(scene, i));
+      info.m_startWorldTransform.setRotation(orientation_of(scene, i, turn));
       info.m_startWorldTransform.setOrigin(to_bullet(states[i].position));
       info.m_linearDamping = btScalar(settings.linear_damping);
       info.m_angularDamping = btScalar(settings.angular_damping);
@@ -71,20 +97,21 @@ class RigidBalls final : public Balls {
 
  private:
   btDiscreteDynamicsWorld& world_;
-  std::vector<std::unique_ptr<btSphereShape>> shapes_;
+  std::vector<std::unique_ptr<btConvexShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> balls_;
 };
 
 class MultibodyBalls final : public Balls {
  public:
   MultibodyBalls(btMultiBodyDynamicsWorld& world, const Scene& scene,
-                 std::span<const BodyState> states, const BulletSettings& settings)
+                 std::span<const BodyState> states, const Eigen::Matrix3d& turn,
+                 const BulletSettings& settings)
       : world_(world) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       const Sphere& sphere = scene.bodies[i];
       const bool fixed_base = false;
-      shapes_.push_back(std::make_unique<btSphereShape>(btScalar(sphere.radius)));
-      balls_.push_back(std::make_unique<btMultiBody>(0, btScalar(sphere.mass), inertia_of(sphere),
+      shapes_.push_back(make_shape(scene, i));
+      balls_.push_back(std::make_unique<btMultiBody>(0, btScalar(sphere.mass), inertia_of(scene, i),
                                                      fixed_base, settings.sleeping));
       btMultiBody& ball = *balls_.back();
       ball.setLinearDamping(btScalar(settings.multibody_linear_damping));
@@ -93,7 +120,9 @@ class MultibodyBalls final : public Balls {
       ball.setSleepThreshold(btScalar(settings.multibody_sleeping_threshold));
       ball.setSleepTimeout(btScalar(settings.sleeping_time));
       ball.finalizeMultiDof();
+      const btQuaternion orientation = orientation_of(scene, i, turn);
       ball.setBasePos(to_bullet(states[i].position));
+      ball.setWorldToBaseRot(orientation.inverse());
       ball.setBaseVel(to_bullet(states[i].velocity));
       ball.setBaseOmega(to_bullet(states[i].angular_velocity));
       colliders_.push_back(std::make_unique<btMultiBodyLinkCollider>(&ball, -1));
@@ -102,6 +131,7 @@ class MultibodyBalls final : public Balls {
       collider.setCollisionShape(shapes_.back().get());
       btTransform place = btTransform::getIdentity();
       place.setOrigin(to_bullet(states[i].position));
+      place.setRotation(orientation);
       collider.setWorldTransform(place);
       set_up(collider, static_cast<int>(i), settings);
       ball.setBaseCollider(&collider);
@@ -125,7 +155,7 @@ class MultibodyBalls final : public Balls {
 
  private:
   btMultiBodyDynamicsWorld& world_;
-  std::vector<std::unique_ptr<btSphereShape>> shapes_;
+  std::vector<std::unique_ptr<btConvexShape>> shapes_;
   std::vector<std::unique_ptr<btMultiBody>> balls_;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
 };
@@ -133,12 +163,12 @@ class MultibodyBalls final : public Balls {
 }  // namespace
 
 std::unique_ptr<Balls> make_balls(btDiscreteDynamicsWorld& world, const Scene& scene,
-                                  std::span<const BodyState> states,
+                                  std::span<const BodyState> states, const Eigen::Matrix3d& turn,
                                   const BulletSettings& settings) {
   if (settings.body == BodyKind::rigid)
-    return std::make_unique<RigidBalls>(world, scene, states, settings);
+    return std::make_unique<RigidBalls>(world, scene, states, turn, settings);
   return std::make_unique<MultibodyBalls>(static_cast<btMultiBodyDynamicsWorld&>(world), scene,
-                                          states, settings);
+                                          states, turn, settings);
 }
 
 BodyState motion_of(const btCollisionObject& object) {

@@ -13,9 +13,9 @@ class btDiscreteDynamicsWorld;
 
 namespace slipcheck::bullet {
 
-/// The spheres of a world, as rigid bodies or as multibodies without links. Everything is in the
-/// world's units and axes. A ball's user index is its index in the scene. In a box rigid balls are
-/// held in the plane y = 0; multibodies stay there by symmetry.
+/// The spheres of a world, or its one block or cylinder, as rigid bodies or as multibodies without
+/// links. Everything is in the world's units and axes. A ball's user index is its index in the
+/// scene. In a box rigid balls are held in the plane y = 0; multibodies stay there by symmetry.
 class Balls {
  public:
   virtual ~Balls() = default;
@@ -30,9 +30,9 @@ class Balls {
 };
 
 /// Adds the scene's balls in these states to `world`, of the kind that the settings ask for, which
-/// must outlive them.
+/// must outlive them. `turn`: from the scene's axes to the world's, for what is no sphere.
 std::unique_ptr<Balls> make_balls(btDiscreteDynamicsWorld& world, const Scene& scene,
-                                  std::span<const BodyState> states,
+                                  std::span<const BodyState> states, const Eigen::Matrix3d& turn,
                                   const BulletSettings& settings);
 
 /// Velocity and angular velocity of anything in a world; the position is left at zero.

@@ -8,6 +8,7 @@
 #include "bullet_backend/bullet_world.h"
 #include "bullet_backend/not_represented.h"
 #include "bullet_backend/world_units.h"
+#include "engine/scene_needs.h"
 
 namespace slipcheck::bullet {
 namespace {
@@ -25,7 +26,11 @@ void refuse_beyond_reach(const Scene& scene, const BulletSettings& settings, dou
 class BulletEngine final : public Engine {
  public:
   EngineInfo info() const override {
-    return {"bullet", bullet_version(), bullet_precision(), setting_table()};
+    return {"bullet",
+            bullet_version(),
+            bullet_precision(),
+            setting_table(),
+            {scene_part::kFrictionLaw, scene_part::kBlock, scene_part::kCylinder}};
   }
 
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {

@@ -70,7 +70,7 @@ struct BulletWorld::Parts {
         coefficients(scene, settings, time_step),
         dynamics(settings, margin_scale(scene), leaves),
         surfaces(dynamics.world(), scene, units, settings),
-        balls(make_balls(dynamics.world(), scene, to_world(states, units), settings)) {
+        balls(make_balls(dynamics.world(), scene, to_world(states, units), units.turn, settings)) {
     dynamics.world().setGravity(
         to_bullet(units.turn * Vector3(scene.downhill.x(), scene.downhill.y(), -scene.gravity)));
     if (settings.splits_at_contacts > 0)

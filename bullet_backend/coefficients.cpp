@@ -33,7 +33,7 @@ void PairCoefficients::set_time_step(double time_step) {
   fixed_.clear();
   if (scene_.box || depends_on_motion()) return;
   for (int body = 0; body < static_cast<int>(scene_.bodies.size()); ++body)
-    fixed_.push_back({friction(body, kFloor, true), restitution(body, kFloor, 0),
+    fixed_.push_back({friction(body, kFloor, true, 0), restitution(body, kFloor, 0),
                       rolling_friction(body, kFloor, 0, true), spinning_friction(body, kFloor)});
 }
 
@@ -57,7 +57,7 @@ double PairCoefficients::gravity_onto(int other) const {
   return other == kLid ? -scene_.gravity : 0;
 }
 
-double PairCoefficients::friction(int body, int other, bool slips) const {
+double PairCoefficients::friction(int body, int other, bool slips, double slip_speed) const {
   double mu = 0;
   if (is_substrate(other)) {
     const SubstrateContact& ground = scene_.on_substrate(index(body));
@@ -66,9 +66,14 @@ double PairCoefficients::friction(int body, int other, bool slips) const {
   } else {
     const PairContact& pair = pair_contact(body, other);
     // β0 = −1, u_t' = u_t: no tangential impulse whatever μ is.
-    mu = pair.tangential_restitution == -1 ? 0 : pair.friction;
+    mu = pair.tangential_restitution == -1 ? 0 : friction_at(pair.friction, slip_speed);
   }
   return settings_.friction_factor * mu;
+}
+
+bool PairCoefficients::has_friction_law(int body, int other) const {
+  return !is_substrate(other) &&
+         !std::holds_alternative<double>(pair_contact(body, other).friction);
 }
 
 double PairCoefficients::restitution(int body, int other, double approach_speed) const {
@@ -121,7 +126,8 @@ double one_restitution(const RestitutionLaw& law, const Vector3& start) {
 }
 
 BodyFields pair_fields(const PairContact& contact, const Vector3& start) {
-  return {contact.friction, one_restitution(contact.restitution, start), 0, 0};
+  return {friction_at(contact.friction, start.norm()), one_restitution(contact.restitution, start),
+          0, 0};
 }
 
 }  // namespace

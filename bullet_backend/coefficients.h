@@ -44,9 +44,11 @@ class PairCoefficients {
   void set_ground_velocity(const Vector3& velocity) { ground_velocity_ = velocity; }
   const Vector3& ground_velocity() const { return ground_velocity_; }
 
-  /// Between a body and another, or kFloor, kWall, kLid [-]. A contact that does not slip has its
-  /// static friction where the settings tell the two apart.
-  double friction(int body, int other, bool slips) const;
+  /// Between a body and another, or kFloor, kWall, kLid [-], where their surfaces slip at a speed.
+  /// A contact that does not slip has its static friction where the settings tell the two apart.
+  double friction(int body, int other, bool slips, double slip_speed = 0) const;
+  /// Whether it depends on how fast the surfaces slip.
+  bool has_friction_law(int body, int other) const;
 
   /// At the normal approach speed, >= 0 [-]. A multibody has this step's gravity when Bullet looks
   /// at its velocity: on a floor it would part with e (v + g dt), hence e v/(v + g dt).
@@ -70,6 +72,8 @@ class PairCoefficients {
   /// Whether a contact with the substrate slips at this speed: faster than friction can stop in
   /// the step, in which u falls by (1 + 1/q) μ_k g dt.
   bool slips(int body, double slip_speed) const;
+
+  const Sphere& body(int index) const { return scene_.bodies[static_cast<std::size_t>(index)]; }
 
   /// m g dt > 1: there min(λ_n, 1) would cut the two torques, and they are raised by m g dt.
   /// Right for a body at rest on the plane, wrong by the ratio of its load to its weight otherwise.

@@ -48,12 +48,25 @@ struct OverPlane {
 
 OverPlane over_plane(const Pair& pair) {
   const Vector3 n = normal_of(pair);
-  const auto* sphere = static_cast<const btSphereShape*>(pair.ball->getCollisionShape());
+  const Sphere& body = pair.coefficients.body(pair.body());
   const BodyState ball = motion_of(*pair.ball);
   Vector3 v = ball.velocity - pair.coefficients.ground_velocity();
   v -= v.dot(n) * n;
-  const Vector3 u = v - double(sphere->getRadius()) * ball.angular_velocity.cross(n);
+  const double lever = body.shape == Shape::block ? 0 : body.radius;
+  const Vector3 u = v - lever * ball.angular_velocity.cross(n);
   return {v.norm(), u.norm()};
+}
+
+/// Of the two surfaces on each other.
+double slip_speed_of(const Pair& pair) {
+  if (pair.other_index() < 0) return over_plane(pair).slip_speed;
+  const Vector3 n = normal_of(pair);
+  const BodyState a = motion_of(*pair.ball), b = motion_of(*pair.other);
+  const double r_a = pair.coefficients.body(pair.body()).radius;
+  const double r_b = pair.coefficients.body(pair.other_index()).radius;
+  const Vector3 u =
+      a.velocity - b.velocity - (r_a * a.angular_velocity + r_b * b.angular_velocity).cross(n);
+  return (u - u.dot(n) * n).norm();
 }
 
 bool slips(const Pair& pair) {
@@ -64,7 +77,9 @@ bool slips(const Pair& pair) {
 btScalar friction(const btCollisionObject* first, const btCollisionObject* second) {
   const Pair pair = identify(first, second);
   if (const BodyFields* fixed = pair.fixed()) return btScalar(fixed->friction);
-  return btScalar(pair.coefficients.friction(pair.body(), pair.other_index(), slips(pair)));
+  const bool law = pair.coefficients.has_friction_law(pair.body(), pair.other_index());
+  return btScalar(pair.coefficients.friction(pair.body(), pair.other_index(), slips(pair),
+                                             law ? slip_speed_of(pair) : 0));
 }
 
 btScalar restitution(const btCollisionObject* first, const btCollisionObject* second) {

@@ -1,5 +1,6 @@
 #include "bullet_backend/dynamics_world.h"
 
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletDynamics/ConstraintSolver/btNNCGConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -48,6 +49,21 @@ class World final : public Base {
 
   void computeOverlappingPairs() override {
     if (is_broad_) Base::computeOverlappingPairs();
+  }
+
+  /// Bullet asks for the friction of points that are new in a step. A block keeps some of those of
+  /// steps before, when it may have slid while it sticks now.
+  void performDiscreteCollisionDetection() override {
+    Base::performDiscreteCollisionDetection();
+    const btCollisionObject* body = this->m_collisionObjects[this->m_collisionObjects.size() - 1];
+    if (body->getCollisionShape()->getShapeType() == SPHERE_SHAPE_PROXYTYPE) return;
+    btDispatcher& pairs = *this->getDispatcher();
+    for (int k = 0; k < pairs.getNumManifolds(); ++k) {
+      btPersistentManifold& manifold = *pairs.getManifoldByIndexInternal(k);
+      for (int point = 0; point < manifold.getNumContacts(); ++point)
+        manifold.getContactPoint(point).m_combinedFriction =
+            gCalculateCombinedFrictionCallback(manifold.getBody0(), manifold.getBody1());
+    }
   }
 
  protected:

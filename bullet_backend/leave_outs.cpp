@@ -28,7 +28,7 @@ bool has_drilling_friction(const Scene& scene) {
 
 bool has_pair_friction(const Scene& scene) {
   return scene.bodies.size() > 1 && std::ranges::any_of(scene.pairs, [](const PairContact& pair) {
-           return pair.friction > 0 && pair.tangential_restitution != -1;
+           return has_friction(pair.friction) && pair.tangential_restitution != -1;
          });
 }
 
@@ -56,11 +56,15 @@ LeaveOuts find_leave_outs(const Scene& scene, std::span<const BodyState> states,
   LeaveOuts leaves;
   if (!settings.leaves_out) return leaves;
   const bool rigid = settings.body == BodyKind::rigid;
-  leaves.broadphase = scene.bodies.size() == 1;
-  leaves.predictions = !rigid || (settings.linear_damping == 0 && settings.angular_damping == 0);
+  // What follows is of spheres, which look alike from all sides.
+  const bool round = scene.extents.empty();
+  leaves.broadphase = round && scene.bodies.size() == 1;
+  leaves.predictions =
+      round && (!rigid || (settings.linear_damping == 0 && settings.angular_damping == 0));
   leaves.sweeps = !rigid || !settings.ccd || settings.ccd_motion_threshold == 0;
   leaves.most_pairs = most_pairs(scene);
-  if (may_lose_a_friction_direction(scene, settings)) leaves.line = line_of_motion(scene, states);
+  if (round && may_lose_a_friction_direction(scene, settings))
+    leaves.line = line_of_motion(scene, states);
   return leaves;
 }
 

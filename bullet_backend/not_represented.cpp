@@ -72,6 +72,7 @@ std::vector<Lack> not_represented(const Scene& scene, const BulletSettings& sett
          "an approach of … radii in a step: the profile is meant for up to …"});
   missing.note(needs.rolling_table && fields, lack::kRollingTable);
   missing.note(needs.bounce_law && fields, lack::kRestitutionLaw);
+  missing.note(needs.friction_law && fields, lack::kFrictionLaw);
   if (cut_torque && fields)
     missing.add({"rolling and drilling torque of normal impulses above 1 N s",
                  "rolling and drilling torque of normal impulses above … N s"});

@@ -71,6 +71,8 @@ Scene in_world_units(const Scene& scene, const WorldUnits& units) {
     body.radius *= units.length;
     body.mass *= units.mass;
   }
+  for (std::optional<Extent>& extent : scaled_scene.extents)
+    if (extent) extent->size *= units.length;
   for (BodyState& state : scaled_scene.initial) {
     state.position *= units.length;
     state.velocity *= speed;
@@ -82,7 +84,10 @@ Scene in_world_units(const Scene& scene, const WorldUnits& units) {
     ground.coupled_radius *= units.length;
   }
   const auto scale_pairs = [&](std::vector<PairContact>& contacts) {
-    for (PairContact& contact : contacts) contact.restitution = scaled(contact.restitution, speed);
+    for (PairContact& contact : contacts) {
+      contact.restitution = scaled(contact.restitution, speed);
+      contact.friction = with_speeds_times(contact.friction, speed);
+    }
   };
   scale_pairs(scaled_scene.pairs);
   const double acceleration = speed / units.time;

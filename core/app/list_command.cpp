@@ -15,6 +15,7 @@
 #include "scenario/fault.h"
 #include "scenario/load.h"
 #include "scenario/observable_names.h"
+#include "scenario/preset_data.h"
 #include "scenario/schema.h"
 
 namespace slipcheck {
@@ -93,6 +94,22 @@ void collect_models(const nlohmann::json& node, const std::string& key, Json& li
   }
 }
 
+/// A row for each value of each preset.
+Json list_presets() {
+  Json list = Json::array();
+  for (const Preset& preset : presets())
+    for (const auto& [part, node] : preset.parts)
+      for (const PresetValue& value : preset_values(*node))
+        list.push_back(
+            Json{{"name", preset.name},
+                 {"of", name_of(part)},
+                 {"key", value.key},
+                 {"value", value.value},
+                 {"about", preset.about},
+                 {"source", preset.source_of(std::string(name_of(part)) + '.' + value.key)}});
+  return list;
+}
+
 Json list_models() {
   Json list = Json::array();
   collect_models(scenario_schema(), "", list);
@@ -103,14 +120,17 @@ Json list_models() {
 
 void add_list_command(CLI::App& app, int& exit_code) {
   static const std::map<std::string, Json (*)()> lists = {
-      {"engines", list_engines},   {"models", list_models},       {"observables", list_observables},
-      {"profiles", list_profiles}, {"scenarios", list_scenarios}, {"settings", list_settings}};
+      {"engines", list_engines},  {"models", list_models},     {"observables", list_observables},
+      {"presets", list_presets},  {"profiles", list_profiles}, {"scenarios", list_scenarios},
+      {"settings", list_settings}};
   CLI::App* command = app.add_subcommand(
-      "list", "List the engines, their profiles and settings, scenarios, observables or models");
+      "list",
+      "List the engines, their profiles and settings, scenarios, observables, models or presets");
   auto what = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
   command
-      ->add_option("WHAT", *what, "engines, profiles, settings, scenarios, observables or models")
+      ->add_option("WHAT", *what,
+                   "engines, profiles, settings, scenarios, observables, models or presets")
       ->required()
       ->check(CLI::IsMember(lists));
   command->add_flag("--json", *as_json, "As JSON");

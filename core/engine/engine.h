@@ -61,6 +61,9 @@ struct EngineInfo {
   std::string version;                ///< "3.24"
   std::string precision;              ///< "single" or "double"
   std::vector<SettingInfo> settings;  ///< in an order that puts what belongs together side by side
+  /// What it takes beside spheres and contacts whose friction is a number: words of `scene_part`
+  /// (scene_needs.h).
+  std::vector<std::string> takes = {};
 };
 
 /// The engine cannot run this scene with these settings; the message is the reason.

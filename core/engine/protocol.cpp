@@ -214,6 +214,7 @@ void describe(Fields& f, Welcome& reply) {
     reply.info.settings = setting_infos_from_json(f["settings"]);
   else
     f("settings", setting_infos_to_json(reply.info.settings));
+  f.if_any("takes", reply.info.takes);
 }
 
 template <class Fields>

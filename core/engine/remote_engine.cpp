@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/scene_json.h"
+#include "engine/scene_needs.h"
 
 namespace slipcheck {
 
@@ -59,9 +60,22 @@ Expected RemoteEngine::ask(const protocol::Request& request) {
 Applied RemoteEngine::configure(const EngineScene& scene, const Settings& settings,
                                 double time_step) {
   deadline_ = Clock::time_point::max();
-  auto reply = ask<protocol::Configured>(protocol::Configure{scene, settings, time_step});
+  for (const std::string& shape : shapes_of(scene))
+    if (!takes(shape))
+      throw Refused(fmt::format("{}: it takes spheres alone here, and the scene has a {}",
+                                info_.engine, shape));
+  const bool simpler = needs_of(scene, time_step).friction_law && !takes(scene_part::kFrictionLaw);
+  EngineScene given = scene;
+  if (simpler) static_cast<Scene&>(given) = with_friction_numbers(std::move(given));
+  auto reply =
+      ask<protocol::Configured>(protocol::Configure{std::move(given), settings, time_step});
   bodies_ = scene.bodies.size();
+  if (simpler) reply.applied.not_represented.push_back({lack::kFrictionLaw, lack::kFrictionLaw});
   return std::move(reply.applied);
+}
+
+bool RemoteEngine::takes(const std::string& word) const {
+  return std::ranges::find(info_.takes, word) != info_.takes.end();
 }
 
 void RemoteEngine::start(std::span<const BodyState> states, double time) {

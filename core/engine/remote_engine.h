@@ -50,6 +50,7 @@ class RemoteEngine {
   pid_t pid() const { return process_.pid(); }
 
  private:
+  bool takes(const std::string& word) const;
   template <class Expected>
   Expected ask(const protocol::Request& request);
 

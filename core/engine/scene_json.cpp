@@ -72,6 +72,8 @@ std::vector<BodyState> unpack_states(const JsonNode& node) {
 // --- fields --------------------------------------------------------------------------------------
 
 template <>
+inline constexpr std::array kNamesOf<Shape> = {"sphere", "block", "cylinder"};
+template <>
 inline constexpr std::array kNamesOf<SubstrateMotion::Kind> = {"still", "constant", "oscillation",
                                                                "table"};
 
@@ -84,23 +86,12 @@ void describe_vector(Fields& f, const char* key, Vector2& vector) {
   if constexpr (Fields::kReads) vector = {xy.first, xy.second};
 }
 
-/// Spheres and their materials go over body by body.
-struct MaterialSphere {
+/// Bodies and their materials go over one by one.
+struct MaterialBody {
   Sphere sphere;
   std::size_t material = 0;
+  std::optional<Extent> extent;
 };
-
-std::vector<RollingFriction::Point> rolling_points(const JsonNode& node) {
-  std::vector<RollingFriction::Point> points;
-  for (const JsonNode& row : node.items()) {
-    const std::vector<JsonNode> point = row.items(2);
-    points.push_back({point[0].number(0), point[1].number(0)});
-    if (points.size() > 1 && points.back().speed <= points[points.size() - 2].speed)
-      point[0].fault("must be above the one before");
-  }
-  if (points.empty()) node.fault("must have a point");
-  return points;
-}
 
 std::vector<SubstrateMotion::Point> motion_points(const JsonNode& node) {
   std::vector<SubstrateMotion::Point> points;
@@ -121,12 +112,9 @@ void describe(Fields& f, SubstrateContact& contact) {
   f("kinetic_friction", contact.kinetic_friction, kNotBelowZero);
   f("static_friction", contact.static_friction, NumberRange{contact.kinetic_friction});
   if constexpr (Fields::kReads) {
-    contact.rolling = RollingFriction(rolling_points(f["rolling"]));
+    contact.rolling = RollingFriction(friction_points(f["rolling"]));
   } else {
-    std::vector<std::pair<double, double>> points;
-    for (const auto& [speed, coefficient] : contact.rolling.points())
-      points.emplace_back(speed, coefficient);
-    f("rolling", points);
+    f("rolling", rows_of(contact.rolling));
   }
   f("drilling_length", contact.drilling_length, kNotBelowZero);
   f("coupled_radius", contact.coupled_radius, kNotBelowZero);
@@ -136,11 +124,25 @@ void describe(Fields& f, SubstrateContact& contact) {
 }
 
 template <class Fields>
-void describe(Fields& f, MaterialSphere& body) {
+void describe(Fields& f, MaterialBody& body) {
   f("radius", body.sphere.radius, kAboveZero);
   f("mass", body.sphere.mass, kAboveZero);
   f("shape_factor", body.sphere.shape_factor, kAboveZero);
   f("material", body.material);
+  f.unless("shape", body.sphere.shape, Shape::sphere);
+  const bool is_solid = body.sphere.shape != Shape::sphere;
+  if (is_solid) {
+    Extent extent = body.extent.value_or(Extent{});
+    std::vector<double> size(extent.size.begin(), extent.size.end());
+    f("size", size);
+    describe_vector(f, "axis", extent.axis);
+    if constexpr (Fields::kReads) {
+      if (size.size() != 3 || !(*std::ranges::min_element(size) > 0))
+        f["size"].fault("must hold three lengths > 0");
+      extent.size = {size[0], size[1], size[2]};
+      body.extent = extent;
+    }
+  }
 }
 
 template <class Fields>
@@ -190,9 +192,10 @@ void describe(Fields& f, Box& box) {
 
 template <class Fields>
 void describe(Fields& f, Scene& scene) {
-  std::vector<MaterialSphere> bodies;
+  std::vector<MaterialBody> bodies;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    bodies.push_back({scene.bodies[i], scene.material[i]});
+    bodies.push_back({scene.bodies[i], scene.material[i],
+                      scene.extents.empty() ? std::nullopt : scene.extents[i]});
   f("bodies", bodies);
   f("substrate", scene.substrate);
   f("pairs", scene.pairs);
@@ -203,9 +206,12 @@ void describe(Fields& f, Scene& scene) {
   describe_vector(f, "periodic", scene.periodic);
   f("box", scene.box);
   if constexpr (Fields::kReads) {
-    for (const MaterialSphere& body : bodies) {
+    for (const MaterialBody& body : bodies) {
       scene.bodies.push_back(body.sphere);
       scene.material.push_back(body.material);
+      if (!body.extent) continue;
+      scene.extents.resize(bodies.size());
+      scene.extents[scene.bodies.size() - 1] = body.extent;
     }
     scene.initial = protocol::unpack_states(f["initial"]);
   } else {

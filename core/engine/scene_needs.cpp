@@ -19,11 +19,13 @@ bool bounces(const PairContact& pair) {
 /// Slip is neither kept (β0 = −1) nor just stopped (β0 = 0): an engine's friction can only stop it.
 bool reverses_slip(const PairContact& pair) {
   const double beta0 = pair.tangential_restitution;
-  return pair.friction > 0 && beta0 != 0 && beta0 != -1;
+  return has_friction(pair.friction) && beta0 != 0 && beta0 != -1;
 }
 
 void add_pair(SceneNeeds& needs, const PairContact& pair) {
-  needs.friction |= pair.friction > 0;
+  needs.friction |= has_friction(pair.friction);
+  needs.friction_law |=
+      pair.tangential_restitution != -1 && !std::holds_alternative<double>(pair.friction);
   needs.bounce |= bounces(pair);
   needs.bounce_law |= depends_on_speed(pair);
   needs.reversed_slip |= reverses_slip(pair);
@@ -97,6 +99,52 @@ std::vector<std::pair<std::size_t, std::size_t>> material_pairs(const Scene& sce
     }
   }
   return pairs;
+}
+
+double slip_at_meeting(const Scene& scene, std::size_t i, std::size_t j) {
+  const BodyState &a = scene.initial[i], &b = scene.initial[j];
+  const Vector3 apart = scene.to_nearest_image(a.position - b.position);
+  const Vector3 v = a.velocity - b.velocity;
+  const double reach = scene.bodies[i].radius + scene.bodies[j].radius;
+  // |apart + v t| = reach.
+  const double rate = apart.dot(v), square = v.squaredNorm();
+  const double root = rate * rate - square * (apart.squaredNorm() - reach * reach);
+  if (!(rate < 0) || root < 0) return v.norm();
+  const Vector3 n = (apart + (-rate - std::sqrt(root)) / square * v) / reach;
+  const Vector3 u = v - (scene.bodies[i].radius * a.angular_velocity +
+                         scene.bodies[j].radius * b.angular_velocity)
+                            .cross(n);
+  return (u - n.dot(u) * n).norm();
+}
+
+Scene with_friction_numbers(Scene scene) {
+  const std::size_t materials = scene.substrate.size();
+  for (const auto& [i, j] : material_pairs(scene)) {
+    const double mu = friction_at(scene.between(i, j).friction, slip_at_meeting(scene, i, j));
+    const std::size_t a = scene.material[i], b = scene.material[j];
+    scene.pairs[a * materials + b].friction = scene.pairs[b * materials + a].friction = mu;
+  }
+  for (PairContact& pair : scene.pairs)  // of materials that never meet
+    if (!std::holds_alternative<double>(pair.friction)) pair.friction = 0;
+  if (!scene.box) return scene;
+  Box& box = *scene.box;
+  for (auto* contacts : {&box.on_floor, &box.on_wall, &box.on_lid})
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      FrictionLaw& friction = (*contacts)[scene.material[i]].friction;
+      friction = friction_at(friction, scene.initial[i].velocity.norm());
+    }
+  return scene;
+}
+
+std::vector<std::string> shapes_of(const Scene& scene) {
+  std::vector<std::string> shapes;
+  const auto add = [&](Shape shape, const char* word) {
+    if (std::ranges::find(scene.bodies, shape, &Sphere::shape) != scene.bodies.end())
+      shapes.emplace_back(word);
+  };
+  add(Shape::block, scene_part::kBlock);
+  add(Shape::cylinder, scene_part::kCylinder);
+  return shapes;
 }
 
 void LackList::note(bool condition, const char* kind, const char* why) {

@@ -15,6 +15,7 @@ namespace slipcheck {
 struct SceneNeeds {
   bool friction = false;
   bool static_friction = false;  ///< other than kinetic
+  bool friction_law = false;     ///< between bodies, depends on the speed of slip
   bool drilling = false, coupled_drilling = false;
   bool rolling = false;
   bool rolling_table = false;  ///< depends on the speed
@@ -33,6 +34,23 @@ SceneNeeds needs_of(const Scene& scene, double time_step);
 /// for all contacts between balls.
 std::vector<std::pair<std::size_t, std::size_t>> material_pairs(const Scene& scene);
 
+/// How fast the surfaces of two bodies slip on each other where they meet if both go straight on
+/// from the start, with the spins that they have there; their relative speed where they do not
+/// meet. Where an engine takes one number in place of a law, it is that at this speed [m/s].
+double slip_at_meeting(const Scene& scene, std::size_t i, std::size_t j);
+/// The scene with numbers in place of laws of friction between bodies, at slip_at_meeting() of the
+/// first two bodies of each two materials, and on the surfaces of a box at the speed at the start.
+Scene with_friction_numbers(Scene scene);
+/// The shapes of its bodies that are no spheres, in words of `scene_part`.
+std::vector<std::string> shapes_of(const Scene& scene);
+
+/// Parts of a scene that not every engine takes; none that does not say so is given one.
+namespace scene_part {
+inline constexpr const char* kFrictionLaw = "friction_law";  ///< of pairs, over the speed of slip
+inline constexpr const char* kBlock = "block";
+inline constexpr const char* kCylinder = "cylinder";
+}  // namespace scene_part
+
 /// What of a scene an engine cannot express, in words that are the same for all engines, so that
 /// what they lack can be counted.
 namespace lack {
@@ -48,6 +66,7 @@ inline constexpr const char* kRollingTable = "rolling friction that depends on t
 inline constexpr const char* kRestitution = "restitution";
 inline constexpr const char* kRestitutionLaw = "restitution that depends on the impact speed";
 inline constexpr const char* kTangentialRestitution = "tangential restitution";
+inline constexpr const char* kFrictionLaw = "friction between bodies that depends on the slip";
 inline constexpr const char* kConfinement = "confinement to the plane";
 inline constexpr const char* kFloorVelocity = "the floor's velocity at the contact";
 inline constexpr const char* kSubstrateVelocity = "the substrate's velocity at the end of a step";

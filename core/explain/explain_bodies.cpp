@@ -21,7 +21,7 @@ Cells cells_of(const Scene& scene, std::size_t i) {
               in_unit(s.moment_of_inertia(), "kg m²"),
               fmt::format("{:.4g}", s.inverse_shape_factor()), quantity(speed, kVelocity)};
   if (!scene.box) {
-    const double slip = (slip_velocity(state, s.radius) - scene.motion.velocity(0)).norm();
+    const double slip = (slip_velocity(state, s) - scene.motion.velocity(0)).norm();
     cells.push_back(quantity(slip > kRounding * speed ? slip : 0, kVelocity));
   }
   return cells;

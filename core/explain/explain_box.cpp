@@ -49,15 +49,16 @@ void add_bed(ExplainSection& section, const Scene& scene) {
 std::optional<PairContact> common_rubbing(const ContactScene& scene) {
   if (scene.hard.bodies.size() < 2 || !scene.is_hard()) return std::nullopt;
   const PairContact& first = scene.hard.pairs.front();
+  const double* friction = std::get_if<double>(&first.friction);
   const auto rubs_alike = [&](const PairContact& pair) {
-    return pair.friction == first.friction &&
-           pair.tangential_restitution == first.tangential_restitution;
+    const double* mu = std::get_if<double>(&pair.friction);
+    return mu && *mu == *friction && pair.tangential_restitution == first.tangential_restitution;
   };
   const double A = scene.hard.bodies.front().inverse_shape_factor();
   const auto shaped_alike = [&](const Sphere& sphere) {
     return sphere.inverse_shape_factor() == A;
   };
-  if (!(first.friction > 0) || !(first.tangential_restitution > -1) ||
+  if (!friction || !(*friction > 0) || !(first.tangential_restitution > -1) ||
       !std::ranges::all_of(scene.hard.pairs, rubs_alike) ||
       !std::ranges::all_of(scene.hard.bodies, shaped_alike))
     return std::nullopt;
@@ -70,7 +71,8 @@ void add_energy_ratio(ExplainSection& section, const ContactScene& scene) {
   if (!rubbing) return;
   const double two_over_q = 2 * scene.hard.bodies.front().inverse_shape_factor();
   section.add("K/R",
-              pure((two_over_q + 1 / rubbing->friction) / (1 + rubbing->tangential_restitution)),
+              pure((two_over_q + 1 / std::get<double>(rubbing->friction)) /
+                   (1 + rubbing->tangential_restitution)),
               "estimate of L (15), which the paper itself finds low by 1.3 ± 0.2");
 }
 

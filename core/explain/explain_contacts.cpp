@@ -17,15 +17,19 @@ struct Partners {
   std::string names;  ///< "i and j"
   double mass = 0;    ///< effective [kg]
   double speed = 1;   ///< [m/s]
+  double slip = 0;    ///< of their surfaces as they meet [m/s]
   const PairContact* hard = nullptr;
   const std::optional<SoftContact>* soft = nullptr;
 };
 
 Partners bodies(const Scenario& scenario, const ContactScene& scene, std::size_t i, std::size_t j,
-                double speed) {
+                double speed, double slip) {
   return {scenario.bodies[i].name + " and " + scenario.bodies[j].name,
-          effective_mass(scene.hard.bodies[i], scene.hard.bodies[j]), speed,
-          &scene.hard.between(i, j), &scene.between(i, j)};
+          effective_mass(scene.hard.bodies[i], scene.hard.bodies[j]),
+          speed,
+          slip,
+          &scene.hard.between(i, j),
+          &scene.between(i, j)};
 }
 
 /// The first body that meets the floor, walls or lid by this contact.
@@ -40,10 +44,19 @@ std::optional<Partners> at_surface(const Scenario& scenario, const ContactScene&
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
     if (scenario.bodies[i].material != contact.first) continue;
     const std::size_t material = scene.hard.material[i];
-    return Partners{scenario.bodies[i].name, scene.hard.bodies[i].mass, speed, &hard_ones[material],
-                    &soft_ones[material]};
+    return Partners{scenario.bodies[i].name, scene.hard.bodies[i].mass, speed, 0,
+                    &hard_ones[material],    &soft_ones[material]};
   }
   return std::nullopt;
+}
+
+/// Of the first body's surface on the second's, across the line of centres [m/s].
+double slip_of(const Scene& scene, const Meeting& meeting) {
+  const double r_a = scene.bodies[meeting.first].radius, r_b = scene.bodies[meeting.second].radius;
+  const Vector3 u =
+      meeting.a.velocity - meeting.b.velocity +
+      (r_a * meeting.a.angular_velocity + r_b * meeting.b.angular_velocity).cross(meeting.n);
+  return (u - u.dot(meeting.n) * meeting.n).norm();
 }
 
 /// Those that meet first, if it is their contact; else the first two that can have it.
@@ -59,13 +72,14 @@ std::optional<Partners> partners(const Scenario& scenario, const ContactScene& s
   };
   const double speed = meeting ? meeting->closing_speed() : typical_speed;
   if (meeting && have_it(meeting->first, meeting->second))
-    return bodies(scenario, scene, meeting->first, meeting->second, speed);
+    return bodies(scenario, scene, meeting->first, meeting->second, speed,
+                  slip_of(scene.hard, *meeting));
   // The first of its kind with any other: with the first of the other kind, or the next of its own.
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
     const std::string& kind = scenario.bodies[i].material;
     if (kind != contact.first && kind != contact.second) continue;
     for (std::size_t j = i + 1; j < scenario.bodies.size(); ++j)
-      if (have_it(i, j)) return bodies(scenario, scene, i, j, speed);
+      if (have_it(i, j)) return bodies(scenario, scene, i, j, speed, 0);
     break;
   }
   return std::nullopt;
@@ -186,11 +200,13 @@ void add_sound(ExplainSection& section, const Scenario& scenario, const BodyCont
                     quantity(slowest, kVelocity)));
 }
 
-void add_hard(ExplainSection& section, const PairContact& contact, double speed) {
+void add_hard(ExplainSection& section, const PairContact& contact, double speed, double slip) {
   section.add("e_n", pure(restitution_at(contact.restitution, speed)),
               "restitution at " + quantity(speed, kVelocity));
-  if (contact.friction == 0) return;
-  section.add("μ", pure(contact.friction), "friction");
+  if (!has_friction(contact.friction)) return;
+  const bool is_number = std::holds_alternative<double>(contact.friction);
+  section.add("μ", pure(friction_at(contact.friction, slip)),
+              is_number ? "friction" : "friction at a slip of " + quantity(slip, kVelocity));
   section.add("β0", pure(contact.tangential_restitution), "tangential restitution where it sticks");
 }
 
@@ -227,7 +243,7 @@ ExplainSections explain_contacts(const Scenario& scenario, const ContactScene& s
     const std::optional<SoftContact>& soft = *found->soft;
     if (!soft) {
       section.title += "hard";
-      add_hard(section, *found->hard, speed);
+      add_hard(section, *found->hard, speed, found->slip);
       continue;
     }
     section.title +=

@@ -57,6 +57,32 @@ ExplainSections features(const ContactScene& scene) {
   return {needs, left_out};
 }
 
+/// What the cues give their balls.
+ExplainSections cues(const Scenario& scenario) {
+  ExplainSections sections;
+  const auto listed = [](const Vector3& v, const char* unit) {
+    return fmt::format("[{:.5g}, {:.5g}, {:.5g}] {}", v.x(), v.y(), v.z(), unit);
+  };
+  for (const Body& body : scenario.bodies) {
+    if (!body.stroke) continue;
+    ExplainSection& section = sections.emplace_back();
+    section.title = "Cue on " + body.name + ", without squirt";
+    section.add("J", in_unit(body.stroke->impulse, "N s"), "impulse along the cue");
+    section.add("v", listed(body.initial.velocity, "m/s"), "velocity of the ball");
+    section.add("Ω", listed(body.initial.angular_velocity, "rad/s"), "its spin");
+  }
+  return sections;
+}
+
+/// What came from presets, and where they have it from.
+ExplainSections from_presets(const Scenario& scenario) {
+  if (scenario.presets.empty()) return {};
+  ExplainSection section{.title = "From presets", .label_width = 40};
+  for (const UsedPreset& used : scenario.presets)
+    section.add(used.path, fmt::format("{} ({}: {})", used.value, used.preset, used.source));
+  return {section};
+}
+
 /// What tilt and motion do to a body that rolls, K (17), (22)-(25).
 ExplainSections substrate(const Scenario& scenario, const Scene& scene) {
   if (!scene.has_substrate) return {};
@@ -68,17 +94,19 @@ ExplainSections substrate(const Scenario& scenario, const Scene& scene) {
   const auto rolled = [&](const Vector3& a_G, double a_S) {
     return in_unit(rolling_acceleration(A, a_G, a_S * Vector3::UnitX()).norm(), "m/s²");
   };
-  if (downhill.norm() > 0)
+  const bool rolls = A > 0;  // no block
+  if (downhill.norm() > 0 && rolls)
     section.add("a_roll", rolled(downhill, 0),
                 fmt::format("down the slope while it rolls, of {:.5g} m/s²", downhill.norm()));
   if (shaking > 0) {
     section.add("a_S", in_unit(shaking, "m/s²"), "largest acceleration of the substrate");
-    section.add("a_roll", rolled(Vector3::Zero(), shaking), "of a body that rolls on it then");
+    if (rolls)
+      section.add("a_roll", rolled(Vector3::Zero(), shaking), "of a body that rolls on it then");
   }
   section.add(
       "|a_S − a_G|",
       in_unit(rolling_limit(A, scene.on_substrate(0).static_friction, scene.gravity), "m/s²"),
-      "up to here it rolls, beyond it slides");
+      rolls ? "up to here it rolls, beyond it slides" : "up to here it holds, beyond it slips");
   return {section};
 }
 
@@ -98,7 +126,7 @@ ExplainSection expectations(const Scenario& scenario, const ContactScene& scene,
 
   Scene hard = scene.hard;
   const bool rubs =
-      std::ranges::any_of(hard.pairs, [](const auto& pair) { return pair.friction > 0; });
+      std::ranges::any_of(hard.pairs, [](const auto& pair) { return has_friction(pair.friction); });
   if (!scene.is_hard())
     for (PairContact& pair : hard.pairs) pair.friction = 0;
   const auto values = has_exact_phases(hard) && !overlaps
@@ -152,7 +180,9 @@ Explanation explain_scene(const Scenario& scenario, const ContactScene& scene, b
   const ReferenceSolver solver(scene, reference_settings(scenario, general));
   Explanation all{solver_text(scene, solver), {loop_section(solver.loop())}};
   append(all.sections, features(solver.scene()));
+  append(all.sections, from_presets(scenario));
   append(all.sections, {explain_bodies(scenario, scene.hard)});
+  append(all.sections, cues(scenario));
   append(all.sections,
          scene.hard.box ? in_box(scenario, scene) : on_substrate(scenario, scene, solver));
   if (scene.warnings.empty()) return all;

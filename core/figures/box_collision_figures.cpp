@@ -60,7 +60,9 @@ double sticking_limit(const PairContact& contact) {
   for (int k = 0; k < 60; ++k) {
     const double middle = 0.5 * (low + high);
     const PlanarImpulse impulse = bead_impulse(contact, kBeadMass, -1, middle);
-    (std::abs(impulse.tangential) < contact.friction * impulse.normal ? low : high) = middle;
+    (std::abs(impulse.tangential) < std::get<double>(contact.friction) * impulse.normal ? low
+                                                                                        : high) =
+        middle;
   }
   return 0.5 * (low + high);
 }
@@ -89,7 +91,8 @@ std::vector<double> column_of(const std::vector<BeadCollision>& all, double Bead
 /// gives, |Ψ1 − Ψ2| (−u_n) over R(1 + q) against a wall; a pair shares it, half to each.
 double closed_psi_2(const PairContact& contact, double psi_1) {
   const double lost = (1 + 1 / kSolid) * (1 + std::get<double>(contact.restitution));
-  return std::max(-contact.tangential_restitution * psi_1, psi_1 - lost * contact.friction);
+  return std::max(-contact.tangential_restitution * psi_1,
+                  psi_1 - lost * std::get<double>(contact.friction));
 }
 double closed_spin(const PairContact& contact, double psi_1, double approach, bool pair) {
   const double slowed = (psi_1 - closed_psi_2(contact, psi_1)) * approach;
@@ -260,10 +263,10 @@ PaperFigure figure_l5() {
   const double papers[] = {0, 0.89, 1.33};
   const char* remarks[] = {"", "", "1.33 belongs to μ = 0.3; the text on Fig. 4 has 2.22 for 0.5."};
   for (std::size_t n = 0; n < sets.size(); ++n)
-    figure.statements.push_back(
-        stated_number(fmt::format("−tan γ0 with μ = {:g}", sets[n].contact.friction),
-                      fmt::format("{:g}", papers[n]), papers[n], 0.005,
-                      sticking_limit(sets[n].contact), 1e-12, remarks[n]));
+    figure.statements.push_back(stated_number(
+        fmt::format("−tan γ0 with μ = {:g}", std::get<double>(sets[n].contact.friction)),
+        fmt::format("{:g}", papers[n]), papers[n], 0.005, sticking_limit(sets[n].contact), 1e-12,
+        remarks[n]));
   figure.caption = fmt::format(
       "{} e = 0.9, β_0 = 0.5, three μ. The spin grows with b_0 while they stick and falls where "
       "they slide, Ψ_1 > {:.2f} for μ = 0.2 and {:.2f} for 0.5; the paper prints 1.33 for the "

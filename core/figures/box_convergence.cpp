@@ -40,7 +40,7 @@ ContactScene softened(const Scene& hard, double collision_time, double slowing) 
     made.normal = LinearForce{law.stiffness(), law.damping_rate() * reduced_mass};
     made.end = ContactEnd::zero_force;
     const double mobility = (1 + 1 / sphere.shape_factor) / reduced_mass;  // 1/(κ m_eff)
-    if (const double mu = hard.pairs.front().friction; mu > 0)
+    if (const double mu = std::get<double>(hard.pairs.front().friction); mu > 0)
       made.tangential = ViscousForce{slowing / (mobility * collision_time), mu};
     return made;
   };

@@ -92,8 +92,8 @@ PaperFigure figure_l2() {
     const PairContact& contact = shown.contact;
     Scene scene = scene_of(contact);
     const double q = scene.bodies[0].shape_factor;
-    const double lost =
-        (1 + 1 / q) * (1 + std::get<double>(contact.restitution)) * contact.friction;
+    const double lost = (1 + 1 / q) * (1 + std::get<double>(contact.restitution)) *
+                        std::get<double>(contact.friction);
     std::vector<double> performed, derived, restitution, derived_restitution;
     for (double psi : psi_1) {
       performed.push_back(psi_2(scene, psi, random));
@@ -102,7 +102,8 @@ PaperFigure figure_l2() {
       derived_restitution.push_back(-derived.back() / psi);
     }
     const std::string of =
-        fmt::format("mu = {:g}, beta0 = {:g}", contact.friction, contact.tangential_restitution);
+        fmt::format("mu = {:g}, beta0 = {:g}", std::get<double>(contact.friction),
+                    contact.tangential_restitution);
     const std::vector<double> residual = difference(performed, derived);
     for (double each : residual) most = std::max(most, std::abs(each));
     figure.table.add(fmt::format("Psi_2 event driven {} [-]", of), performed);

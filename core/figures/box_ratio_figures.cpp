@@ -53,7 +53,7 @@ struct SweptBoxes {
 };
 
 RoughGas gas_of(const VibratedBox& box) {
-  return {std::get<double>(box.pair.restitution), box.pair.friction,
+  return {std::get<double>(box.pair.restitution), std::get<double>(box.pair.friction),
           box.pair.tangential_restitution, box.shape_factor};
 }
 

@@ -31,7 +31,8 @@ BoxMeans run_box(const VibratedBox& box, double longer) {
   const double flight = 2 * box.speed / kGravity;
   // Spheres that mostly slide on each other turn in about 1/(2μ) collisions, and have some tens of
   // them in a second.
-  const double turning = box.pair.friction > 0 ? 0.05 / box.pair.friction : 0;
+  const double mu = std::get<double>(box.pair.friction);
+  const double turning = mu > 0 ? 0.05 / mu : 0;
   const double discard = std::ceil(box.frequency * std::max({2.5, 10 * flight, turning}));
   const double periods = discard + std::ceil(box.frequency * longer * std::max(15.0, 60 * flight));
 

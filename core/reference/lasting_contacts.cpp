@@ -61,7 +61,8 @@ std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, con
                                    double collision_time) {
   constexpr double kLeastRestitution = 1e-5, kLeastSlip = 1e-4;
   const double* e = std::get_if<double>(&hard.restitution);
-  if (!e || (hard.friction > 0 && hard.tangential_restitution > 0)) return std::nullopt;
+  const double* mu = std::get_if<double>(&hard.friction);
+  if (!e || !mu || (*mu > 0 && hard.tangential_restitution > 0)) return std::nullopt;
   const double mass = effective_mass(a, b);
   SoftContact made;
   made.end = ContactEnd::zero_force;
@@ -70,11 +71,11 @@ std::optional<SoftContact> lasting(const PairContact& hard, const Sphere& a, con
   const LinearContact linear =
       LinearContact::with_collision_time(mass, restitution, collision_time, made.end);
   made.normal = LinearForce{linear.stiffness(), linear.damping_rate() * mass};
-  if (hard.friction > 0) {
+  if (*mu > 0) {
     // Over a collision what is left of the slip falls to −β0 of itself.
     const double left = std::max(-hard.tangential_restitution, kLeastSlip);
-    made.tangential = ViscousForce{
-        -std::log(left) * tangential_mass_ratio(a, b) * mass / collision_time, hard.friction};
+    made.tangential =
+        ViscousForce{-std::log(left) * tangential_mass_ratio(a, b) * mass / collision_time, *mu};
   }
   return made;
 }

@@ -93,7 +93,8 @@ bool has_exact_phases(const Scene& scene) {
 }
 
 bool runs_in_phases(const Scene& scene) {
-  return EventSolver::can_solve(scene) && (EventSolver::is_exact(scene) || needs_cells(scene));
+  return EventSolver::can_solve(scene) &&
+         (EventSolver::is_exact(scene) || needs_cells(scene) || !scene.extents.empty());
 }
 
 // --- the choice ----------------------------------------------------------------------------------
@@ -149,6 +150,10 @@ void ReferenceSolver::choose_on_plane() {
       settings_.asked == Compare::Reference::steps ||
       (automatic && soft && (periodic || scene.hard.bodies.size() > kMostIntegrated));
   resolved_ = stepped || settings_.asked == Compare::Reference::contact || (automatic && soft);
+  if (resolved_ && !scene.hard.extents.empty())
+    throw Unsupported(
+        "only spheres have contacts that last; compare.reference may be event for a block or a "
+        "cylinder");
   if (!resolved_ && soft) {
     if (!initial_contacts(scene, scene.hard.initial).empty())
       throw Unsupported("bodies that overlap at the start can only be solved with soft contacts");

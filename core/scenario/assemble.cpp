@@ -11,9 +11,11 @@
 #include <utility>
 
 #include "scenario/contact_models.h"
+#include "scenario/cue_start.h"
 #include "scenario/fill/fill.h"
 #include "scenario/rules/overlap.h"
 #include "scenario/rules/rules.h"
+#include "scenario/rules/solid_check.h"
 #include "scenario/rules/spanning_rules.h"
 #include "scenario/surfaces.h"
 
@@ -25,9 +27,17 @@ constexpr double kRoundOff = 1e-12;
 /// Part of its radius that a body may be in a surface: positions beside tilted ones are typed.
 constexpr double kTouchingSurface = 1e-9;
 
+/// Homogeneous [kg].
+double mass_with(double density, const Sphere& body, const std::optional<Extent>& extent) {
+  const double r = body.radius;
+  if (!extent) return density * 4 / 3 * std::numbers::pi * r * r * r;
+  const double of_box = density * extent->size.prod();
+  return body.shape == Shape::cylinder ? std::numbers::pi / 4 * of_box : of_box;
+}
+
 /// From the density; 0 where there is none.
-double mass_of(const WrittenScene& written, const std::string& material, double radius,
-               const std::string& path, Reading& reading) {
+double mass_of(const WrittenScene& written, const std::string& material, const Sphere& body,
+               const std::optional<Extent>& extent, const std::string& path, Reading& reading) {
   const auto found = written.materials.find(material);
   if (found == written.materials.end()) return 0;
   if (!found->second.density) {
@@ -35,7 +45,7 @@ double mass_of(const WrittenScene& written, const std::string& material, double 
     reading.fault_at(path, "needs a mass, as its material " + material + " has no density");
     return 0;
   }
-  const double mass = *found->second.density * 4 / 3 * std::numbers::pi * radius * radius * radius;
+  const double mass = mass_with(*found->second.density, body, extent);
   if (!(mass >= 1e-30 && mass <= 1e30)) {
     reading.fault_at(path, "must have a mass between 1e-30 and 1e30 kg");
   }
@@ -171,11 +181,11 @@ void check_place(Body& body, const WrittenScene& written, const std::string& pat
 
 Body resolve(const WrittenBody& written_body, const WrittenScene& written, Reading& reading) {
   const bool in_container = written.container.has_value();
-  Body body{written_body.name, written_body.material, written_body.sphere, {}};
+  Body body{written_body.name, written_body.material, written_body.sphere, {}, written_body.extent};
   const double radius = body.sphere.radius;
-  body.sphere.mass = written_body.mass
-                         ? *written_body.mass
-                         : mass_of(written, body.material, radius, written_body.path, reading);
+  body.sphere.mass = written_body.mass ? *written_body.mass
+                                       : mass_of(written, body.material, body.sphere, body.extent,
+                                                 written_body.path, reading);
   for (const auto& [key, values] : {std::pair(".position", &written_body.position),
                                     std::pair(".velocity", &written_body.velocity)}) {
     if (in_container && values->size() != 2) {
@@ -194,14 +204,17 @@ Body resolve(const WrittenBody& written_body, const WrittenScene& written, Readi
     return body;
   body.initial.angular_velocity =
       spin_of(written_body, body.initial, ground_of(body, written), in_container, reading);
+  if (written_body.cue) strike(written_body, written, body, reading);
   check_place(body, written, written_body.path, reading);
+  if (body.extent) check_solid(written_body, written, body, reading);
   return body;
 }
 
 /// Spheres of a fill, once what stands explicitly is in place.
 std::vector<Body> resolve(const Fill& fill, const WrittenScene& written,
                           const std::vector<Body>& others, Reading& reading) {
-  const double least_mass = mass_of(written, fill.material, fill.least_radius, fill.path, reading);
+  const double least_mass = mass_of(written, fill.material, Sphere{.radius = fill.least_radius},
+                                    std::nullopt, fill.path, reading);
   if (least_mass == 0) return {};
   if (written.container && fill.spin == SpinKind::rolling) {
     reading.fault_at(fill.path + ".spin", "must be none in a container");
@@ -219,7 +232,8 @@ std::vector<Body> resolve(const Fill& fill, const WrittenScene& written,
   std::vector<Body> bodies = expand(fill, written, others, reading);
   for (Body& body : bodies) {
     const double radius = body.sphere.radius;
-    body.sphere.mass = mass_of(written, fill.material, radius, fill.path, reading);
+    body.sphere.mass =
+        mass_of(written, fill.material, body.sphere, std::nullopt, fill.path, reading);
     if (fill.spin == SpinKind::rolling && written.substrate) {
       const Vector2 substrate = initial_velocity(written.substrate->motion);
       body.initial.angular_velocity = rolling_angular_velocity(

@@ -4,6 +4,7 @@
 
 #include "scenario/assemble.h"
 #include "scenario/file_text.h"
+#include "scenario/presets.h"
 #include "scenario/reading.h"
 #include "scenario/rules/scene_rules.h"
 #include "scenario/yaml_tree.h"
@@ -22,7 +23,8 @@ UnitSystem units_of(const YamlNode& root, const std::string& file) {
 }  // namespace
 
 Scenario parse_scenario(std::string_view text, const std::string& file) {
-  const YamlPointer root = parse_yaml(checked_text(text, file), file);
+  std::vector<UsedPreset> presets;
+  const YamlPointer root = with_presets(parse_yaml(checked_text(text, file), file), presets);
   Reading reading(file, units_of(*root, file));
   WrittenScene written;
   if (is_mapping(*root)) {
@@ -33,6 +35,7 @@ Scenario parse_scenario(std::string_view text, const std::string& file) {
   }
   Scenario scenario = assemble(written, reading);
   reading.throw_faults();
+  scenario.presets = std::move(presets);
   scenario.file = file;
   scenario.text = text;
   scenario.sha256 = sha256_hex(text);

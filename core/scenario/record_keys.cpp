@@ -15,10 +15,13 @@ std::vector<std::string> RecordKeys::names() const {
 }
 
 bool RecordKeys::has_required_keys() const {
-  return std::ranges::any_of(
-             groups_, [](const Group& group) { return group.kind != Group::Kind::together; }) ||
+  return std::ranges::any_of(groups_,
+                             [](const Group& group) {
+                               return group.kind == Group::Kind::exactly_one ||
+                                      group.kind == Group::Kind::at_least_one;
+                             }) ||
          std::ranges::any_of(keys_,
-                             [](const Key& key) { return key.presence == Presence::required; });
+                             [](const Key& key) { return key.presence != Presence::optional; });
 }
 
 /// Looks for keys that are unknown or stand there twice.
@@ -58,12 +61,15 @@ bool RecordKeys::read(const YamlNode& node, Reading& reading, void* target) cons
     reading.fault(node.location, reading.path(), rule);
     good = false;
   };
+  // A preset that brings nothing is none, which is a fault by itself.
+  const bool has_preset = node.find("preset") != nullptr;
   for (const Key& key : keys_) {
     const auto entry = std::ranges::find(node.entries, key.name, &YamlNode::Entry::key);
     if (entry != node.entries.end()) {
       const auto step = reading.key(key.name, entry->location, *entry->value);
       good = key.read(*entry->value, reading, target) && good;
-    } else if (key.presence == Presence::required) {
+    } else if (key.presence == Presence::required ||
+               (key.presence == Presence::or_preset && !has_preset)) {
       missing("needs the key " + key.name);
     }
   }
@@ -77,6 +83,10 @@ bool RecordKeys::read(const YamlNode& node, Reading& reading, void* target) cons
       for (const std::string& name : group.names) {
         if (!is_there(name)) missing(fmt::format("needs the key {} with {}", name, present));
       }
+    } else if (group.kind == Group::Kind::at_most_one) {
+      if (count > 1) missing("may have one of " + joined(group.names) + " alone");
+    } else if (count == 0 && group.presence == Presence::or_preset && has_preset) {
+      continue;
     } else if (count == 0 || (count > 1 && exactly)) {
       missing(
           fmt::format("needs {} one of {}", exactly ? "exactly" : "at least", joined(group.names)));
@@ -99,8 +109,22 @@ json RecordKeys::schema() const {
   }
   json result = {{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
   if (!needed.empty()) result["required"] = needed;
+  const auto having = [](const std::string& name) {
+    return json{{"required", json::array({name})}};
+  };
   json groups = json::array();
+  for (const Key& key : keys_)
+    if (key.presence == Presence::or_preset)
+      groups.push_back({{"anyOf", json::array({having("preset"), having(key.name)})}});
   for (const Group& group : groups_) {
+    const bool may_be_none =
+        group.kind == Group::Kind::at_most_one || group.presence == Presence::or_preset;
+    if (may_be_none)
+      for (std::size_t a = 0; a < group.names.size(); ++a)
+        for (std::size_t b = a + 1; b < group.names.size(); ++b)
+          groups.push_back(
+              {{"not", {{"required", json::array({group.names[a], group.names[b]})}}}});
+    if (group.kind == Group::Kind::at_most_one) continue;
     if (group.kind == Group::Kind::together) {
       json needs = json::object();
       for (const std::string& name : group.names) needs[name] = group.names;
@@ -108,9 +132,10 @@ json RecordKeys::schema() const {
       continue;
     }
     json alternatives = json::array();
-    for (const std::string& name : group.names)
-      alternatives.push_back({{"required", json::array({name})}});
-    groups.push_back({{group.kind == Group::Kind::exactly_one ? "oneOf" : "anyOf", alternatives}});
+    for (const std::string& name : group.names) alternatives.push_back(having(name));
+    if (group.presence == Presence::or_preset) alternatives.push_back(having("preset"));
+    const bool exactly = group.kind == Group::Kind::exactly_one && !may_be_none;
+    groups.push_back({{exactly ? "oneOf" : "anyOf", alternatives}});
   }
   if (!groups.empty()) result["allOf"] = groups;
   return result;

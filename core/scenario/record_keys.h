@@ -12,9 +12,11 @@
 
 namespace slipcheck {
 
-enum class Presence { required, optional };
+/// `or_preset`: required, but a preset may bring it (presets.h).
+enum class Presence { required, optional, or_preset };
 inline constexpr Presence required = Presence::required;
 inline constexpr Presence optional = Presence::optional;
+inline constexpr Presence or_preset = Presence::or_preset;
 
 /// The keys of a mapping, with the type of what they are read into left out: one body of code for
 /// all records.
@@ -29,11 +31,12 @@ class RecordKeys {
   };
 
   void add(Key key) { keys_.push_back(std::move(key)); }
-  /// Exactly one of these keys, at least one, or all or none.
+  /// Exactly one of these keys, at least one, not several, or all or none.
   struct Group {
-    enum class Kind { exactly_one, at_least_one, together };
+    enum class Kind { exactly_one, at_least_one, at_most_one, together };
     std::vector<std::string> names;
     Kind kind;
+    Presence presence = Presence::required;  ///< of exactly one: a preset may bring it
   };
   void add(Group group) { groups_.push_back(std::move(group)); }
 
@@ -86,8 +89,12 @@ class Record {
     return *this;
   }
 
-  Record& exactly_one_of(std::vector<std::string> names) {
-    keys_->add(RecordKeys::Group{std::move(names), RecordKeys::Group::Kind::exactly_one});
+  Record& exactly_one_of(std::vector<std::string> names, Presence presence = required) {
+    keys_->add(RecordKeys::Group{std::move(names), RecordKeys::Group::Kind::exactly_one, presence});
+    return *this;
+  }
+  Record& at_most_one_of(std::vector<std::string> names) {
+    keys_->add(RecordKeys::Group{std::move(names), RecordKeys::Group::Kind::at_most_one});
     return *this;
   }
   Record& at_least_one_of(std::vector<std::string> names) {

@@ -62,7 +62,9 @@ class Scale {
     times(model.roughness_factor, of(kPerRootLength));
     times(model.asperity_size, length);
   }
-  void operator()(HardTangential&) const {}
+  void operator()(HardTangential& model) const {
+    model.friction = with_speeds_times(model.friction, speed());
+  }
   void operator()(SpringTangential& model) const {
     times(model.stiffness, of(kStiffness));
     times(model.damping_rate, 1 / time);
@@ -128,6 +130,8 @@ class Scale {
   void operator()(Body& body) const {
     body.sphere.radius *= length;
     body.sphere.mass *= of(kMass);
+    if (body.extent) body.extent->size *= length;
+    if (body.stroke) body.stroke->impulse *= of(1, 1, -1);
     body.initial.position *= length;
     body.initial.velocity *= speed();
     body.initial.angular_velocity /= time;

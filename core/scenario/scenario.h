@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/enum_names.h"
+#include "physics/contact/hard_contact.h"
 #include "physics/sphere.h"
 #include "physics/surface.h"
 #include "physics/vector.h"
@@ -107,7 +108,7 @@ struct AsperityTangential {
 };
 /// L (5)-(12).
 struct HardTangential {
-  double friction = 0;                ///< μ [-], >= 0
+  FrictionLaw friction = {};  ///< μ [-], >= 0; a law is an extension, of hard contacts alone
   double tangential_restitution = 0;  ///< β0 [-], in [−1, 1]
 };
 /// Coefficients of Coulomb's friction.
@@ -252,11 +253,27 @@ struct NamedSurface {
   std::string path;  ///< of its keys in the file, as in "surfaces[0]"
 };
 
+/// A cue's impulse, which made the velocity and spin that a body starts with.
+struct Stroke {
+  double impulse = 0;  ///< [N s]
+  Vector3 direction = Vector3::UnitX();
+};
+
 struct Body {
   std::string name;
   std::string material;
   Sphere sphere;
   BodyState initial;
+  std::optional<Extent> extent = {};  ///< where it is no sphere
+  std::optional<Stroke> stroke = {};
+};
+
+/// A value that a preset brought.
+struct UsedPreset {
+  std::string path;    ///< "contacts[0].rolling"
+  std::string value;   ///< as it stands in the preset
+  std::string preset;  ///< "pool-cloth"
+  std::string source;  ///< where it is from
 };
 
 // --- inelastic collapse --------------------------------------------------------------------------
@@ -371,6 +388,7 @@ struct Scenario {
   std::vector<Body> bodies;
   Run run;
   Compare compare;
+  std::vector<UsedPreset> presets;
 
   std::string file;    ///< as it was named by the user
   std::string text;    ///< the file's bytes

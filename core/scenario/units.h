@@ -41,6 +41,7 @@ inline constexpr Dimension kPerRootLength{"a roughness factor", 0, -0.5, 0, 0, "
                                           "1 cm^-0.5"};
 inline constexpr Dimension kSpecificEnergy{"energy per mass", 0,        2,         -2, 0,
                                            "m2/s2",           "cm2/s2", "1 cm2/s2"};
+inline constexpr Dimension kImpulse{"impulse", 1, 1, -1, 0, "N s", "dyn s", "0.3 N s"};
 inline constexpr Dimension kEnergy{"energy", 1, 2, -2, 0, "J", "erg", "1 erg"};
 
 /// "a length", "an angle"

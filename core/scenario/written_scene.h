@@ -29,14 +29,34 @@ struct WrittenSpin {
   std::vector<double> values;  ///< one (about y) or three [rad/s]
 };
 
+/// A length, or a part of the ball's radius.
+struct Offset {
+  double value = 0;
+  bool of_radius = true;
+};
+/// A cue's stroke in place of velocity and spin. Exactly one of speed and impulse; with the speed
+/// the mass.
+struct Cue {
+  std::optional<double> speed;                  ///< before it strikes [m/s], > 0
+  std::optional<double> impulse;                ///< [N s], > 0
+  std::optional<double> mass;                   ///< [kg], > 0
+  double restitution = 1;                       ///< [-], in [0, 1]
+  std::vector<Offset> offset = {Offset{}, {}};  ///< to the right of the centre, and above it
+  double elevation = 0;                         ///< [rad], in [0, π/2)
+  double heading = 0;                           ///< [rad], from x towards y
+  double tip_friction = 0.6;                    ///< of a chalked tip on the ball [-], >= 0
+};
+
 struct WrittenBody {
   std::string name;
   std::string material;
-  Sphere sphere;                          ///< its mass is not yet known
+  Sphere sphere;                 ///< its mass is not yet known
+  std::optional<Extent> extent;  ///< of a block or cylinder; its axis is not yet known
+  std::optional<Cue> cue;
   std::optional<double> mass;             ///< [kg], > 0
   std::vector<double> position;           ///< two or three [m]
   std::optional<std::string> on;          ///< a surface that it touches
-  std::vector<double> velocity = {0, 0};  ///< two or three [m/s]
+  std::vector<double> velocity = {0, 0};  ///< two or three [m/s]; none with a cue
   WrittenSpin spin;
   std::string path;
   bool complete = false;  ///< read without a fault

@@ -154,9 +154,9 @@ SoftContact ContactMaker::soft(const ClassPair& pair) {
   made.tangential = std::visit(
       [&](const auto& model) { return tangential(model, made.normal, pair); }, contact_.tangential);
   if (const auto* hard = std::get_if<HardTangential>(&contact_.tangential))
-    made.tangential = ImpactAngleForce{hard->friction, hard->tangential_restitution,
-                                       tangential_mass_ratio(pair.first, pair.second),
-                                       restitution_of(made, pair)};
+    made.tangential = ImpactAngleForce{
+        std::get<double>(hard->friction), hard->tangential_restitution,
+        tangential_mass_ratio(pair.first, pair.second), restitution_of(made, pair)};
   made.memory = memory(made.normal, pair);
   if (made.memory) made.tangential = NoTangentialForce{};
   check_stiffness(made, pair);

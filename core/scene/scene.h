@@ -65,8 +65,10 @@ struct Scene {
   std::vector<std::shared_ptr<const CollisionLaw>> laws;
   double gravity = 0;                  ///< along −z, normal to the plane [m/s²], >= 0
   Vector2 downhill = Vector2::Zero();  ///< gravity along the tilted plane [m/s²]
-  SubstrateMotion motion;              ///< of the plane
-  bool confined = false;               ///< bodies never leave the plane
+  /// Of each body that is no sphere; empty where all are.
+  std::vector<std::optional<Extent>> extents;
+  SubstrateMotion motion;  ///< of the plane
+  bool confined = false;   ///< bodies never leave the plane
   /// Lengths of the cell in which the plane repeats itself [m], 0 in a direction in which it does
   /// not. Positions are not folded into the cell.
   Vector2 periodic = Vector2::Zero();

@@ -112,7 +112,7 @@ SurfaceContact surface_contact(const MaterialOnSubstrate& from, const Material& 
 
 SurfaceContact surface_contact(const PairContact& impact) {
   SubstrateContact lasting;
-  lasting.static_friction = lasting.kinetic_friction = impact.friction;
+  lasting.static_friction = lasting.kinetic_friction = friction_at(impact.friction, 0);
   // Of a law over the impact speed nothing is left at rest.
   const double* restitution = std::get_if<double>(&impact.restitution);
   lasting.restitution = restitution ? *restitution : 0;
@@ -176,8 +176,13 @@ SceneOutline make_outline(const Scenario& scenario) {
     }
     scene.bodies.push_back(sphere);
     scene.initial.push_back(body.initial);
+    if (body.extent) {
+      scene.extents.resize(scene.bodies.size());
+      scene.extents.back() = body.extent;
+    }
     scene.material.push_back(entry->second);
   }
+  if (!scene.extents.empty()) scene.extents.resize(scene.bodies.size());
   scene.pairs.resize(outline.classes.size() * outline.classes.size());
   if (scene.box) {
     for (auto* contacts : {&scene.box->on_floor, &scene.box->on_wall, &scene.box->on_lid})

@@ -107,6 +107,8 @@ Vector2 even_heading(std::size_t k, std::size_t count) {
 Scene turned(Scene scene, const Vector2& heading) {
   assert(!scene.box && scene.periodic.isZero(0));
   for (BodyState& state : scene.initial) state = turn(state, heading);
+  for (std::optional<Extent>& extent : scene.extents)
+    if (extent) extent->axis = turn(extent->axis, heading);
   scene.downhill = turn(scene.downhill, heading);
   scene.motion = turn(scene.motion, heading);
   for (Surface& surface : scene.surfaces) surface = turn(surface, heading);

@@ -18,6 +18,7 @@
 #include "peer_backends/shared/applied.h"
 #include "peer_backends/shared/surfaces.h"
 #include "peer_backends/shared/touch_list.h"
+#include "physics/solid.h"
 
 namespace slipcheck::dart_engine {
 namespace {
@@ -29,8 +30,8 @@ using ::dart::constraint::ContactConstraint;
 /// PlaneShape (FCL's makes an upright plate of it). Wide, and thin, so that its top is exact.
 constexpr double kPlaneWidth = 1e4, kPlaneThickness = 1;
 
-dd::Inertia inertia_of(double mass, double moment) {
-  return dd::Inertia(mass, Eigen::Vector3d::Zero(), moment * Eigen::Matrix3d::Identity());
+dd::Inertia inertia_of(double mass, const Eigen::Vector3d& moments) {
+  return dd::Inertia(mass, Eigen::Vector3d::Zero(), moments.asDiagonal());
 }
 
 void set_globals(const DartSettings& chosen) {
@@ -92,12 +93,22 @@ struct DartWorld::Parts {
   }
 
   void add_ball(const Sphere& sphere, const BodyState& state, int body) {
-    const auto shape = std::make_shared<dd::SphereShape>(sphere.radius / unit);
-    const double moment = sphere.moment_of_inertia() / (unit * unit);
+    const auto& extents = setup.scene.extents;
+    const Extent* extent = extents.empty() ? nullptr : &*extents[static_cast<std::size_t>(body)];
+    dd::ShapePtr shape;
+    if (extent)
+      shape = std::make_shared<dd::BoxShape>(extent->size / unit);
+    else
+      shape = std::make_shared<dd::SphereShape>(sphere.radius / unit);
+    const Eigen::Vector3d moments =
+        (extent ? moments_of_inertia(sphere, *extent)
+                : Vector3(Vector3::Constant(sphere.moment_of_inertia()))) /
+        (unit * unit);
     const dd::SkeletonPtr ball = dd::Skeleton::create(std::to_string(body));
     const auto [joint, node] = ball->createJointAndBodyNodePair<dd::FreeJoint>();
-    node->setInertia(inertia_of(sphere.mass, moment));
+    node->setInertia(inertia_of(sphere.mass, moments));
     Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+    if (extent) place.linear() = turn_of(*extent).toRotationMatrix();
     place.translation() = state.position / unit;
     joint->setTransform(place);
     joint->setLinearVelocity(state.velocity / unit);
@@ -132,7 +143,9 @@ struct DartWorld::Parts {
   peer::TouchList touches;
 };
 
-EngineInfo DartWorld::info() { return {"dart", DART_VERSION, "double", setting_table()}; }
+EngineInfo DartWorld::info() {
+  return {"dart", DART_VERSION, "double", setting_table(), {scene_part::kBlock}};
+}
 
 std::string DartWorld::refusal(const DartSetup& setup) {
   if (setup.scene.box) return "only scenes on a substrate, not in a box, are mapped";

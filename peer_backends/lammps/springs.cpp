@@ -114,7 +114,7 @@ Spring pair_spring(const EngineScene& scene, std::size_t i, std::size_t j,
       spring_with(restitution_at(hard.restitution, approach_speed(scene)), mass, settings);
   spring.effective_radius = radius;
   // β0 = −1, u_t' = u_t: no tangential impulse whatever μ is.
-  spring.friction = hard.tangential_restitution == -1 ? 0 : hard.friction;
+  spring.friction = hard.tangential_restitution == -1 ? 0 : std::get<double>(hard.friction);
   return spring;
 }
 

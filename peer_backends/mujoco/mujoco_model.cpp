@@ -8,6 +8,7 @@
 
 #include "peer_backends/mujoco/restitution_spring.h"
 #include "peer_backends/shared/surfaces.h"
+#include "physics/solid.h"
 
 namespace slipcheck::mujoco {
 namespace {
@@ -44,6 +45,24 @@ void put_options(Text& text, const MujocoSetup& setup) {
     put(text, "<statistic meaninertia=\"{}\"/>\n", scene.bodies.front().mass);
 }
 
+std::string quaternion_text(const Eigen::Quaterniond& q) {
+  return fmt::format("quat=\"{} {} {} {}\" ", q.w(), q.x(), q.y(), q.z());
+}
+
+/// The shape and inertia of a body, turned in it: its axes are the world's at the start.
+void put_solid(Text& text, const Sphere& body, const Extent& extent, const std::string& name) {
+  const Vector3 half = extent.size / 2;
+  const bool is_block = body.shape == Shape::block;
+  const Eigen::Quaterniond turn = turn_of(extent);
+  put(text, "<inertial pos=\"0 0 0\" mass=\"{}\" {}diaginertia=\"{}\"/>\n", body.mass,
+      quaternion_text(turn), vector_text(moments_of_inertia(body, extent)));
+  put(text, "<geom name=\"{}\" type=\"{}\" size=\"{}\" {}contype=\"0\" conaffinity=\"0\"/>\n", name,
+      is_block ? "box" : "cylinder",
+      is_block ? vector_text(half) : fmt::format("{} {}", half.y(), half.x()),
+      quaternion_text(is_block ? turn : turn * turn_of_z_to_x()));
+  put(text, "</body>\n");
+}
+
 void put_ball(Text& text, const Scene& scene, const BodyState& state, std::size_t i) {
   const Sphere& sphere = scene.bodies[i];
   const std::string name = ball_name(i);
@@ -54,6 +73,8 @@ void put_ball(Text& text, const Scene& scene, const BodyState& state, std::size_
   } else {
     put(text, "<freejoint name=\"{}\"/>\n", name);
   }
+  if (!scene.extents.empty() && scene.extents[i])
+    return put_solid(text, sphere, *scene.extents[i], name);
   const double moment = sphere.moment_of_inertia();
   put(text, "<inertial pos=\"0 0 0\" mass=\"{}\" diaginertia=\"{} {} {}\"/>\n", sphere.mass, moment,
       moment, moment);

@@ -142,7 +142,13 @@ struct MujocoWorld::Parts {
   peer::TouchList touches;
 };
 
-EngineInfo MujocoWorld::info() { return {"mujoco", mj_versionString(), "double", setting_table()}; }
+EngineInfo MujocoWorld::info() {
+  return {"mujoco",
+          mj_versionString(),
+          "double",
+          setting_table(),
+          {scene_part::kBlock, scene_part::kCylinder}};
+}
 
 std::string MujocoWorld::refusal(const MujocoSetup& setup) {
   if (setup.scene.bodies.size() > kMostBodies)

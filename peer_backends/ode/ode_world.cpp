@@ -9,6 +9,7 @@
 #include "peer_backends/shared/applied.h"
 #include "peer_backends/shared/surfaces.h"
 #include "peer_backends/shared/touch_list.h"
+#include "physics/solid.h"
 
 namespace slipcheck::ode {
 namespace {
@@ -82,19 +83,41 @@ struct OdeWorld::Parts {
       dWorldSetDamping(world, chosen.linear_damping, chosen.angular_damping);
   }
 
+  const Extent* extent_of(std::size_t i) const {
+    const auto& extents = setup.scene.extents;
+    return extents.empty() || !extents[i] ? nullptr : &*extents[i];
+  }
+
+  static std::array<dReal, 4> to_ode(const Eigen::Quaterniond& q) {
+    return {q.w(), q.x(), q.y(), q.z()};
+  }
+
+  /// ODE's cylinders lie along z.
+  dGeomID make_geom(const Sphere& body, const Extent* extent) const {
+    if (!extent) return dCreateSphere(space, body.radius);
+    const Vector3& size = extent->size;
+    return body.shape == Shape::block ? dCreateBox(space, size.x(), size.y(), size.z())
+                                      : dCreateCylinder(space, body.radius, size.x());
+  }
+
   void add_ball(const Sphere& sphere, const BodyState& state, std::size_t i) {
     const dBodyID ball = dBodyCreate(world);
+    const Extent* extent = extent_of(i);
+    const Vector3 inertia = extent ? moments_of_inertia(sphere, *extent)
+                                   : Vector3(Vector3::Constant(sphere.moment_of_inertia()));
     dMass mass;
     dMassSetZero(&mass);
-    const double inertia = sphere.moment_of_inertia();
-    dMassSetParameters(&mass, sphere.mass, 0, 0, 0, inertia, inertia, inertia, 0, 0, 0);
+    dMassSetParameters(&mass, sphere.mass, 0, 0, 0, inertia.x(), inertia.y(), inertia.z(), 0, 0, 0);
     dBodySetMass(ball, &mass);
+    if (extent) dBodySetQuaternion(ball, to_ode(turn_of(*extent)).data());
     const Vector3 &x = state.position, &v = state.velocity, &w = state.angular_velocity;
     dBodySetPosition(ball, x.x(), x.y(), x.z());
     dBodySetLinearVel(ball, v.x(), v.y(), v.z());
     dBodySetAngularVel(ball, w.x(), w.y(), w.z());
-    const dGeomID geom = dCreateSphere(space, sphere.radius);
+    const dGeomID geom = make_geom(sphere, extent);
     dGeomSetBody(geom, ball);
+    if (sphere.shape == Shape::cylinder)
+      dGeomSetOffsetQuaternion(geom, to_ode(turn_of_z_to_x()).data());
     tag(geom, static_cast<std::intptr_t>(i));
     balls.push_back(ball);
   }
@@ -131,9 +154,14 @@ struct OdeWorld::Parts {
   void meet(dGeomID first, dGeomID second) {
     if (!dGeomGetBody(first)) std::swap(first, second);
     if (!dGeomGetBody(first)) return;  // two planes
-    dContact contact = {};
-    if (dCollide(first, second, 1, &contact.geom, sizeof(dContact)) == 0) return;
-    points.push_back({contact, static_cast<int>(tag_of(first)), tag_of(second), {}});
+    constexpr int kMostPoints = 8;     // of a block, whose corners are eight
+    dContact found[kMostPoints] = {};
+    const int most = setup.scene.extents.empty() ? 1 : kMostPoints;
+    const int count = dCollide(first, second, most, &found[0].geom, sizeof(dContact));
+    for (int k = 0; k < count; ++k)
+      points.push_back({found[k], static_cast<int>(tag_of(first)), tag_of(second), {}});
+    if (count == 0) return;
+    const dContact& contact = found[0];
     const Vector3 normal = from_ode(contact.geom.normal);
     const Point& point = points.back();
     if (point.place < 0) return;
@@ -194,7 +222,13 @@ struct OdeWorld::Parts {
   peer::TouchList touches;
 };
 
-EngineInfo OdeWorld::info() { return {"ode", SLIPCHECK_ODE_VERSION, "double", setting_table()}; }
+EngineInfo OdeWorld::info() {
+  return {"ode",
+          SLIPCHECK_ODE_VERSION,
+          "double",
+          setting_table(),
+          {scene_part::kBlock, scene_part::kCylinder}};
+}
 
 std::string OdeWorld::refusal(const OdeSetup&) { return ""; }
 

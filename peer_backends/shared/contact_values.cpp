@@ -8,7 +8,7 @@ std::size_t index(int body) { return static_cast<std::size_t>(body); }
 bool is_substrate(const Scene& scene, int other) { return other == kFloor && !scene.box; }
 
 double friction_of(const PairContact& pair) {
-  return pair.tangential_restitution == -1 ? 0 : pair.friction;
+  return pair.tangential_restitution == -1 ? 0 : std::get<double>(pair.friction);
 }
 
 double one_restitution(const RestitutionLaw& law, double speed) {
@@ -52,8 +52,8 @@ ContactValues exact_values(const Scene& scene, int body, int other, const Contac
 ContactValues typed_values(const Scene& scene, int body, int other) {
   if (!is_substrate(scene, other)) {
     const PairContact& pair = pair_contact(scene, body, other);
-    return {pair.friction, one_restitution(pair.restitution, speed_at_start(scene, body, other)), 0,
-            0};
+    return {std::get<double>(pair.friction),
+            one_restitution(pair.restitution, speed_at_start(scene, body, other)), 0, 0};
   }
   const SubstrateContact& ground = scene.on_substrate(index(body));
   return {ground.kinetic_friction, ground.restitution, ground.rolling.points().front().coefficient,

@@ -43,7 +43,7 @@ ImpactLaw pair_law(const Scene& scene, std::size_t i, std::size_t j) {
   const double beta0 = pair.tangential_restitution;
   // β0 = −1, u_t' = u_t: no tangential impulse whatever μ is.
   return {restitution_at(pair.restitution, approach(scene, i, j)), std::max(beta0, 0.0),
-          beta0 == -1 ? 0 : pair.friction, 0};
+          beta0 == -1 ? 0 : std::get<double>(pair.friction), 0};
 }
 
 ImpactLaw substrate_law(const Scene& scene, std::size_t body, const SiconosSettings& settings) {
@@ -86,7 +86,8 @@ SystemPlan plan_of(const Scene& scene, const SiconosSettings& settings,
 std::vector<Lack> not_represented(const Scene& scene, double time_step) {
   const SceneNeeds needs = needs_of(scene, time_step);
   const bool sticks_less = std::ranges::any_of(scene.pairs, [](const PairContact& pair) {
-    return pair.friction > 0 && pair.tangential_restitution < 0 && pair.tangential_restitution > -1;
+    return has_friction(pair.friction) && pair.tangential_restitution < 0 &&
+           pair.tangential_restitution > -1;
   });
   LackList missing;
   missing.note(needs.static_friction, lack::kStaticFriction,

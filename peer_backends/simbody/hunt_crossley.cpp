@@ -61,7 +61,7 @@ HuntCrossley pair_contact(const EngineScene& scene, std::size_t i, std::size_t j
   }
   const PairContact& hard = scene.between(i, j);
   const double speed = approach(scene, i, j);
-  const double mu = hard.tangential_restitution == -1 ? 0 : hard.friction;
+  const double mu = hard.tangential_restitution == -1 ? 0 : std::get<double>(hard.friction);
   const double e = restitution_at(hard.restitution, speed > 0 ? speed : kGentle);
   return {settings.modulus, dissipation(e, speed, settings), mu, mu};
 }

@@ -50,7 +50,8 @@ Rows rows_of(BodyKind body, double mu_r, double drilling_length) {
   const DynamicsWorld dynamics(settings, 1, find_leave_outs(scene, scene.initial, settings));
   const PairCoefficients coefficients(scene, settings, kStep);
   const Surfaces surfaces(dynamics.world(), scene, {}, settings);
-  const auto balls = make_balls(dynamics.world(), scene, scene.initial, settings);
+  const auto balls =
+      make_balls(dynamics.world(), scene, scene.initial, Eigen::Matrix3d::Identity(), settings);
   balls->object(0).setUserPointer(const_cast<PairCoefficients*>(&coefficients));
   combine_by_pair();
   dynamics.world().setGravity(btVector3(0, 0, btScalar(-scene.gravity)));

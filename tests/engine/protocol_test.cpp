@@ -12,6 +12,7 @@
 
 #include "../support/refusal.h"
 #include "engine/scene_json.h"
+#include "engine/scene_needs.h"
 #include "some_scene.h"
 
 namespace slipcheck::protocol {
@@ -115,6 +116,9 @@ TEST(Protocol, TheOtherMessagesComeThrough) {
   const auto welcome = through<Welcome>(Welcome{1, {"bullet", "3.24", "single", some_settings()}});
   EXPECT_EQ(welcome.info.engine, "bullet");
   EXPECT_EQ(welcome.info.precision, "single");
+  EXPECT_TRUE(welcome.info.takes.empty());
+  const EngineInfo more{"bullet", "3.24", "single", {}, {scene_part::kBlock, "whatever"}};
+  EXPECT_EQ(through<Welcome>(Welcome{1, more}).info.takes, more.takes);
   const Settings settings = {
       {"erp", 0.2}, {"iterations", 10.0}, {"law", std::string("by speed")}, {"warm", true}};
   const auto configure = request_through<Configure>(Configure{some_scene(), settings, 0.01});

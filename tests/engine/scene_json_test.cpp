@@ -50,6 +50,30 @@ TEST(SceneJson, TheSceneComesThroughWhole) {
   EXPECT_EQ(request.scene.downhill, Vector2(0, -0.8));
 }
 
+TEST(SceneJson, BlocksCylindersAndLawsOfFrictionComeThrough) {
+  Scene scene = some_scene(2);
+  scene.bodies[0] = {0.05, 2, 0.3, Shape::block};
+  scene.bodies[1] = {0.02, 1, 0.5, Shape::cylinder};
+  scene.extents = {Extent{{0.3, 0.2, 0.1}, {0.6, 0.8}}, Extent{{0.07, 0.04, 0.04}, {0, 1}}};
+  scene.pairs[0].friction = ExponentialFriction{0.01, 0.1, 1.0 / 3};
+  scene.pairs[3].friction = TabulatedFriction({{0, 0.2}, {1, 0.1}});
+  const EngineScene got = through(scene);
+  EXPECT_EQ(got.bodies[0].shape, Shape::block);
+  EXPECT_EQ(got.bodies[1].shape, Shape::cylinder);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(got.extents[i]->size, scene.extents[i]->size);
+    EXPECT_EQ(got.extents[i]->axis, scene.extents[i]->axis);
+  }
+  for (const double v : {0.0, 0.3, 2.0})
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_EQ(friction_at(got.pairs[k].friction, v), friction_at(scene.pairs[k].friction, v));
+  EXPECT_EQ(scene_to_json(got), scene_to_json(scene));
+}
+
+TEST(SceneJson, OfSpheresNoShapeIsSaid) {
+  EXPECT_FALSE(scene_to_json(some_scene())["bodies"][0].contains("shape"));
+}
+
 TEST(SceneJson, EveryKindOfMotionComesThroughBitForBit) {
   const std::vector<SubstrateMotion> motions = {
       {},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/lacks.h"
+#include "some_scene.h"
 
 namespace slipcheck {
 namespace {
@@ -59,6 +60,39 @@ TEST(SceneNeeds, ABallThatFallsItsRadiusInAStepMayPassAnother) {
   EXPECT_FALSE(needs_of(scene, 4.9e-3).far_in_a_step);
   EXPECT_TRUE(needs_of(scene, 5.1e-3).far_in_a_step);
   EXPECT_TRUE(needs_of(scene, 1e-3).bounce);
+}
+
+TEST(SceneNeeds, ALawOfFrictionIsToldWherePairsRub) {
+  Scene scene = some_scene();
+  EXPECT_FALSE(needs_of(scene, 1e-3).friction_law);
+  for (PairContact& pair : scene.pairs) pair = {0.9, ExponentialFriction{0.01, 0.1, 1}, 0};
+  EXPECT_TRUE(needs_of(scene, 1e-3).friction_law);
+  for (PairContact& pair : scene.pairs) pair.tangential_restitution = -1;  // the slip is kept
+  EXPECT_FALSE(needs_of(scene, 1e-3).friction_law);
+}
+
+TEST(SceneNeeds, TheNumberInPlaceOfALawIsThatOfTheFirstImpact) {
+  // Two equal balls that meet where the line of centres lies at 30° to the velocity v of the first,
+  // which rolls: along the surface v sin 30°, upwards its spin's v cos 30°.
+  Scene scene = some_scene();
+  const double R = scene.bodies[0].radius, v = 0.8;
+  scene.initial[0] = {{-0.1, R, R}, {v, 0, 0}, rolling_angular_velocity({v, 0, 0}, R)};
+  scene.initial[1] = {{0, 0, R}, Vector3::Zero(), Vector3::Zero()};
+  const double slip = std::hypot(v / 2, v * std::sqrt(0.75));
+  EXPECT_NEAR(slip_at_meeting(scene, 0, 1), slip, 1e-12);
+  const FrictionLaw law = ExponentialFriction{0.01, 0.1, 1};
+  for (PairContact& pair : scene.pairs) pair.friction = law;
+  const Scene given = with_friction_numbers(scene);
+  EXPECT_NEAR(std::get<double>(given.between(0, 1).friction), friction_at(law, slip), 1e-13);
+  EXPECT_NEAR(std::get<double>(given.between(1, 0).friction), friction_at(law, slip), 1e-13);
+  EXPECT_FALSE(needs_of(given, 1e-3).friction_law);
+}
+
+TEST(SceneNeeds, ShapesAreNamed) {
+  Scene scene = some_scene();
+  EXPECT_TRUE(shapes_of(scene).empty());
+  scene.bodies[1].shape = Shape::cylinder;
+  EXPECT_EQ(shapes_of(scene), std::vector<std::string>{scene_part::kCylinder});
 }
 
 TEST(LackList, KindsAreWithoutReasonsAndNumbers) {

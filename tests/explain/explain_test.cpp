@@ -1,5 +1,6 @@
 // What is said of a scene, by its rows: formulas of the papers written out anew.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -217,6 +218,36 @@ TEST(Explain, AGasOnAPeriodicPlane) {
   EXPECT_NEAR(seen.number("s"), 1e3 * slide, 5.1e-4);
   expect_told(seen, "l/s", path / slide);
   EXPECT_EQ(seen.value("L_x"), "160.0 mm");
+}
+
+TEST(Explain, ACueAndWhatPresetsBrought) {
+  const Explained draw(bundled("draw-shot"));
+  // J = (1 + e) V/(1/M + 1/m + (2/5 R)²/((2/5) m R²)).
+  const double J = 1.73 * 2 / (1 / 0.54 + 1.4 / 0.17);
+  EXPECT_NEAR(draw.number("J"), J, 1e-5 * J);
+  EXPECT_EQ(draw.value("v"), fmt::format("[{:.5g}, 0, 0] m/s", J / 0.17));
+  EXPECT_EQ(draw.value("Ω"), fmt::format("[0, {:.5g}, 0] rad/s", -J / 0.17 / 0.028575));
+  const ExplainRow* rolling = draw.find("contacts[1].rolling");
+  ASSERT_TRUE(rolling);
+  EXPECT_TRUE(rolling->remark.starts_with("0.01 (pool-cloth: D. G. Alciatore")) << rolling->remark;
+  EXPECT_TRUE(draw.has("From presets", "bodies[0].sphere.diameter"));
+  EXPECT_FALSE(Explained(bundled("oblique")).section("From presets"));
+}
+
+TEST(Explain, FrictionOverTheSlipIsThatOfTheFirstMeeting) {
+  const Explained draw(bundled("draw-shot"));
+  const ExplainRow* mu = draw.find("μ");
+  ASSERT_TRUE(mu);
+  const double slip = std::stod(mu->remark.substr(std::string("friction at a slip of ").size()));
+  EXPECT_NEAR(draw.number("μ"), 9.951e-3 + 0.108 * std::exp(-1.088 * slip), 1e-4);
+  EXPECT_GT(slip, 0.5);
+}
+
+TEST(Explain, ABlockHoldsUpToStaticFriction) {
+  const Explained block(bundled("block-on-ramp-holds"));
+  // μ_s g cos θ, and no rolling.
+  EXPECT_NEAR(block.number("|a_S − a_G|"), 0.5 * kGravity * std::cos(25 * M_PI / 180), 1e-4);
+  EXPECT_EQ(block.value("a_roll"), "no row");
 }
 
 TEST(Explain, AsksTheEnginesWhatTheyWouldMakeOfIt) {

@@ -82,5 +82,11 @@ TEST(DartMaps, WhatItLacksIsSaid) {
   EXPECT_THROW(worker.configure(bundled_scene("box-one-ball"), {}, 1e-3), Refused);
 }
 
+TEST(DartMaps, ABlockStopsAfterVSquaredOverTwoMuG) {
+  const auto end = run_peer("dart", bundled_scene("block-stops"), "physical", 1000, 1000);
+  // Half of the speed that friction takes in a step, over the whole way: 0.15 %.
+  EXPECT_NEAR(end.back().bodies[0].position.x() / (4 / (2 * 0.3 * kGravity)), 1, 2e-3);
+}
+
 }  // namespace
 }  // namespace slipcheck::test

@@ -104,6 +104,20 @@ TEST(MujocoMaps, WhatItLacksIsSaid) {
                      "rolling friction ("));
 }
 
+/// The bundled scene's body at its end, after so many seconds at 1 kHz.
+BodyState solid_end(const std::string& scene, double seconds) {
+  return run_peer(kMujoco, bundled_scene(scene), "physical", 1000,
+                  static_cast<std::size_t>(1000 * seconds))
+      .back()
+      .bodies[0];
+}
+
+TEST(MujocoMaps, ACylinderRollsWithTwoThirdsAndABlockStopsAfterVSquaredOverTwoMuG) {
+  const double a = 2.0 / 3 * kGravity * std::sin(20 * std::numbers::pi / 180);
+  EXPECT_NEAR(-solid_end("cylinder-rolls", 1).velocity.y() / a, 1, 0.01);
+  EXPECT_NEAR(solid_end("block-stops", 2).position.x() / (4 / (2 * 0.3 * kGravity)), 1, 0.01);
+}
+
 TEST(MujocoMaps, WhatItCannotRunIsRefusedAndWhatItGivesUpIsNoResult) {
   RemoteEngine worker(peer_executable(kMujoco));
   const Scene dust = scene_of(steel_ball(1e-6), {rolling_along_x(1e-6, 0, 1)}, {});

@@ -82,7 +82,8 @@ TEST(Collision, FreeUnlikeSpheresConserveAndFollowBothRestitutions) {
         std::array{pair.a.mass, pair.b.mass, pair.a.shape_factor, pair.b.shape_factor};
     const double kappa = 1 / (1 + (ma * qa + mb * qb) / (qa * qb * (ma + mb)));
     const Vector3 ut0 = u0 - un * n_ab, ut1 = u1 - n_ab.dot(u1) * n_ab;
-    const double beta1 = -1 + contact.friction * (1 + e) * std::abs(un) / (kappa * ut0.norm());
+    const double beta1 =
+        -1 + std::get<double>(contact.friction) * (1 + e) * std::abs(un) / (kappa * ut0.norm());
     const double beta = std::min(contact.tangential_restitution, beta1);
     EXPECT_LE((ut1 + beta * ut0).norm(), 1e-12);
     EXPECT_NEAR(result.impact_speed, -un, 1e-14);

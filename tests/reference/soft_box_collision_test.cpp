@@ -123,8 +123,8 @@ TEST(SoftBoxCollision, LAppBExchangesTheImpulseOfTheHardRule) {
       const auto difference = [&](double collision_time) {
         box.collision_time = collision_time;
         ContactScene scene = box.scene(initial);
-        scene.soft[0]->tangential =
-            ImpactAngleForce{rule.friction, rule.tangential_restitution, 2.0 / 7, 0.8};
+        scene.soft[0]->tangential = ImpactAngleForce{std::get<double>(rule.friction),
+                                                     rule.tangential_restitution, 2.0 / 7, 0.8};
         const std::vector<BodyState> soft = after(scene, 1e-4, 100);
         // The hard rule where they touch, after 0.3 m/s and more along the line of centres.
         Vector3 dx = initial[0].position - initial[1].position;
@@ -146,7 +146,8 @@ TEST(SoftBoxCollision, LAppBExchangesTheImpulseOfTheHardRule) {
       };
       const double left = difference(1e-5), tenth = difference(1e-6);
       EXPECT_LT(left, 0.3 * 0.3 * 1e-5 / kRadius);
-      EXPECT_NEAR(left / tenth, 10, 1) << rule.friction << ' ' << rule.tangential_restitution;
+      EXPECT_NEAR(left / tenth, 10, 1)
+          << std::get<double>(rule.friction) << ' ' << rule.tangential_restitution;
     }
 }
 

@@ -30,7 +30,7 @@ TEST(Fault, UnknownKey) {
 
 TEST(Fault, MissingKey) {
   expect_fault(with(kHard, "sphere: {radius: 0.1}", "sphere: {}"),
-               "s.yaml:14:40: bodies[0].sphere: needs the key radius");
+               "s.yaml:14:40: bodies[0].sphere: needs exactly one of radius or diameter");
   expect_fault(with(kHard, "title: Two hard spheres\n", ""), "s.yaml:1:1: needs the key title");
   expect_fault(with(kHard, "{model: hard, restitution: 0.9}", "{restitution: 0.9}"),
                "s.yaml:8:13: contacts[0].normal: needs the key model: hard, linear, hertz, power "

@@ -14,7 +14,7 @@ bool starts_on_plane(const Sphere& sphere, const BodyState& state) {
 }
 
 bool starts_rolling(const Sphere& sphere, const BodyState& state) {
-  return slip_velocity(state, sphere.radius).norm() <= kNegligible * state.velocity.norm();
+  return slip_velocity(state, sphere).norm() <= kNegligible * state.velocity.norm();
 }
 
 /// The body slides from `state` on, away from whatever struck it.
@@ -40,6 +40,10 @@ Observables one_body(const Scene& scene) {
   const double speed = start.velocity.norm();
   if (!starts_rolling(sphere, start)) {
     add_sliding(scene, 0, start, out);
+    if (sphere.shape == Shape::block) {
+      out.stopping_time = out.sliding_time;
+      out.stopping_distance = out.sliding_distance;
+    }
   } else if (contact.rolling.is_constant() && !contact.rolling.is_zero() && speed > 0 && g > 0) {
     const double deceleration = contact.rolling(0) * g;
     out.stopping_time = speed / deceleration;
@@ -61,7 +65,7 @@ Observables two_bodies(const Scene& scene) {
     if (!starts_rolling(scene.bodies[k], scene.initial[k])) return result;
     if (!scene.on_substrate(k).rolling.is_zero()) return result;
   }
-  if (contact.friction != 0 || a.radius != b.radius) return result;
+  if (has_friction(contact.friction) || a.radius != b.radius) return result;
 
   // Seen from j, i comes along dv and passes at the distance `aside` from it; n when they touch.
   const Vector3 dx = i.position - j.position, dv = i.velocity - j.velocity;

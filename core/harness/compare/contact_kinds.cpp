@@ -25,7 +25,7 @@ ContactKinds contact_kinds(const std::vector<PairContact>& hard,
       continue;
     }
     const double* number = std::get_if<double>(&hard[k].restitution);
-    kinds.impulse |= hard[k].friction > 0;
+    kinds.impulse |= has_friction(hard[k].friction);
     kinds.speed_law |= !number;
     kinds.dissipates |= !number || *number < 1;
   }

@@ -12,7 +12,7 @@ constexpr double kNear = 1e-3;  ///< part of its radius that a body on a surface
 
 Vector3 slip_over_substrate(const Scene& scene, const Sphere& body, double time,
                             const BodyState& state) {
-  Vector3 slip = slip_velocity(state, body.radius) - scene.motion.velocity(time);
+  Vector3 slip = slip_velocity(state, body) - scene.motion.velocity(time);
   slip.z() = 0;
   return slip;
 }

@@ -92,7 +92,7 @@ Vector3 Observer::slip_of(std::size_t i, const BodyState& state, const Ground& g
                       ground.velocity;
     return u - up.dot(u) * up;
   }
-  Vector3 slip = slip_velocity(state, scene_->bodies[i].radius) - ground.velocity;
+  Vector3 slip = slip_velocity(state, scene_->bodies[i]) - ground.velocity;
   slip.z() = 0;
   return slip;
 }

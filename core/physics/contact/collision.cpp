@@ -57,6 +57,7 @@ CollisionResult collide(const PairContact& contact, const CollisionRule& rule, C
   const double by_law = impact > 0 ? restitution_at(contact.restitution, impact) * impact : 0;
   const double rebound = std::max(by_law, rule.slowest_rebound);
   const Vector3 ut = u - un * n;
+  const double friction = friction_at(contact.friction, ut.norm());
   const Vector3 change = (rebound - un) * n - (1 + contact.tangential_restitution) * ut;
 
   // Who is held follows from the sign of the vertical impulse, which follows from who is held: the
@@ -67,7 +68,7 @@ CollisionResult collide(const PairContact& contact, const CollisionRule& rule, C
   for (int round = 0; round < 4; ++round) {
     impulse =
         impulse_for(mobility(first.sphere, n, hold_first) + mobility(second.sphere, n, hold_second),
-                    n, change, contact.friction);
+                    n, change, friction);
     if (rule.confined) break;
     // A vertical impulse within round-off lifts nobody.
     const double round_off = 64 * std::numeric_limits<double>::epsilon() * impulse.norm();
@@ -80,7 +81,7 @@ CollisionResult collide(const PairContact& contact, const CollisionRule& rule, C
 
   push(first, impulse, hold_first);
   push(second, -impulse, hold_second);
-  if (contact.friction > 0) {
+  if (friction > 0) {
     // Both spins turn the same way: n×P is the same for P on the one side and −P on the other.
     turn(first, n.cross(impulse));
     turn(second, n.cross(impulse));

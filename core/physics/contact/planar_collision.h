@@ -31,8 +31,10 @@ inline PlanarImpulse planar_impulse(const PairContact& contact, double e, double
   PlanarImpulse impulse;
   impulse.normal = -mass * (1 + e) * u_n;
   impulse.dissipated = 0.5 * mass * (1 - e) * (1 + e) * u_n * u_n;
-  if (contact.friction == 0 || u_t == 0) return impulse;
-  const double cap = contact.friction * impulse.normal;
+  if (u_t == 0) return impulse;
+  const double friction = friction_at(contact.friction, std::abs(u_t));
+  if (friction == 0) return impulse;
+  const double cap = friction * impulse.normal;
   impulse.tangential =
       std::clamp(-kappa * mass * (1 + contact.tangential_restitution) * u_t, -cap, cap);
   impulse.dissipated -= impulse.tangential * (u_t + 0.5 * impulse.tangential / (kappa * mass));

@@ -217,7 +217,7 @@ BodyState DrivenPhase::at(double t) const {
     const Vector2 after =
         v + t * downhill_ + (relative + substrate - slip - substrate_ - t * downhill_) / (1 + A_);
     state.velocity = in_plane(after);
-    rolling = after - substrate - relative;
+    rolling = A_ > 0 ? Vector2(after - substrate - relative) : Vector2(Vector2::Zero());
   } else if (!is_parabola_) {
     state.velocity = in_plane(substrate + relative);
   }
@@ -235,7 +235,8 @@ BodyState DrivenPhase::at_end() const {
   if (!stops_) return state;
   const double spin = state.angular_velocity.z();
   const Vector2 substrate = substrate_velocity(duration_);
-  if (kind_ == Kind::rolling) state.velocity = in_plane(substrate);
+  const bool rolls_on = kind_ == Kind::sliding && A_ > 0;
+  if (!rolls_on) state.velocity = in_plane(substrate);
   state.angular_velocity = rolling_angular_velocity(state.velocity - in_plane(substrate), radius_);
   state.angular_velocity.z() = spin;
   return state;

@@ -26,7 +26,7 @@ void roll_without_slip(double radius, BodyState& state) {
 
 SubstratePhase::SubstratePhase(const Sphere& sphere, const SubstrateContact& contact,
                                double gravity, const BodyState& state, bool confined)
-    : start_(state), radius_(sphere.radius) {
+    : start_(state), radius_(sphere.radius), turns_(sphere.shape != Shape::block) {
   const bool above = state.position.z() > sphere.radius * (1 + 4 * kEpsilon);
   if (!confined && (above || state.velocity.z() > 0)) {
     kind_ = Kind::flying;
@@ -37,7 +37,7 @@ SubstratePhase::SubstratePhase(const Sphere& sphere, const SubstrateContact& con
   } else {
     start_.position.z() = sphere.radius;
     start_.velocity.z() = 0;
-    const Vector3 slip = slip_velocity(start_, sphere.radius);
+    const Vector3 slip = slip_velocity(start_, sphere);
     if (slip.norm() > slip_round_off(sphere, start_)) {
       start_sliding(sphere, contact, gravity, slip);
     } else if (start_.velocity.squaredNorm() > 0) {
@@ -135,6 +135,7 @@ BodyState SubstratePhase::at_end() const {
         state.position.z() = radius_;
         break;
       case Kind::sliding:
+        if (!turns_) state.velocity.setZero();
         roll_without_slip(radius_, state);
         break;
       case Kind::rolling:

@@ -54,6 +54,7 @@ class SubstratePhase {
   Kind kind_ = Kind::resting;
   BodyState start_;
   double radius_ = 0;
+  bool turns_ = true;  // a block does not
   double duration_ = 0;
   double motion_duration_ = 0;  // until the slip, the rolling piece or the flight ends
   double spin_duration_ = 0;    // until the drilling ends

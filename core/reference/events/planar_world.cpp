@@ -36,7 +36,7 @@ PlanarFeatures PlanarWorld::features(const Scene& scene) {
     return sphere.radius != scene.bodies.front().radius;
   });
   has.spin = has.box || std::ranges::any_of(scene.pairs, [](const PairContact& contact) {
-               return contact.friction != 0;
+               return has_friction(contact.friction);
              });
   return has;
 }

@@ -77,15 +77,15 @@ std::string SurfaceWorld::obstacle(const Scene& scene) {
     const Vector3& rate = surface.motion.rate();
     if (rate.isZero(0)) continue;
     const auto keeps = [&](const auto& shape) {
-      using Shape = std::decay_t<decltype(shape)>;
+      using Kind = std::decay_t<decltype(shape)>;
       const Vector3 axis = rate.normalized();
       const auto is_on_axis = [&](const Vector3& at) {
         return axis.cross(at - surface.motion.pivot()).norm() <= 1e-9 * at.norm();
       };
-      if constexpr (std::is_same_v<Shape, PlaneShape>) return true;  // about its normal
-      if constexpr (std::is_same_v<Shape, RodShape>)
+      if constexpr (std::is_same_v<Kind, PlaneShape>) return true;  // about its normal
+      if constexpr (std::is_same_v<Kind, RodShape>)
         return is_on_axis(shape.begin) && is_on_axis(shape.end);
-      if constexpr (std::is_same_v<Shape, BallShape>) return is_on_axis(shape.centre);
+      if constexpr (std::is_same_v<Kind, BallShape>) return is_on_axis(shape.centre);
       return false;
     };
     if (!std::visit(keeps, surface.shape)) return "a surface that turns out of its place";

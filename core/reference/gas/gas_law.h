@@ -22,9 +22,14 @@ struct GasLaw {
   std::optional<PairMap> map;  ///< in place of the hard rule
   double kappa = 2.0 / 7;      ///< tangential_mass_ratio() of the two [-]
 
-  bool rough() const { return map || (hard.friction > 0 && hard.tangential_restitution > -1); }
-  /// Whether e and β0 are numbers, so that the gas has no speed of its own.
-  bool constant() const { return !map && std::holds_alternative<double>(hard.restitution); }
+  bool rough() const {
+    return map || (has_friction(hard.friction) && hard.tangential_restitution > -1);
+  }
+  /// Whether e, β0 and μ are numbers, so that the gas has no speed of its own.
+  bool constant() const {
+    return !map && std::holds_alternative<double>(hard.restitution) &&
+           std::holds_alternative<double>(hard.friction);
+  }
   double largest_stick() const { return 0.5 * kappa * (1 + hard.tangential_restitution); }
 
   /// At the normal and tangential speeds of the contact point [m/s], >= 0. L's cap |P_t| <= μ P_n
@@ -36,7 +41,8 @@ struct GasLaw {
     }
     const double e = restitution_at(hard.restitution, u_n);
     if (!rough()) return {e, 0};
-    const double cap = 0.5 * hard.friction * (1 + e) * u_n, most = largest_stick();
+    const double cap = 0.5 * friction_at(hard.friction, u_t) * (1 + e) * u_n,
+                 most = largest_stick();
     return {e, cap < most * u_t ? cap / u_t : most};
   }
 };

@@ -104,8 +104,9 @@ class BounceOfLanes {
     const GasTag d;
     if constexpr (kConstant) {
       const double restitution = std::get<double>(law_.hard.restitution);
+      const double friction = std::get<double>(law_.hard.friction);
       e = hn::Set(d, restitution);
-      const GasVector cap = hn::Set(d, 0.5 * law_.hard.friction * (1 + restitution));
+      const GasVector cap = hn::Set(d, 0.5 * friction * (1 + restitution));
       const GasVector slow = hn::Set(d, 1e-300);
       stick =
           hn::Min(hn::Set(d, law_.largest_stick()), hn::Div(hn::Mul(cap, u_n), hn::Max(u_t, slow)));

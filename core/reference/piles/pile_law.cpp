@@ -93,7 +93,8 @@ PileLaw PileLaws::of_hard(const Hard& hard, const PairContact& contact, double m
   const double slides = kappa * mass, omega = hard.sticking.frequency;
   law.sliding.stiffness = omega * omega * slides;
   law.sliding.damping = 2 * hard.sticking.damping * omega * slides;
-  if (omega > 0) law.sliding.static_friction = law.sliding.kinetic_friction = contact.friction;
+  if (omega > 0)
+    law.sliding.static_friction = law.sliding.kinetic_friction = friction_at(contact.friction, 0);
   return law;
 }
 

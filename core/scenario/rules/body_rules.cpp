@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "scenario/presets.h"
 #include "scenario/record_keys.h"
 #include "scenario/rules/scene_rules.h"
 
@@ -41,17 +42,85 @@ Rule<WrittenSpin> spin_rule() {
         })}});
 }
 
-Rule<WrittenBody> body_rule() {
+/// Half of what stands there, for a diameter.
+template <class T>
+Rule<T> half(double T::*radius) {
+  const Rule<double> diameter = number(kLength, kPositive);
+  return {[=](const YamlNode& node, Reading& reading, T& target) {
+            if (!diameter.read(node, reading, target.*radius)) return false;
+            target.*radius /= 2;
+            return true;
+          },
+          diameter.schema};
+}
+
+Rule<Sphere> sphere_rule() {
   Record<Sphere> sphere;
-  sphere.key("radius", &Sphere::radius, number(kLength, kPositive), required, "R")
+  sphere.key("radius", &Sphere::radius, number(kLength, kPositive), optional, "R")
+      .whole("diameter", half(&Sphere::radius), optional, "2 R, in place of radius")
       .key("inertia", &Sphere::shape_factor, inertia_rule(), optional,
-           "solid, shell, disk, ring or the factor q in I = q m R²");
+           "solid, shell, disk, ring or the factor q in I = q m R²")
+      .whole("preset", preset_rule<Sphere>(PresetPart::sphere), optional,
+             "brings what does not stand here, and the body's mass")
+      .exactly_one_of({"radius", "diameter"}, or_preset);
+  return sphere.rule();
+}
+
+/// The centre of mass of a homogeneous block is half its height above the plane, and its moment of
+/// inertia about the vertical is m (x² + y²)/12.
+Rule<WrittenBody> block_rule() {
+  struct Block {
+    std::vector<double> size;
+  };
+  Record<Block> record;
+  record.key("size", &Block::size, numbers(kLength, kPositive, {3}), required,
+             "[x, y, z] lengths of its edges, z its height");
+  const Rule<Block> block = record.rule();
+  return {[block](const YamlNode& node, Reading& reading, WrittenBody& body) {
+            Block read;
+            if (!block.read(node, reading, read)) return false;
+            const Vector3 size(read.size[0], read.size[1], read.size[2]);
+            const double half_height = size.z() / 2;
+            body.sphere.radius = half_height;
+            body.sphere.shape_factor =
+                size.head<2>().squaredNorm() / (12 * half_height * half_height);
+            body.sphere.shape = Shape::block;
+            body.extent = Extent{size, Vector2::UnitX()};
+            return true;
+          },
+          block.schema};
+}
+
+Rule<WrittenBody> cylinder_rule() {
+  struct Cylinder {
+    double radius = 0, length = 0;
+  };
+  Record<Cylinder> record;
+  record.key("radius", &Cylinder::radius, number(kLength, kPositive), optional, "R")
+      .whole("diameter", half(&Cylinder::radius), optional, "2 R, in place of radius")
+      .key("length", &Cylinder::length, number(kLength, kPositive), required, "along its axis")
+      .exactly_one_of({"radius", "diameter"});
+  const Rule<Cylinder> cylinder = record.rule();
+  return {[cylinder](const YamlNode& node, Reading& reading, WrittenBody& body) {
+            Cylinder read;
+            if (!cylinder.read(node, reading, read)) return false;
+            body.sphere = {read.radius, 0, 1.0 / 2, Shape::cylinder};
+            body.extent = Extent{{read.length, 2 * read.radius, 2 * read.radius}, Vector2::UnitX()};
+            return true;
+          },
+          cylinder.schema};
+}
+
+Rule<WrittenBody> body_rule() {
   Record<WrittenBody> body;
   body.key("name", &WrittenBody::name, name_text(NameStyle::any_case), required,
            "unique in the scene")
       .key("material", &WrittenBody::material, name_text(NameStyle::any_case), required,
            "one of the materials")
-      .key("sphere", &WrittenBody::sphere, sphere.rule(), required, "its shape")
+      .key("sphere", &WrittenBody::sphere, sphere_rule(), optional, "its shape")
+      .whole("block", block_rule(), optional, "its shape: slides on a face; an extension")
+      .whole("cylinder", cylinder_rule(), optional,
+             "its shape: lies on its side and moves across its axis; an extension")
       .key("mass", &WrittenBody::mass, number(kMass, kPositive), optional,
            "in place of the material's density")
       .key("position", &WrittenBody::position, numbers(kLength, kAnyNumber, {2, 3}), required,
@@ -60,7 +129,12 @@ Rule<WrittenBody> body_rule() {
            "a surface: the position is moved along its normal until the body touches it")
       .key("velocity", &WrittenBody::velocity, numbers(kVelocity, kAnyNumber, {2, 3}), optional,
            "of the centre: [x, y], [x, y, z], or [x, z] in a container")
-      .key("spin", &WrittenBody::spin, spin_rule(), optional, "angular velocity");
+      .key("spin", &WrittenBody::spin, spin_rule(), optional, "angular velocity")
+      .key("cue", &WrittenBody::cue, cue_rule(), optional,
+           "in place of velocity and spin: what strikes a sphere at rest; an extension")
+      .exactly_one_of({"sphere", "block", "cylinder"})
+      .at_most_one_of({"cue", "velocity"})
+      .at_most_one_of({"cue", "spin"});
   return placed(body.rule());
 }
 

@@ -123,6 +123,18 @@ void check_memory(const WrittenContact& contact, const WrittenScene& written, Re
                      "must be none, viscous, spring or mindlin beside rolling");
 }
 
+void check_friction_law(const std::string& path, const FrictionLaw& friction, bool is_hard,
+                        Reading& reading) {
+  if (!is_hard && !std::holds_alternative<double>(friction))
+    reading.fault_at(path, "must be a number unless the normal model is hard");
+  const auto* table = std::get_if<TabulatedFriction>(&friction);
+  if (!table) return;
+  const auto& points = table->points();
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (points[i].speed <= points[i - 1].speed)
+      reading.fault_at(fmt::format("{}[{}][0]", path, i), "must be more than the speed before it");
+}
+
 void check_models(const WrittenContact& contact, const WrittenScene& written, Reading& reading) {
   const NormalModel& normal = contact.body.normal;
   const auto* hard = std::get_if<HardNormal>(&normal);
@@ -143,6 +155,8 @@ void check_models(const WrittenContact& contact, const WrittenScene& written, Re
     reading.fault_at(contact.path + ".tangential.damping_ratio",
                      "needs the normal model linear; give damping_rate");
   }
+  if (const auto* rubbing = std::get_if<HardTangential>(&contact.body.tangential))
+    check_friction_law(contact.path + ".tangential.friction", rubbing->friction, hard, reading);
   const TangentialModel& tangential = contact.body.tangential;
   if (hard && !std::holds_alternative<NoTangential>(tangential) &&
       !std::holds_alternative<HardTangential>(tangential)) {

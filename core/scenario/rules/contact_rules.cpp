@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "scenario/presets.h"
 #include "scenario/record_keys.h"
 #include "scenario/rules/scene_rules.h"
 
@@ -201,6 +202,44 @@ Rule<std::optional<RollingResistance>> rolling_resistance_rule() {
       rolling.rule(), [](const RollingResistance& each) { return std::optional(each); });
 }
 
+using SpeedTable = std::vector<std::pair<double, double>>;
+
+/// [[speed, coefficient], …]; that the speeds rise is checked later.
+Rule<SpeedTable> speed_table_rule() {
+  return made_from<SpeedTable>(
+      list(row({{kVelocity, kNotNegative}, {kPureNumber, kNotNegative}}), 1),
+      [](const std::vector<std::vector<double>>& points) {
+        SpeedTable table;
+        for (const auto& point : points) table.emplace_back(point[0], point[1]);
+        return table;
+      });
+}
+
+Rule<FrictionLaw> friction_law_rule() {
+  constexpr Dimension kPerVelocity{"inverse velocity", 0, -1, 1, 0, "s/m", "s/cm", "1.088 s/m"};
+  Record<ExponentialFriction> falling;
+  falling
+      .key("a", &ExponentialFriction::a, number(kPureNumber, kNotNegative), required,
+           "friction of fast slip")
+      .key("b", &ExponentialFriction::b, number(kPureNumber, kNotNegative), required,
+           "how much more there is without slip")
+      .key("c", &ExponentialFriction::c, number(kPerVelocity, kNotNegative), required,
+           "how steeply it falls");
+  const auto same = [](auto value) { return FrictionLaw(std::move(value)); };
+  return one_form_of<FrictionLaw>(
+      "must be a number, a table [[speed, coefficient], …] or {a: …, b: …, c: …}",
+      {{is_mapping, made_from<FrictionLaw>(falling.rule(), same)},
+       {[](const YamlNode& node) { return is_list(node); },
+        made_from<FrictionLaw>(speed_table_rule(),
+                               [](const SpeedTable& table) {
+                                 std::vector<TabulatedFriction::Point> points;
+                                 for (const auto& [speed, mu] : table)
+                                   points.push_back({speed, mu});
+                                 return FrictionLaw(TabulatedFriction(std::move(points)));
+                               })},
+       {is_scalar, made_from<FrictionLaw>(number(kPureNumber, kNotNegative), same)}});
+}
+
 Rule<TangentialModel> tangential_rule() {
   const Rule<double> friction = number(kPureNumber, kNotNegative);
   constexpr const char* kFrictionDoc = "Coulomb coefficient between the bodies";
@@ -244,7 +283,7 @@ Rule<TangentialModel> tangential_rule() {
       .exactly_one_of({"friction", "roughness_factor"});
 
   Record<HardTangential> hard;
-  hard.key("friction", &HardTangential::friction, friction, required, kFrictionDoc)
+  hard.key("friction", &HardTangential::friction, friction_law_rule(), required, kFrictionDoc)
       .key("tangential_restitution", &HardTangential::tangential_restitution,
            number(kPureNumber, {-1, {}, 1, {}}), optional, "β0, largest tangential restitution");
 
@@ -266,18 +305,9 @@ Rule<TangentialModel> tangential_rule() {
 using RollingTable = decltype(RollingLaw::table);
 
 Rule<RollingTable> rolling_table_rule() {
-  const auto rows = list(row({{kVelocity, kNotNegative}, {kPureNumber, kNotNegative}}), 1);
   return one_form_of<RollingTable>(
       "must be a number or a table [[speed, coefficient], …]",
-      {{[](const YamlNode& node) { return is_list(node); },
-        made_from<RollingTable>(rows,
-                                [](const std::vector<std::vector<double>>& points) {
-                                  RollingTable table;
-                                  for (const auto& point : points) {
-                                    table.emplace_back(point[0], point[1]);
-                                  }
-                                  return table;
-                                })},
+      {{[](const YamlNode& node) { return is_list(node); }, speed_table_rule()},
        {is_scalar, made_from<RollingTable>(number(kPureNumber, kNotNegative), [](double value) {
           return RollingTable{{0, value}};
         })}});
@@ -345,13 +375,15 @@ Rule<WrittenContact> contact_rule() {
   };
   Record<WrittenContact> body;
   body.key("between", &WrittenContact::between, between, required, "two materials")
-      .whole("normal", part(&WrittenContact::body, &BodyContact::normal, normal_rule()), required,
+      .whole("normal", part(&WrittenContact::body, &BodyContact::normal, normal_rule()), or_preset,
              "force along the line of centres")
       .whole("tangential", part(&WrittenContact::body, &BodyContact::tangential, tangential_rule()),
              optional, "force across it")
       .whole("rolling",
              part(&WrittenContact::body, &BodyContact::rolling, rolling_resistance_rule()),
-             optional, "torque against rolling on each other");
+             optional, "torque against rolling on each other")
+      .whole("preset", preset_rule<WrittenContact>(PresetPart::contact), optional,
+             "brings what does not stand here");
 
   constexpr auto kSide = &WrittenContact::substrate;
   Record<WrittenContact> substrate;
@@ -366,7 +398,9 @@ Rule<WrittenContact> contact_rule() {
              "friction against spin about the vertical")
       .whole("restitution",
              part(kSide, &MaterialOnSubstrate::restitution, number(kPureNumber, kFraction)),
-             optional, "for a body that comes down on it");
+             optional, "for a body that comes down on it")
+      .whole("preset", preset_rule<WrittenContact>(PresetPart::substrate), optional,
+             "brings what does not stand here");
 
   const auto body_rule = body.rule();
   const auto substrate_rule = substrate.rule();
@@ -390,6 +424,7 @@ Rule<WrittenContact> contact_rule() {
             const json named = {{"contains", {{"const", "substrate"}}}};
             json any = json::array();
             for (const char* key : kOfSurfaces) any.push_back({{"required", json::array({key})}});
+            any.push_back({{"required", json::array({"preset"})}});  // of either form
             const json of_surface = {
                 {"anyOf", any},
                 {"not",

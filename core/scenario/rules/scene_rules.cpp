@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "scenario/presets.h"
 #include "scenario/record_keys.h"
 
 namespace slipcheck {
@@ -20,7 +21,9 @@ Rule<Materials> materials_rule() {
       .key("poisson_ratio", &Material::poisson_ratio, number(kPureNumber, {{}, -1, 0.5, {}}),
            optional, "ν, where a model needs it")
       .key("dissipation_time", &Material::dissipation_time, number(kTime, kNotNegative), optional,
-           "A of B (23), for the restitution viscoelastic");
+           "A of B (23), for the restitution viscoelastic")
+      .whole("preset", preset_rule<Material>(PresetPart::material), optional,
+             "brings what does not stand here");
   const Rule<Material> material = record.rule();
   const Rule<std::string> name = name_text(NameStyle::any_case);
   return {[=](const YamlNode& node, Reading& reading, Materials& target) {

@@ -17,6 +17,8 @@ Rule<Container> container_rule();
 Rule<std::vector<WrittenSurface>> surfaces_rule();
 Rule<std::vector<std::variant<WrittenBody, Fill>>> bodies_rule();
 Rule<std::vector<Fill>> fill_rule();
+/// `cue` of a body.
+Rule<Cue> cue_rule();
 Rule<WrittenRun> run_rule();
 Rule<Compare> compare_rule();
 /// `tolerance` in `compare`, by what they judge.

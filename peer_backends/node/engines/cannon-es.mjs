@@ -11,8 +11,12 @@ import { lacks } from '../kit/lacks.mjs';
 import { surfaceMotion } from '../kit/motion.mjs';
 import { load, versionOf } from '../kit/packages.mjs';
 import { count, flag, number, search, word } from '../kit/settings.mjs';
+import { halfOf, inertiaOf, isBlock, isSphere, turnFromY, turnOf } from '../kit/solids.mjs';
 import { Touches } from '../kit/touches.mjs';
 import { Units, gravityOf, unitSettings } from '../kit/units.mjs';
+
+/// Of a cylinder, which is a prism here.
+const CYLINDER_FACES = 64;
 
 const PACKAGE = 'cannon-es';
 
@@ -49,6 +53,7 @@ class CannonEngine {
     this.cannon = cannon;
     this.version = version;
     this.precision = 'double';
+    this.takes = ['block', 'cylinder'];
     this.settings = SETTINGS;
   }
 
@@ -132,10 +137,13 @@ class CannonEngine {
 
   #addBall(i, [x, y, z, vx, vy, vz, wx, wy, wz]) {
     const { cannon, scene, chosen } = this;
-    const { radius, mass, shape_factor, material } = scene.bodies[i];
+    const own = scene.bodies[i];
+    const { mass, material } = own;
+    const [shape, turn] = this.#shapeOf(own);
     const body = new cannon.Body({
       mass,
-      shape: new cannon.Sphere(radius),
+      shape,
+      quaternion: new cannon.Quaternion(...turn),
       position: new cannon.Vec3(x, y, z),
       velocity: new cannon.Vec3(vx, vy, vz),
       angularVelocity: new cannon.Vec3(wx, wy, wz),
@@ -143,7 +151,7 @@ class CannonEngine {
       angularDamping: chosen.angular_damping,
       material: this.asTyped ? this.#typed(naiveBall(this.original, i)) : this.#material(material),
     });
-    if (!this.asTyped) setInertia(body, shape_factor * mass * radius * radius);
+    if (!this.asTyped || !isSphere(own)) setInertia(body, this.#inertia(own));
     if (scene.box) {
       body.linearFactor.set(1, 0, 1);
       body.angularFactor.set(0, 1, 0);
@@ -152,6 +160,21 @@ class CannonEngine {
     this.indexOf.set(body, i);
     if (!this.asTyped) this.#followLaws(body, i);
     return body;
+  }
+
+  /// A shape and how it is turned: a cylinder, of plane faces, lies along y here.
+  #shapeOf(body) {
+    const { cannon } = this;
+    if (isSphere(body)) return [new cannon.Sphere(body.radius), [0, 0, 0, 1]];
+    const [x, y, z] = halfOf(body);
+    if (isBlock(body)) return [new cannon.Box(new cannon.Vec3(x, y, z)), turnOf(body)];
+    return [new cannon.Cylinder(y, y, 2 * x, CYLINDER_FACES), turnFromY(body)];
+  }
+
+  /// About the axes of that shape.
+  #inertia(body) {
+    const [along, across, vertical] = inertiaOf(body);
+    return body.shape === 'cylinder' ? [across, along, vertical] : [along, across, vertical];
   }
 
   #typed({ friction, restitution }) {
@@ -298,7 +321,7 @@ function onSurface(scene, body, surface) {
 
 /// cannon takes a body's inertia to be that of the box around it.
 function setInertia(body, inertia) {
-  body.inertia.set(inertia, inertia, inertia);
-  body.invInertia.set(1 / inertia, 1 / inertia, 1 / inertia);
+  body.inertia.set(...inertia);
+  body.invInertia.set(...inertia.map((moment) => 1 / moment));
   body.updateInertiaWorld(true);
 }

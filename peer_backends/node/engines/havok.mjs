@@ -12,6 +12,7 @@ import { load, versionOf } from '../kit/packages.mjs';
 import { pairShapes, typedShapes } from '../kit/pair_shapes.mjs';
 import { flag, number, word } from '../kit/settings.mjs';
 import { rounded } from '../kit/text.mjs';
+import { halfOf, inertiaOf, isBlock, isSphere, turnOf } from '../kit/solids.mjs';
 import { Touches } from '../kit/touches.mjs';
 import { Units, gravityOf, unitSettings } from '../kit/units.mjs';
 
@@ -39,6 +40,7 @@ class HavokEngine {
     this.hp = havok;
     this.version = version;
     this.precision = 'single';
+    this.takes = ['block', 'cylinder'];
     this.hasSpeedLimit = Boolean(havok.HP_World_SetSpeedLimit);
     this.settings = this.#makeSettings();
   }
@@ -191,15 +193,17 @@ class HavokEngine {
 
   #addBall(i, state) {
     const { hp, chosen } = this;
-    const { radius, mass, shape_factor } = this.scene.bodies[i];
+    const body = this.scene.bodies[i];
+    const { mass } = body;
     const shapes = this.shapes
       .ofBall(i)
-      .map((contact) => this.#shape(hp.HP_Shape_CreateSphere([0, 0, 0], radius), contact));
+      .map((contact) => this.#shape(this.#created(body), contact));
     const ball = this.#body(shapes, hp.MotionType.DYNAMIC);
-    const inertia = shape_factor * radius * radius; // of a mass of 1
+    const inertia = inertiaOf({ ...body, mass: 1 }); // of a mass of 1
+    const turn = isSphere(body) ? NO_TURN : turnOf(body);
     done(
       hp,
-      hp.HP_Body_SetMassProperties(ball, [[0, 0, 0], mass, [inertia, inertia, inertia], NO_TURN]),
+      hp.HP_Body_SetMassProperties(ball, [[0, 0, 0], mass, inertia, turn]),
     );
     done(hp, hp.HP_Body_SetLinearDamping(ball, chosen.linear_damping));
     done(hp, hp.HP_Body_SetAngularDamping(ball, chosen.angular_damping));
@@ -211,6 +215,16 @@ class HavokEngine {
     if (!chosen.sleeping)
       done(hp, hp.HP_Body_SetActivationControl(ball, hp.ActivationControl.ALWAYS_ACTIVE));
     return ball;
+  }
+
+  /// Turned in its body, whose axes are the world's at the start.
+  #created(body) {
+    const { hp } = this;
+    if (isSphere(body)) return hp.HP_Shape_CreateSphere([0, 0, 0], body.radius);
+    if (isBlock(body)) return hp.HP_Shape_CreateBox([0, 0, 0], turnOf(body), body.size);
+    const [half, radius] = halfOf(body);
+    const [x, y] = body.axis.map((direction) => direction * half);
+    return hp.HP_Shape_CreateCylinder([-x, -y, 0], [x, y, 0], radius);
   }
 
   #shape(created, { friction, restitution, rule, member, filter }) {

@@ -30,6 +30,7 @@ class MujocoEngine {
     this.mujoco = mujoco;
     this.version = version;
     this.precision = 'double';
+    this.takes = ['block', 'cylinder'];
     this.settings = SETTINGS;
     this.force = new mujoco.DoubleBuffer(6);
   }

@@ -11,6 +11,7 @@ import { lacks } from '../kit/lacks.mjs';
 import { surfaceMotion } from '../kit/motion.mjs';
 import { pairShapes, typedShapes } from '../kit/pair_shapes.mjs';
 import { count, flag, number, search, word } from '../kit/settings.mjs';
+import { halfOf, inertiaOf, isSphere, turnOf } from '../kit/solids.mjs';
 import { Touches } from '../kit/touches.mjs';
 import { Units, gravityOf, unitSettings } from '../kit/units.mjs';
 
@@ -126,6 +127,7 @@ class PhysxEngine {
     this.px = physx;
     this.version = version;
     this.precision = 'single';
+    this.takes = ['block'];
     this.settings = SETTINGS;
     this.top = physx.PxTopLevelFunctions.prototype;
     const foundation = this.top.CreateFoundation(
@@ -260,16 +262,17 @@ class PhysxEngine {
 
   #addBall(i, state) {
     const { px, chosen, scene } = this;
-    const { radius, mass, shape_factor } = scene.bodies[i];
-    const ball = this.#withPose(state.slice(0, 3), [0, 0, 0, 1], (pose) =>
+    const body = scene.bodies[i];
+    const turn = isSphere(body) ? [0, 0, 0, 1] : turnOf(body);
+    const ball = this.#withPose(state.slice(0, 3), turn, (pose) =>
       this.physics.createRigidDynamic(pose),
     );
-    const geometry = new px.PxSphereGeometry(radius);
+    const geometry = isSphere(body) ? new px.PxSphereGeometry(body.radius)
+      : new px.PxBoxGeometry(...halfOf(body));
     this.#attach(ball, geometry, this.shapes.ofBall(i));
     px.destroy(geometry);
-    ball.setMass(mass);
-    const inertia = shape_factor * mass * radius * radius;
-    this.#give(ball, 'setMassSpaceInertiaTensor', [inertia, inertia, inertia]);
+    ball.setMass(body.mass);
+    this.#give(ball, 'setMassSpaceInertiaTensor', inertiaOf(body));
     this.#give(ball, 'setLinearVelocity', state.slice(3, 6));
     ball.setMaxAngularVelocity(Math.min(chosen.max_angular_velocity, LARGEST));
     this.#give(ball, 'setAngularVelocity', state.slice(6, 9));

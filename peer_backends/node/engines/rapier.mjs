@@ -13,6 +13,7 @@ import { lacks } from '../kit/lacks.mjs';
 import { surfaceMotion } from '../kit/motion.mjs';
 import { load, versionOf } from '../kit/packages.mjs';
 import { count, flag, number, search, word } from '../kit/settings.mjs';
+import { halfOf, isBlock, isSphere, turnFromY, turnOf } from '../kit/solids.mjs';
 import { Touches } from '../kit/touches.mjs';
 import { Units, gravityOf, unitSettings } from '../kit/units.mjs';
 
@@ -121,6 +122,7 @@ class RapierEngine {
     this.rapier = rapier;
     this.version = version;
     this.precision = 'single';
+    this.takes = ['block', 'cylinder'];
     this.parameters = parametersOf(rapier);
     const own = OWN_SETTINGS.map((row) => (row.name === 'contact_recycling' && !recycles(version)
       ? { ...row, shipped: false, candidates: [] } : row));
@@ -213,6 +215,7 @@ class RapierEngine {
   #addBall(i, [x, y, z, vx, vy, vz, wx, wy, wz]) {
     const { rapier, world, scene, chosen, contacts } = this;
     const { radius, mass, shape_factor, material } = scene.bodies[i];
+    const isRound = isSphere(scene.bodies[i]);
     const desc = rapier.RigidBodyDesc.dynamic()
       .setTranslation(x, y, z)
       .setLinvel(vx, vy, vz)
@@ -224,9 +227,9 @@ class RapierEngine {
     if (scene.box) desc.enabledTranslations(true, false, true).enabledRotations(false, true, false);
     const body = world.createRigidBody(desc);
     contacts.balls(i, material).forEach((contact, k) => {
-      const shape = this.#withContact(rapier.ColliderDesc.ball(radius), contact);
+      const shape = this.#withContact(this.#shapeOf(scene.bodies[i]), contact);
       if (k > 0) shape.setMass(0);
-      else if (shape_factor === 0.4) shape.setMass(mass);
+      else if (!isRound || shape_factor === 0.4) shape.setMass(mass);
       else {
         const inertia = shape_factor * mass * radius * radius;
         shape.setMassProperties(mass, vector([0, 0, 0]), vector([inertia, inertia, inertia]), NO_TURN);
@@ -235,6 +238,16 @@ class RapierEngine {
       this.bodyOf.set(world.createCollider(shape, body).handle, i);
     });
     return body;
+  }
+
+  /// Turned in its body, whose axes are the world's at the start.
+  #shapeOf(body) {
+    const { ColliderDesc: desc } = this.rapier;
+    if (isSphere(body)) return desc.ball(body.radius);
+    const [x, y, z] = halfOf(body);
+    const turned = (shape, [qx, qy, qz, qw]) => shape.setRotation({ x: qx, y: qy, z: qz, w: qw });
+    return isBlock(body) ? turned(desc.cuboid(x, y, z), turnOf(body))
+      : turned(desc.cylinder(x, y), turnFromY(body));
   }
 
   #addSurfaces() {

@@ -57,7 +57,10 @@ export class Units {
     const { box } = scene;
     return {
       ...scene,
-      bodies: scene.bodies.map((body) => ({ ...body, radius: body.radius * length, mass: body.mass * mass })),
+      bodies: scene.bodies.map((body) => ({
+        ...body, radius: body.radius * length, mass: body.mass * mass,
+        ...(body.size && { size: body.size.map((edge) => edge * length) }),
+      })),
       initial: scene.initial.map((value, k) => value * factors[k % 9]),
       substrate: scene.substrate.map((ground) => ({
         ...ground,

@@ -20,6 +20,9 @@ function profile(name) {
   }));
 }
 
+/// What the engine says that it can be given.
+const TAKES = replies([{ type: 'hello', protocol: 5 }]).found[0].takes;
+
 const sceneFor = ({ radius, friction, restitution, pair, states }) =>
   sceneOf(states.map(() => ball(radius)), states, { friction, restitution },
     pair === undefined ? undefined : { restitution: pair });
@@ -157,4 +160,22 @@ test('the states of a start are those of packed bytes', () => {
     { type: 'step', count: 1 }]);
   const states = found.at(-1).states;
   assert.deepEqual([0, 8, 16].map((at) => states.readDoubleLE(at)), [0.5, 0.25, 2]);
+});
+
+/// 2 s at 1 kHz of a block that is pushed with 2 m/s where friction is 0.3.
+function pushedBlock() {
+  const block = { radius: 0.025, mass: 0.7, shape_factor: 1, material: 0, shape: 'block',
+    size: [0.2, 0.1, 0.05], axis: [1, 0] };
+  const scene = sceneOf([block], [[0, 0, 0.025, 2, 0, 0, 0, 0, 0]], { friction: 0.3 });
+  return framesOf(scene, profile('physical'), 0.001, 2000).at(-1).states;
+}
+
+/// Cannon-es lets each of a block's points of contact brake with the friction of the whole weight.
+const BRAKES_OF_A_BLOCK = { 'cannon-es': 4 };
+
+test('a block stops after v²/(2 μ g), if the engine takes one', { skip: TAKES.includes('block') ? false : 'it takes none' }, () => {
+  const [x, , , vx] = pushedBlock();
+  const way = 4 / (2 * 0.3 * 9.81) / (BRAKES_OF_A_BLOCK[engine] ?? 1);
+  assert.ok(Math.abs(x / way - 1) < 0.02, `${x} m for ${way} m`);
+  assert.ok(Math.abs(vx) < 0.01, `${vx} m/s`);
 });

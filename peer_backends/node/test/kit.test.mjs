@@ -11,6 +11,7 @@ import { lacks } from '../kit/lacks.mjs';
 import { substrateMotion } from '../kit/motion.mjs';
 import { readScene } from '../kit/packing.mjs';
 import { count, flag, number, refuseBadSettings, word } from '../kit/settings.mjs';
+import { inertiaOf, turnFromY, turnFromZ, turnOf } from '../kit/solids.mjs';
 import { exactText, rounded } from '../kit/text.mjs';
 import { Units } from '../kit/units.mjs';
 import { ball, codec, packed, replies, sceneOf } from './support.mjs';
@@ -221,4 +222,33 @@ test('a start needs as many states as bodies', () => {
   const { found } = replies([{ type: 'configure', scene: scene(), settings: {}, time_step: 0.01 },
     { type: 'start', states: packed([[0, 0, 0.1, 0, 0, 0, 0, 0, 0]]), time: 0 }]);
   assert.deepEqual([found[1].type, found[1].reason], ['failed', 'wrong number of states']);
+});
+
+/// v turned by a quaternion [x, y, z, w].
+function turned([x, y, z, w], v) {
+  const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const t = cross([x, y, z], v).map((value) => 2 * value);
+  const u = cross([x, y, z], t);
+  return v.map((value, k) => value + w * t[k] + u[k]);
+}
+
+test("a body's first axis comes to lie along its axis, whatever axis an engine lays a cylinder along", () => {
+  const body = { axis: [0.6, 0.8] };
+  for (const [turn, from] of [[turnOf, [1, 0, 0]], [turnFromY, [0, 1, 0]], [turnFromZ, [0, 0, 1]]])
+    turned(turn(body), from).forEach((value, k) =>
+      assert.ok(Math.abs(value - [0.6, 0.8, 0][k]) < 1e-15, turn.name));
+});
+
+test('moments of inertia are those of a sphere, a block and a cylinder', () => {
+  assert.deepEqual(inertiaOf({ mass: 2, radius: 3, shape_factor: 0.4 }), Array(3).fill(0.4 * 2 * 3 * 3));
+  const near = (found, expected) => found.forEach((value, k) => assert.ok(Math.abs(value / expected[k] - 1) < 1e-15));
+  near(inertiaOf({ shape: 'block', mass: 12, size: [1, 2, 3] }), [4 + 9, 1 + 9, 1 + 4]);
+  near(inertiaOf({ shape: 'cylinder', mass: 12, radius: 2, shape_factor: 0.5, size: [6, 4, 4] }),
+    [24, 12 * (1 + 3), 12 * (1 + 3)]); // m R²/2, m (R²/4 + L²/12)
+});
+
+test('units count the edges of bodies too', () => {
+  const block = { ...ball(0.1), shape: 'block', size: [0.2, 0.3, 0.2], axis: [1, 0] };
+  const units = new Units({ ...scene(), bodies: [block] }, { scale_radius_to: 1, scale_mass_to: 0, scale_gravity_to: 0 });
+  assert.deepEqual(units.scene({ ...readScene({ ...scene(), bodies: [block, block] }) }).bodies[0].size, [2, 3, 2]);
 });

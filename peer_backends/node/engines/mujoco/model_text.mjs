@@ -12,6 +12,7 @@ import {
 } from '../../kit/contacts.mjs';
 import { Refused } from '../../kit/faults.mjs';
 import { surfaceMotion } from '../../kit/motion.mjs';
+import { halfOf, inertiaOf, isBlock, isSphere, turnFromZ, turnOf } from '../../kit/solids.mjs';
 import { gravityOf } from '../../kit/units.mjs';
 
 const MOST_PAIRS = 50_000;
@@ -115,14 +116,14 @@ export class ModelText {
   }
 
   #ball(i) {
-    const { radius, mass, shape_factor } = this.scene.bodies[i];
-    const inertia = shape_factor * mass * radius * radius;
+    const body = this.scene.bodies[i];
     const joints = this.scene.box
       ? '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/><joint type="hinge" axis="0 1 0"/>'
       : '<freejoint/>';
     return (
-      `<body>${joints}<inertial pos="0 0 0" mass="${mass}" diaginertia="${inertia} ${inertia} ${inertia}"/>` +
-      `<geom name="ball${i}" type="sphere" size="${radius}" ${this.#ballContact(i)}/></body>`
+      `<body>${joints}<inertial pos="0 0 0" mass="${body.mass}" ${turned(body, turnOf)}` +
+      `diaginertia="${text(inertiaOf(body))}"/>` +
+      `<geom name="ball${i}" ${geomOf(body)} ${this.#ballContact(i)}/></body>`
     );
   }
 
@@ -182,4 +183,18 @@ export class ModelText {
       `solref="${text(solref)}" solreffriction="${text(solreffriction)}" ${this.#common(1)}/>`
     );
   }
+}
+
+/// Turned in its body, whose axes are the world's at the start. MuJoCo's quaternions begin with w.
+function turned(body, turn) {
+  if (isSphere(body)) return '';
+  const [x, y, z, w] = turn(body);
+  return `quat="${text([w, x, y, z])}" `;
+}
+
+function geomOf(body) {
+  if (isSphere(body)) return `type="sphere" size="${body.radius}"`;
+  const half = halfOf(body);
+  return isBlock(body) ? `type="box" size="${text(half)}" ${turned(body, turnOf)}`
+    : `type="cylinder" size="${text([half[1], half[0]])}" ${turned(body, turnFromZ)}`;
 }
