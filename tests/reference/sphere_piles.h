@@ -46,7 +46,7 @@ inline std::vector<ConeContact> contacts_of(const Scene& scene) {
       const Vector3& b = scene.initial[j].position;
       if ((a - b).norm() > 2 * R * (1 + 1e-9)) continue;
       found.push_back({static_cast<int>(i), static_cast<int>(j), 0.5 * (a + b),
-                       (a - b).normalized(), scene.between(i, j).friction});
+                       (a - b).normalized(), friction_at(scene.between(i, j).friction, 0)});
     }
   }
   return found;
