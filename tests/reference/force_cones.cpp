@@ -1,7 +1,6 @@
 #include "force_cones.h"
 
 #include <glpk.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
@@ -9,7 +8,7 @@
 namespace slipcheck::test {
 namespace {
 
-constexpr int kSides = 48;
+constexpr int kSides = 24;
 
 /// What one unknown adds to the balance of forces and torques of two spheres.
 struct Column {
@@ -49,19 +48,11 @@ bool can_stand(std::span<const Vector3> centres, std::span<const double> weights
     const double load = vertical ? weights[static_cast<std::size_t>((row - 1) / 6)] : 0;
     glp_set_row_bnds(lp, row, GLP_FX, load, load);
   }
-  // All caps may be exceeded by one amount, of which as little as possible is asked.
-  glp_set_obj_dir(lp, GLP_MIN);
-  const int excess = glp_add_cols(lp, 1);
-  glp_set_col_bnds(lp, excess, GLP_LO, 0, 0);
-  glp_set_obj_coef(lp, excess, 1);
-  Column of_caps;
-  for (int c = 0; c < caps; ++c) of_caps.add(balances + c + 1, -1);
-  glp_set_mat_col(lp, excess, caps, of_caps.row.data(), of_caps.value.data());
   const double wide = pyramid == Pyramid::outside ? 1 / std::cos(std::numbers::pi / kSides) : 1;
   for (int c = 0; c < caps; ++c) {
     const ConeContact& contact = contacts[static_cast<std::size_t>(c)];
     const int cap = balances + c + 1;
-    glp_set_row_bnds(lp, cap, GLP_UP, 0, 0);  // Σ λ − μ N − excess <= 0
+    glp_set_row_bnds(lp, cap, GLP_UP, 0, 0);  // Σ λ − μ N <= 0
     const auto add = [&](const Vector3& push, double in_cap) {
       Column column;
       column.add(centres, contact, push);
@@ -81,12 +72,8 @@ bool can_stand(std::span<const Vector3> centres, std::span<const double> weights
   glp_smcp how;
   glp_init_smcp(&how);
   how.presolve = GLP_ON;
-  how.tm_lim = 60'000;  // [ms]
   how.msg_lev = GLP_MSG_OFF;
-  const bool solved = glp_simplex(lp, &how) == 0 && glp_get_status(lp) == GLP_OPT;
-  EXPECT_TRUE(solved);
-  constexpr double kNone = 1e-8;  // of a weight: what the simplex method takes for nothing
-  const bool stands = solved && glp_get_obj_val(lp) < kNone;
+  const bool stands = glp_simplex(lp, &how) == 0 && glp_get_status(lp) == GLP_OPT;
   glp_delete_prob(lp);
   return stands;
 }

@@ -49,7 +49,7 @@ double least_friction(Make make, test::Pyramid pyramid) {
 /// The solver's limit within 1 % of the programme's.
 template <class Make>
 void expect_limit(Make make) {
-  // The pyramids' own difference is 1/cos(π/48) − 1 = 0.2 % of each cone.
+  // The pyramids' own difference is 1/cos(π/24) − 1 = 0.9 % of each cone.
   const double inside = least_friction(make, test::Pyramid::inside);
   const double outside = least_friction(make, test::Pyramid::outside);
   EXPECT_TRUE(stands(make(1.01 * inside))) << inside;
@@ -66,7 +66,7 @@ TEST(PileStatics, TheProgrammeKnowsTheClosedFormOfFourSpheres) {
   // The force lies along an edge of the pyramid inside.
   EXPECT_NEAR(least_friction(between, test::Pyramid::inside), tan_half, 1e-6);
   EXPECT_NEAR(least_friction(on_ground, test::Pyramid::inside), tan_half / 4, 1e-6);
-  EXPECT_NEAR(least_friction(between, test::Pyramid::outside), tan_half, 3e-3 * tan_half);
+  EXPECT_NEAR(least_friction(between, test::Pyramid::outside), tan_half, 9e-3 * tan_half);
   EXPECT_LT(least_friction(between, test::Pyramid::outside), tan_half);
 }
 

@@ -219,7 +219,7 @@ class PileSolver::Impl {
 
   /// Puts the weights on slowly; says why that fails, or nothing.
   std::string prepare() {
-    constexpr double kLeft = 1e-6;  // of gravity
+    constexpr double kLeft = 1e-8;  // of gravity
     const std::vector<bool> carried = carried_bodies(scene_->hard, world_.bodies);
     if (std::ranges::none_of(carried, [](bool each) { return each; })) return {};
     is_prepared_ = true;
@@ -272,6 +272,7 @@ class PileSolver::Impl {
   bool has_ended(const RunEnd& end, FrameSink* sink) {
     loop_->find_forces(world_);
     if (!initial_energy_) {
+      world_.ledger = {};  // what touches from the start came with its energy
       initial_energy_ = energy();
       initial_elastic_ = loop_->elastic_energy();
     }

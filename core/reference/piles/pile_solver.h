@@ -29,7 +29,7 @@ struct PileSettings {
 ///
 /// A scene in which everything is at rest at the start, on still surfaces under gravity, is
 /// prepared: gravity grows from nothing over 200 collisions, while all motion is damped at a fifth
-/// of a collision's rate, with all springs and caps at work, and then stays until 1e-6 of it is
+/// of a collision's rate, with all springs and caps at work, and then stays until 1e-8 of it is
 /// left as acceleration, 3000 collisions are over or a body has moved by 1e-2 of its radius.
 /// Contacts that slide meanwhile are associated (PileLoop), so that an equilibrium is found
 /// whenever the caps, less 0.2 %, allow one; which of many the contacts' stiffnesses tell. The run
