@@ -46,7 +46,8 @@ TEST_P(BundledScene, ReachesItsEndWithoutAFailureAndItsEnergyBalances) {
   EXPECT_TRUE(result.run.reached) << result.run.reason;
   EXPECT_FALSE(result.run.failed);
   if (result.run.balance) {
-    EXPECT_LT(std::abs(result.run.balance->error()), 1e-10);
+    // Steps of second order leave (π/200)², 200 in a contact.
+    EXPECT_LT(std::abs(result.run.balance->error()), solver.is_piled() ? 2.5e-4 : 1e-10);
   } else {
     EXPECT_TRUE(solver.is_exact() || solver.is_stepped());
   }
