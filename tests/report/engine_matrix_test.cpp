@@ -84,8 +84,8 @@ TEST(EngineMatrix, SentencesComeFromItsNumbers) {
       "Worst: b 3.24 default 240 Hz is within all tolerances in 0 of the 2 scenes that it runs");
   EXPECT_EQ(
       findings[2],
-      "a 3.24 at 240 Hz: `physical` brings 1 scene within their tolerances that `default` is not "
-      "within, and loses 0");
+      "a 3.24 at 240 Hz: physical brings 1 scene within tolerances that default is not within, and "
+      "loses 0");
 }
 
 TEST(EngineMatrix, LeavesOutWhatIsExpectedAndWhatIsRare) {

@@ -144,10 +144,13 @@ std::vector<std::string> cures(const EngineMatrix& matrix) {
         spoilt += was && !is ? 1 : 0;
       }
       if (cured + spoilt > 0)
-        sentences.push_back(fmt::format(
-            "{} {} at {:g} Hz: `physical` brings {} within their tolerances that `default` is not "
-            "within, and loses {}",
-            other.engine, other.version, other.rate, counted(cured, "scene"), spoilt));
+        sentences.push_back(
+            fmt::format("{} {}{}{} at {:g} Hz: physical brings {} within tolerances that default "
+                        "is not within, "
+                        "and loses {}",
+                        other.engine, other.version, matrix.has_both_precisions() ? " " : "",
+                        matrix.has_both_precisions() ? other.precision : "", other.rate,
+                        counted(cured, "scene"), spoilt));
     }
   return sentences;
 }
