@@ -64,6 +64,8 @@ Applied RemoteEngine::configure(const EngineScene& scene, const Settings& settin
     if (!takes(shape))
       throw Refused(fmt::format("{}: it takes spheres alone here, and the scene has a {}",
                                 info_.engine, shape));
+  if ((!scene.surfaces.empty() || !scene.has_substrate) && !takes(scene_part::kSurfaces))
+    throw Refused(fmt::format("{}: it knows no surfaces beside the substrate here", info_.engine));
   const bool simpler = needs_of(scene, time_step).friction_law && !takes(scene_part::kFrictionLaw);
   EngineScene given = scene;
   if (simpler) static_cast<Scene&>(given) = with_friction_numbers(std::move(given));

@@ -49,6 +49,7 @@ namespace scene_part {
 inline constexpr const char* kFrictionLaw = "friction_law";  ///< of pairs, over the speed of slip
 inline constexpr const char* kBlock = "block";
 inline constexpr const char* kCylinder = "cylinder";
+inline constexpr const char* kSurfaces = "surfaces";  ///< beside the substrate, or without one
 }  // namespace scene_part
 
 /// What of a scene an engine cannot express, in words that are the same for all engines, so that
