@@ -46,8 +46,8 @@ TEST_P(BundledScene, ReachesItsEndWithoutAFailureAndItsEnergyBalances) {
   EXPECT_TRUE(result.run.reached) << result.run.reason;
   EXPECT_FALSE(result.run.failed);
   if (result.run.balance) {
-    // Steps of second order leave (π/200)², 200 in a contact.
-    EXPECT_LT(std::abs(result.run.balance->error()), solver.is_piled() ? 2.5e-4 : 1e-10);
+    // Steps of second order leave (π/40)², 40 in a contact.
+    EXPECT_LT(std::abs(result.run.balance->error()), solver.is_piled() ? 6e-3 : 1e-10);
   } else {
     EXPECT_TRUE(solver.is_exact() || solver.is_stepped());
   }
@@ -55,7 +55,8 @@ TEST_P(BundledScene, ReachesItsEndWithoutAFailureAndItsEnergyBalances) {
   // collapse, which hard balls in a row run into: no failure of the solver.
   for (const std::string& warning : result.warnings) {
     const bool valid = warning.starts_with(GetParam().string());
-    EXPECT_TRUE(valid || warning.starts_with("inelastic collapse")) << warning;
+    const bool lasts = solver.is_piled() && warning.starts_with("bodies stay in contact");
+    EXPECT_TRUE(valid || lasts || warning.starts_with("inelastic collapse")) << warning;
   }
   // Closed forms are of exact phases: rounding alone, amplified by the differences in them.
   for (const auto& [name, value] : result.closed_form)
@@ -77,6 +78,7 @@ TEST_P(BundledScene, K18RollingVelocityFollowsFromTheEndOfTheCollision) {
   const Scenario scenario = load_scenario(GetParam());
   if (has_more_than_k18(make_contact_scene(scenario).hard)) return;
   const Played played = play(scenario);
+  if (ReferenceSolver(played.scene, scenario.compare.reference).is_piled()) return;
   // Of one collision each: later ones can be too weak for the observer to count.
   if (played.run.collisions > 1) return;
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {

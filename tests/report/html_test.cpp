@@ -216,7 +216,7 @@ run: {until: rest}
                                   "ball.yaml");
   scene.scene = solved_scene(scene.scenario);
   const std::string html = page_of({scene});
-  EXPECT_TRUE(contains(html, "<summary>Left out: 10 of 12 features</summary>"));
+  EXPECT_TRUE(contains(html, "<summary>Left out: 11 of 13 features</summary>"));
   EXPECT_TRUE(contains(html, "collisions of two bodies: one body; "));
   EXPECT_FALSE(contains(html, "rolling friction: "));
 }

@@ -91,10 +91,7 @@ void read_states(const JsonNode& node, RecordedMotion& motion, Vector3 BodyState
   }
 }
 
-
-constexpr std::size_t kMostSurfaces = 1'000'000;
-
-RecordedMotion read_motion(const JsonNode& node, std::size_t bodies) {
+RecordedMotion read_motion(const JsonNode& node, std::size_t bodies, int lowest) {
   RecordedMotion motion;
   motion.role = node["role"].text();
   motion.phase = node["phase"].count(1'000'000'000);
@@ -118,8 +115,7 @@ RecordedMotion read_motion(const JsonNode& node, std::size_t bodies) {
   for (const JsonNode& touch : node["touches"].items()) {
     const std::vector<JsonNode> parts = touch.items(3);
     motion.frames[parts[0].count(times.size() - 1)].touches.emplace_back(
-        integer(parts[1], 0, bodies - 1),
-        integer(parts[2], surface_touch(kMostSurfaces), bodies - 1));
+        integer(parts[1], 0, bodies - 1), integer(parts[2], lowest, bodies - 1));
   }
   return motion;
 }
@@ -177,12 +173,14 @@ void read_motions(const JsonNode& file, SceneRecord& scene) {
   const std::vector<JsonNode> names = file["bodies"].items(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) expect(names[i], valid_utf8(bodies[i].name));
 
+  const std::size_t surfaces = scene.scenario.surfaces.size();
+  const int lowest = surfaces == 0 ? kSubstrate : surface_touch(surfaces - 1);
   std::optional<RecordedMotion> reference;
-  if (file.has("reference")) reference = read_motion(file["reference"], bodies.size());
+  if (file.has("reference")) reference = read_motion(file["reference"], bodies.size(), lowest);
   std::vector<EngineRecord> runs = scene.runs;
   for (EngineRecord& run : runs) run.motions.clear();
   for (const JsonNode& node : file["runs"].items()) {
-    RecordedMotion motion = read_motion(node, bodies.size());
+    RecordedMotion motion = read_motion(node, bodies.size(), lowest);
     run_of(node, motion.role, runs).motions.push_back(std::move(motion));
   }
   scene.reference.motion = std::move(reference);

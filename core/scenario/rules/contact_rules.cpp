@@ -424,7 +424,10 @@ Rule<WrittenContact> contact_rule() {
             const json named = {{"contains", {{"const", "substrate"}}}};
             json any = json::array();
             for (const char* key : kOfSurfaces) any.push_back({{"required", json::array({key})}});
-            any.push_back({{"required", json::array({"preset"})}});  // of either form
+            any.push_back(
+                {{"required", json::array({"preset"})},
+                 {"properties",
+                  {{"preset", preset_rule<WrittenContact>(PresetPart::substrate).schema()}}}});
             const json of_surface = {
                 {"anyOf", any},
                 {"not",
