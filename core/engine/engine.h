@@ -61,7 +61,13 @@ struct EngineInfo {
   std::string version;                ///< "3.24"
   std::string precision;              ///< "single" or "double"
   std::vector<SettingInfo> settings;  ///< in an order that puts what belongs together side by side
+  /// What of a scene it knows beside spheres on a plane or in a box: kKnowsSurfaces. Scenes with
+  /// other things are kept from it, as it would pass over them.
+  std::vector<std::string> knows = {};
 };
+
+/// Surfaces beside the substrate, or none below; which kinds it can do a configure tells.
+inline constexpr const char* kKnowsSurfaces = "surfaces";
 
 /// The engine cannot run this scene with these settings; the message is the reason.
 class Refused : public std::runtime_error {

@@ -25,6 +25,13 @@ std::size_t steps_at_once(std::size_t bodies) {
   return std::max<std::size_t>(1, kReplySize / frame);
 }
 
+/// Throws Refused for what an engine would pass over.
+void refuse_unknown(const Scene& scene, const EngineInfo& info) {
+  const bool knows = std::ranges::find(info.knows, kKnowsSurfaces) != info.knows.end();
+  if (!knows && (!scene.surfaces.empty() || !scene.has_substrate))
+    throw Refused(fmt::format("{}: its adapter knows no surfaces but the substrate", info.engine));
+}
+
 }  // namespace
 
 RemoteEngine::RemoteEngine(const WorkerCommand& command, const WorkerLimits& limits,
@@ -58,9 +65,11 @@ Expected RemoteEngine::ask(const protocol::Request& request) {
 
 Applied RemoteEngine::configure(const EngineScene& scene, const Settings& settings,
                                 double time_step) {
+  refuse_unknown(scene, info_);
   deadline_ = Clock::time_point::max();
   auto reply = ask<protocol::Configured>(protocol::Configure{scene, settings, time_step});
   bodies_ = scene.bodies.size();
+  surfaces_ = scene.surfaces.size();
   return std::move(reply.applied);
 }
 
@@ -93,6 +102,12 @@ double RemoteEngine::advance(std::size_t steps, const std::function<void(const F
     if (static_cast<std::size_t>(ends) != count || reply.frames.front().bodies.size() != bodies_) {
       process_.fail(Status::crashed, "spoke rubbish: not the frames asked for");
     }
+    for (const Frame& frame : reply.frames)
+      for (const Touch& touch : frame.touches)
+        if (touch.second < kSubstrate && touched_surface(touch.second) >= surfaces_)
+          process_.fail(Status::crashed,
+                        fmt::format("spoke rubbish: a touch of the surface {} of {}",
+                                    touched_surface(touch.second), surfaces_));
     cpu_seconds += reply.cpu_seconds;
     for (const Frame& frame : reply.frames) callback(frame);
     steps -= count;
