@@ -25,7 +25,7 @@ void refuse_beyond_reach(const Scene& scene, const BulletSettings& settings, dou
 class BulletEngine final : public Engine {
  public:
   EngineInfo info() const override {
-    return {"bullet", bullet_version(), bullet_precision(), setting_table()};
+    return {"bullet", bullet_version(), bullet_precision(), setting_table(), {kKnowsSurfaces}};
   }
 
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
