@@ -45,8 +45,8 @@ export class Worker {
   }
 
   #hello() {
-    const { version, precision, settings } = this.engine;
-    return { type: 'welcome', protocol: PROTOCOL, engine: this.name, version, precision, settings };
+    const { version, precision, settings, knows = [] } = this.engine;
+    return { type: 'welcome', protocol: PROTOCOL, engine: this.name, version, precision, settings, knows };
   }
 
   #configure(request) {
