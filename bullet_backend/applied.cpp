@@ -62,6 +62,39 @@ void gather_substrate(GatheredSettings& out, const ByIndex& objects, const Scene
 }
 
 /// One body for each material.
+void gather_surfaces(GatheredSettings& out, const ByIndex& objects, const Scene& scene,
+                     const BulletSettings& settings) {
+  std::set<std::size_t> seen;  // materials
+  const bool by_slip = settings.coefficients == CoefficientMap::pair_and_slip;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!seen.insert(scene.material[i]).second) continue;
+    const btCollisionObject* ball = objects.at(static_cast<int>(i));
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+      const btCollisionObject* surface = objects.at(surface_touch(k));
+      const SurfaceContact& contact = scene.on_surface(i, k);
+      const std::string whose = fmt::format("{}-{}", i, k);
+      const auto add = [&](const char* name, bool told, const char* how, auto callback) {
+        out.add(name, whose, told ? Setting(how) : Setting(number(callback(ball, surface))));
+      };
+      const RollingFriction& rolling = contact.lasting.rolling;
+      const bool sticks_alike = contact.lasting.static_friction == contact.lasting.kinetic_friction;
+      const bool fields = settings.coefficients == CoefficientMap::fields;
+      add("surface_friction", by_slip && !sticks_alike, kBySlip,
+          gCalculateCombinedFrictionCallback);
+      add("surface_restitution",
+          !fields && !std::holds_alternative<double>(contact.impact.restitution), kBySpeed,
+          gCalculateCombinedRestitutionCallback);
+      const bool rolls_by_speed = !fields && !rolling.is_constant();
+      const bool rolls_by_slip =
+          by_slip && !rolling.is_zero() && !contact.lasting.rolling_while_sliding;
+      add("surface_rolling_friction", rolls_by_speed || rolls_by_slip,
+          rolls_by_speed ? kBySpeed : kBySlip, gCalculateCombinedRollingFrictionCallback);
+      add("surface_spinning_friction", false, kBySlip, gCalculateCombinedSpinningFrictionCallback);
+    }
+  }
+}
+
+/// One body for each material.
 void gather_box(GatheredSettings& out, const ByIndex& objects, const Scene& scene,
                 const BulletSettings& settings) {
   const Box& box = *scene.box;
@@ -174,7 +207,8 @@ Settings applied_settings(btDiscreteDynamicsWorld& world, const Scene& scene,
     applied["walls_move"] = !scene.box->floor.is_still() && scene.box->moving_walls;
     gather_box(by_contact, objects, scene, settings);
   } else {
-    gather_substrate(by_contact, objects, scene, settings);
+    if (scene.has_substrate) gather_substrate(by_contact, objects, scene, settings);
+    gather_surfaces(by_contact, objects, scene, settings);
   }
   gather_thresholds(by_contact, objects, scene);
   gather_pairs(by_contact, objects, scene, settings);

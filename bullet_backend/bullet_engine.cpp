@@ -30,7 +30,8 @@ class BulletEngine final : public Engine {
             bullet_version(),
             bullet_precision(),
             setting_table(),
-            {scene_part::kFrictionLaw, scene_part::kBlock, scene_part::kCylinder}};
+            {scene_part::kFrictionLaw, scene_part::kBlock, scene_part::kCylinder,
+             scene_part::kSurfaces}};
   }
 
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {

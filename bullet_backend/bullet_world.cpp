@@ -71,8 +71,9 @@ struct BulletWorld::Parts {
         dynamics(settings, margin_scale(scene), leaves),
         surfaces(dynamics.world(), scene, units, settings),
         balls(make_balls(dynamics.world(), scene, to_world(states, units), units.turn, settings)) {
-    dynamics.world().setGravity(
-        to_bullet(units.turn * Vector3(scene.downhill.x(), scene.downhill.y(), -scene.gravity)));
+    const Vector3 gravity = units.turn * scene.gravity_vector();
+    dynamics.world().setGravity(to_bullet(gravity));
+    coefficients.set_gravity(gravity);
     if (settings.splits_at_contacts > 0)
       next_contact.emplace(*balls, surfaces, scene, units, touching_gap(scene, settings));
   }
@@ -97,7 +98,7 @@ struct BulletWorld::Parts {
     frame.bodies.clear();
     for (std::size_t i = 0; i < balls->count(); ++i)
       frame.bodies.push_back(units.from_world(balls->state(i)));
-    find_touches(dynamics.dispatcher(), frame.touches);
+    find_touches(dynamics.dispatcher(), scene.box.has_value(), frame.touches);
     for (Touch& touch : frame.touches) touch.normal_impulse /= units.impulse();
   }
 

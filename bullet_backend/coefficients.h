@@ -19,7 +19,8 @@
 namespace slipcheck::bullet {
 
 /// What stands in the place of a body's index where a ball touches no other ball: the substrate or
-/// the floor of a box, either of its walls, its lid.
+/// the floor of a box, either of its walls, its lid. Where there is no box, what is below
+/// kSubstrate is a surface_touch().
 inline constexpr int kFloor = kSubstrate, kWall = -2, kLid = -3;
 
 /// The four numbers of a contact, or those that people type into a body's own fields.
@@ -44,7 +45,7 @@ class PairCoefficients {
   void set_ground_velocity(const Vector3& velocity) { ground_velocity_ = velocity; }
   const Vector3& ground_velocity() const { return ground_velocity_; }
 
-  /// Between a body and another, or kFloor, kWall, kLid [-], where their surfaces slip at a speed.
+  /// Between a body and another, kFloor, kWall, kLid, or a surface [-], where they slip at a speed.
   /// A contact that does not slip has its static friction where the settings tell the two apart.
   double friction(int body, int other, bool slips, double slip_speed = 0) const;
   /// Whether it depends on how fast the surfaces slip.
@@ -52,15 +53,19 @@ class PairCoefficients {
 
   /// At the normal approach speed, >= 0 [-]. A multibody has this step's gravity when Bullet looks
   /// at its velocity: on a floor it would part with e (v + g dt), hence e v/(v + g dt).
-  double restitution(int body, int other, double approach_speed) const;
+  double restitution(int body, int other, double approach_speed) const {
+    return restitution(body, other, approach_speed, gravity_onto(other));
+  }
+  /// The same where gravity pulls with `onto` towards what it touches, as surfaces lie in all ways.
+  double restitution(int body, int other, double approach_speed, double onto) const;
 
-  /// On the substrate at a speed; between bodies and in a box 0. K (16): a rolling sphere slows
-  /// down with μ_r g. With a torque of ρ m g it slows down with ρ g/((1 + q) R), q = I/(m R²),
-  /// hence ρ = (1 + q) μ_r R.
+  /// On the substrate or a surface at a speed; between bodies and in a box 0. K (16): a rolling
+  /// sphere slows down with μ_r g. With a torque of ρ m g it slows down with ρ g/((1 + q) R), q =
+  /// I/(m R²), hence ρ = (1 + q) μ_r R.
   double rolling_friction(int body, int other, double speed, bool slips) const;
 
-  /// On the substrate the torque about the vertical per normal force; between bodies and in a
-  /// box 0.
+  /// On the substrate or a surface the torque about the normal per normal force; between bodies and
+  /// in a box 0.
   double spinning_friction(int body, int other) const;
 
   /// All four where none of them depends on how the body moves over the substrate, so that nobody
@@ -71,7 +76,15 @@ class PairCoefficients {
 
   /// Whether a contact with the substrate slips at this speed: faster than friction can stop in
   /// the step, in which u falls by (1 + 1/q) μ_k g dt.
-  bool slips(int body, double slip_speed) const;
+  bool slips(int body, double slip_speed) const {
+    return slips(body, kSubstrate, slip_speed, scene_.gravity);
+  }
+  /// The same on the substrate or a surface onto which gravity pulls with `onto`, >= 0.
+  bool slips(int body, int other, double slip_speed, double onto) const;
+
+  /// Along the world's axes as Bullet has it.
+  void set_gravity(const Vector3& gravity) { gravity_ = gravity; }
+  const Vector3& gravity() const { return gravity_; }
 
   const Sphere& body(int index) const { return scene_.bodies[static_cast<std::size_t>(index)]; }
 
@@ -83,6 +96,9 @@ class PairCoefficients {
   /// What two balls do, or a ball and a box.
   const PairContact& pair_contact(int body, int other) const;
   bool is_substrate(int other) const { return other == kSubstrate && !scene_.box; }
+  bool is_surface(int other) const { return other < kSubstrate && !scene_.box; }
+  /// Of a body on the substrate or a surface; null elsewhere.
+  const SubstrateContact* lasting_contact(int body, int other) const;
   bool depends_on_motion() const;
   /// Gravity towards a surface.
   double gravity_onto(int other) const;
@@ -91,20 +107,21 @@ class PairCoefficients {
   Scene scene_;
   BulletSettings settings_;
   double time_step_ = 0;
-  Vector3 ground_velocity_ = Vector3::Zero();
+  Vector3 ground_velocity_ = Vector3::Zero(), gravity_ = Vector3::Zero();
   std::vector<double> raise_;      // max(1, m g dt), by body
   std::vector<BodyFields> fixed_;  // by body; empty where one of them depends on motion
 };
 
-/// The scene's numbers straight: a ball gets μ_k and μ_r of its contact with the substrate, its
-/// drilling length, and the restitution with the first other body (with the substrate when alone).
-/// In a box it gets μ and restitution of its contact with the first other body (with the floor when
-/// alone). A power law gives its value at its reference speed, a table of restitutions that at the
-/// speed at which the two start relative to each other, a table of μ_r its first entry.
+/// The scene's numbers straight: a ball gets μ_k and μ_r of its contact with the substrate, or
+/// where there is none with the first surface, its drilling length, and the restitution with the
+/// first other body (with the substrate when alone). In a box it gets μ and restitution of its
+/// contact with the first other body (with the floor when alone). A power law gives its value at
+/// its reference speed, a table of restitutions that at the speed at which the two start relative
+/// to each other, a table of μ_r its first entry.
 BodyFields naive_ball(const Scene& scene, std::size_t body);
 
-/// μ_k and restitution of the first body's contact with the substrate, or μ and restitution of its
-/// contact with the box at kFloor, kWall or kLid.
+/// μ_k and restitution of the first body's contact with the substrate or a surface, or μ and
+/// restitution of its contact with the box at kFloor, kWall or kLid.
 BodyFields naive_surface(const Scene& scene, int surface);
 
 }  // namespace slipcheck::bullet

@@ -14,15 +14,27 @@ bool is_solved_by_mlcp(const BulletSettings& settings) {
   return settings.solver != SolverKind::sequential_impulse && settings.solver != SolverKind::nncg;
 }
 
+/// Whether any contact with the substrate or a surface is such.
+template <class IsSuch>
+bool has_lasting_contact(const Scene& scene, const IsSuch& is_such) {
+  const bool on_substrate = !scene.box && scene.has_substrate;
+  return (on_substrate && std::ranges::any_of(scene.substrate, is_such)) ||
+         std::ranges::any_of(scene.on_surfaces, is_such, &SurfaceContact::lasting);
+}
+
 bool has_rolling_friction(const Scene& scene) {
-  return !scene.box && std::ranges::any_of(scene.substrate, [](const SubstrateContact& ground) {
-    return !ground.rolling.is_zero();
-  });
+  return has_lasting_contact(
+      scene, [](const SubstrateContact& ground) { return !ground.rolling.is_zero(); });
 }
 
 bool has_drilling_friction(const Scene& scene) {
-  return !scene.box && std::ranges::any_of(scene.substrate, [](const SubstrateContact& ground) {
-    return ground.drilling_length > 0;
+  return has_lasting_contact(
+      scene, [](const SubstrateContact& ground) { return ground.drilling_length > 0; });
+}
+
+bool has_finite_surface(const Scene& scene) {
+  return std::ranges::any_of(scene.surfaces, [](const Surface& surface) {
+    return !std::holds_alternative<PlaneShape>(surface.shape);
   });
 }
 
@@ -39,13 +51,15 @@ bool may_lose_a_friction_direction(const Scene& scene, const BulletSettings& set
   const bool cone = settings.body == BodyKind::multibody && settings.two_friction_directions &&
                     settings.friction_cone && settings.solver == SolverKind::sequential_impulse;
   const bool turned = settings.tilt == Tilt::plane && scene.downhill != Vector2::Zero();
-  return cone && !turned && !scene.box && !has_rolling_friction(scene) && !has_pair_friction(scene);
+  return cone && !turned && !scene.box && scene.surfaces.empty() && !has_rolling_friction(scene) &&
+         !has_pair_friction(scene);
 }
 
 int most_pairs(const Scene& scene) {
   constexpr double kShipped = 4096;  // of btDefaultCollisionConstructionInfo
   const auto bodies = static_cast<double>(scene.bodies.size());
-  const double surfaces = !scene.box ? 1 : (scene.box->lid ? 4 : 3);
+  const double beside = static_cast<double>(scene.surfaces.size());
+  const double surfaces = !scene.box ? 1 + beside : (scene.box->lid ? 4 : 3);
   return static_cast<int>(std::min(kShipped, bodies * (surfaces + (bodies - 1) / 2)));
 }
 
@@ -58,7 +72,7 @@ LeaveOuts find_leave_outs(const Scene& scene, std::span<const BodyState> states,
   const bool rigid = settings.body == BodyKind::rigid;
   // What follows is of spheres, which look alike from all sides.
   const bool round = scene.extents.empty();
-  leaves.broadphase = round && scene.bodies.size() == 1;
+  leaves.broadphase = round && scene.bodies.size() == 1 && !has_finite_surface(scene);
   leaves.predictions =
       round && (!rigid || (settings.linear_damping == 0 && settings.angular_damping == 0));
   leaves.sweeps = !rigid || !settings.ccd || settings.ccd_motion_threshold == 0;

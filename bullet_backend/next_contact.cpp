@@ -43,11 +43,42 @@ bool NextContact::touches_now(double approach, double within) const {
 
 double NextContact::after(double now, double within) {
   for (std::size_t i = 0; i < states_.size(); ++i) states_[i] = balls_.state(i);
-  return of_pairs(of_surfaces(now, within));
+  within = of_surfaces(now, within);
+  for (const auto& surface : surfaces_.beside())
+    for (std::size_t i = 0; i < states_.size(); ++i) within = of_surface(*surface, i, now, within);
+  return of_pairs(within);
+}
+
+/// Steps as long as nothing can touch, until the gap is as good as closed. Of a sphere it is to be
+/// an overlap, as between balls.
+double NextContact::of_surface(const SurfaceBody& surface, std::size_t body, double now,
+                               double within) const {
+  constexpr int kMostLooks = 100;
+  const BodyState& ball = states_[body];
+  const auto nearest_after = [&](double t) {
+    return surface.nearest(now + t, ball.position + t * (ball.velocity + t * gravity_));
+  };
+  const double radius = scene_.bodies[body].radius;
+  const NearestPoint near = nearest_after(0);
+  if (near.distance - radius <= tolerance_) {
+    const double approach = near.normal.dot(surface.velocity(now, near.point) - ball.velocity);
+    return touches_now(approach, within) ? 0 : within;
+  }
+  const double reach = surface.is_ball() ? radius - tolerance_ / 2 : radius;
+  const double fastest = ball.velocity.norm() + 2 * within * gravity_.norm() +
+                         surface.largest_speed(ball.position) +
+                         within * surface.turning_rate() * ball.velocity.norm();
+  double t = 0;
+  for (int look = 0; look < kMostLooks && t < within; ++look) {
+    const double gap = nearest_after(t).distance - reach;
+    if (gap <= tolerance_ / 4) return t;
+    t += gap / fastest;
+  }
+  return std::min(t, within);
 }
 
 double NextContact::of_surfaces(double now, double within) const {
-  for (const btRigidBody* surface : surfaces_.bodies()) {
+  for (const btRigidBody* surface : surfaces_.planes()) {
     const auto* plane = static_cast<const btStaticPlaneShape*>(surface->getCollisionShape());
     const Vector3 n = from_bullet(plane->getPlaneNormal());
     const Vector3 moved = surfaces_.displacement(*surface, now);

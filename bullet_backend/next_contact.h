@@ -23,6 +23,7 @@ class NextContact {
   /// Whether bodies that touch meet in earnest, and do not just lean on each other.
   bool touches_now(double approach, double within) const;
   double of_surfaces(double now, double within) const;
+  double of_surface(const SurfaceBody& surface, std::size_t body, double now, double within) const;
   double of_pairs(double within);
   double of_balls(const BodyState& a, const BodyState& b, double reach, double within) const;
 

@@ -2,6 +2,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "bullet_backend/coefficients.h"
@@ -64,7 +65,20 @@ Surfaces::Surfaces(btDiscreteDynamicsWorld& world, const Scene& scene, const Wor
     bodies_.push_back(&body);
   };
   const bool shaken = !parts_->floor.is_still();
-  add(Vector3::UnitZ(), 0, kFloor, shaken || !scene.motion.is_still());
+  if (scene.has_substrate) add(Vector3::UnitZ(), 0, kFloor, shaken || !scene.motion.is_still());
+  for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+    beside_.push_back(
+        std::make_unique<SurfaceBody>(scene.surfaces[k], units, settings, surface_touch(k)));
+    bodies_.push_back(&beside_.back()->body());
+    world.addRigidBody(bodies_.back());
+  }
+  if (std::ranges::any_of(beside_, [](const auto& surface) { return surface->turning_rate() > 0; }))
+    world.setInternalTickCallback(
+        [](btDynamicsWorld* turning, btScalar) {
+          const auto* surfaces = static_cast<const Surfaces*>(turning->getWorldUserInfo());
+          for (const auto& surface : surfaces->beside_) surface->tell_rate();
+        },
+        this, true);
   if (!scene.box) return;
   const Box& box = *scene.box;
   const bool with_walls = shaken && box.moving_walls;
@@ -90,6 +104,7 @@ Vector3 Surfaces::velocity(const btRigidBody& surface, double time) const {
 }
 
 void Surfaces::begin_step(double time, double time_step) {
+  for (const auto& surface : beside_) surface->begin_step(time, time_step);
   if (parts_->moving.empty()) return;
   // A plane that moves along itself stays where it is.
   const Vector3 place(0, 0, parts_->floor.height(time));

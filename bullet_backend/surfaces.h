@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "bullet_backend/surface_body.h"
 #include "bullet_backend/world_units.h"
 
 class btDiscreteDynamicsWorld;
@@ -11,10 +12,11 @@ class btRigidBody;
 
 namespace slipcheck::bullet {
 
-/// What the balls of a world bounce off: a plane, or the floor, walls and lid of a box. All are
-/// half-spaces (btStaticPlaneShape): at 240 Hz and 1 m/s a ball of 0.5 mm goes through four times
-/// its diameter in a step, and would leave a box made of slabs on their far side. Their user
-/// indices are kFloor, kWall (twice) and kLid of coefficients.h.
+/// What the balls of a world bounce off: a plane and surfaces beside it (surface_body.h), or the
+/// floor, walls and lid of a box. Plane and box are half-spaces (btStaticPlaneShape): at 240 Hz and
+/// 1 m/s a ball of 0.5 mm goes through four times its diameter in a step, and would leave a box
+/// made of slabs on their far side. Their user indices are kFloor, kWall (twice) and kLid of
+/// coefficients.h, those of surfaces surface_touch().
 ///
 /// What moves is kinematic and never asleep. Bullet makes the velocity that contacts feel from two
 /// places of such a body, and so each step begins with two that give the velocity which the
@@ -36,18 +38,25 @@ class Surfaces {
   /// what stuck to it then goes with this now. At first what it would have been told.
   const Vector3& told_before() const;
 
-  /// How far a surface of this world has moved off its plane at `time`, and how fast it does, as
+  /// How far one of planes() has moved off its plane at `time`, and how fast it does, as
   /// the scene has it: a plane that moves along itself stays where it is.
   Vector3 displacement(const btRigidBody& surface, double time) const;
   Vector3 velocity(const btRigidBody& surface, double time) const;
 
   std::span<btRigidBody* const> bodies() const { return bodies_; }
+  /// Of these the plane, or what makes the box.
+  std::span<btRigidBody* const> planes() const {
+    return std::span(bodies_).first(bodies_.size() - beside_.size());
+  }
+  /// The scene's surfaces beside the plane, in their order.
+  std::span<const std::unique_ptr<SurfaceBody>> beside() const { return beside_; }
 
  private:
   struct Parts;
   btDiscreteDynamicsWorld& world_;
   std::unique_ptr<Parts> parts_;
   std::vector<btRigidBody*> bodies_;
+  std::vector<std::unique_ptr<SurfaceBody>> beside_;
 };
 
 }  // namespace slipcheck::bullet

@@ -32,7 +32,7 @@ double normal_impulse(const btPersistentManifold& manifold) {
 
 }  // namespace
 
-void find_touches(btCollisionDispatcher& dispatcher, std::vector<Touch>& touches) {
+void find_touches(btCollisionDispatcher& dispatcher, bool in_box, std::vector<Touch>& touches) {
   touches.clear();
   for (int k = 0; k < dispatcher.getNumManifolds(); ++k) {
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(k);
@@ -42,7 +42,7 @@ void find_touches(btCollisionDispatcher& dispatcher, std::vector<Touch>& touches
     int first = manifold.getBody0()->getUserIndex();
     int second = manifold.getBody1()->getUserIndex();
     if (first < 0 || (second >= 0 && second < first)) std::swap(first, second);
-    if (second == kWall || second == kLid) continue;
+    if (in_box && (second == kWall || second == kLid)) continue;
     touches.push_back({first, second, impulse});
   }
   std::ranges::sort(touches, {},

@@ -46,6 +46,45 @@ SubstrateMotion scaled(const SubstrateMotion& motion, const WorldUnits& units) {
   return {};
 }
 
+SurfaceShape scaled(const SurfaceShape& shape, double length) {
+  return std::visit(
+      [&](auto copy) -> SurfaceShape {
+        using Shape = decltype(copy);
+        if constexpr (std::is_same_v<Shape, PlaneShape>) copy.point *= length;
+        if constexpr (std::is_same_v<Shape, RectangleShape>) {
+          copy.centre *= length;
+          copy.half_length *= length;
+          copy.half_width *= length;
+        }
+        if constexpr (std::is_same_v<Shape, RodShape>) {
+          copy.begin *= length;
+          copy.end *= length;
+          copy.radius *= length;
+        }
+        if constexpr (std::is_same_v<Shape, BallShape>) {
+          copy.centre *= length;
+          copy.radius *= length;
+        }
+        return copy;
+      },
+      shape);
+}
+
+SurfaceMotion scaled(const SurfaceMotion& motion, const WorldUnits& units) {
+  if (motion.is_still()) return {};
+  if (!motion.rate().isZero(0))
+    return SurfaceMotion::turning(motion.pivot() * units.length, motion.rate() / units.time);
+  const SubstrateMotion course = scaled(motion.course(), units);
+  return motion.is_belt() ? SurfaceMotion::belt(course, motion.first(), motion.second())
+                          : SurfaceMotion::moving(course, motion.first(), motion.second());
+}
+
+void scale(SubstrateContact& contact, const WorldUnits& units) {
+  contact.rolling = scaled(contact.rolling, units.speed());
+  contact.drilling_length *= units.length;
+  contact.coupled_radius *= units.length;
+}
+
 }  // namespace
 
 WorldUnits world_units(const Scene& scene, const BulletSettings& settings) {
@@ -78,11 +117,13 @@ Scene in_world_units(const Scene& scene, const WorldUnits& units) {
     state.velocity *= speed;
     state.angular_velocity /= units.time;
   }
-  for (SubstrateContact& ground : scaled_scene.substrate) {
-    ground.rolling = scaled(ground.rolling, speed);
-    ground.drilling_length *= units.length;
-    ground.coupled_radius *= units.length;
+  for (SubstrateContact& ground : scaled_scene.substrate) scale(ground, units);
+  for (SurfaceContact& contact : scaled_scene.on_surfaces) {
+    scale(contact.lasting, units);
+    contact.impact.restitution = scaled(contact.impact.restitution, speed);
   }
+  for (Surface& surface : scaled_scene.surfaces)
+    surface = {scaled(surface.shape, units.length), scaled(surface.motion, units)};
   const auto scale_pairs = [&](std::vector<PairContact>& contacts) {
     for (PairContact& contact : contacts) {
       contact.restitution = scaled(contact.restitution, speed);

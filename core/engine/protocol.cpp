@@ -20,7 +20,11 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kTouchBytes = 4 + 4 + 8;  // first, second, normal impulse
-constexpr std::uint32_t kSubstrateOnWire = 0xffffffff;
+
+/// The second of two that touch: a body, or from the top of the range down the substrate and the
+/// surfaces, which are negative numbers there.
+static_assert(static_cast<std::uint32_t>(kSubstrate) == 0xffffffff);
+static_assert(static_cast<std::uint32_t>(surface_touch(0)) == 0xfffffffe);
 
 Bytes pack(const json& message) {
   Bytes bytes(kPrefix);
@@ -46,8 +50,7 @@ json frames_json(const Frames& reply) {
     append_u32(touch_counts, static_cast<std::uint32_t>(frame.touches.size()));
     for (const Touch& touch : frame.touches) {
       append_u32(touches, static_cast<std::uint32_t>(touch.first));
-      append_u32(touches, touch.second == kSubstrate ? kSubstrateOnWire
-                                                     : static_cast<std::uint32_t>(touch.second));
+      append_u32(touches, static_cast<std::uint32_t>(touch.second));
       append_f64(touches, touch.normal_impulse);
     }
     append_f64(parts, frame.part);
@@ -83,15 +86,20 @@ void read_parts(const JsonNode& node, std::vector<Frame>& frames) {
 Touch read_touch(const std::uint8_t* at, std::size_t bodies) {
   const std::uint32_t first = read_u32(at);
   const std::uint32_t second = read_u32(at + 4);
-  const bool valid =
-      first < bodies && (second == kSubstrateOnWire || (second > first && second < bodies));
+  const int signed_second = static_cast<int>(second);
+  const bool valid = first < bodies && (signed_second < 0 || (second > first && second < bodies));
   if (!valid)
     throw Rubbish(fmt::format("a touch of {} and {} among {} bodies", first, second, bodies));
   const double impulse = read_f64(at + 8);
   if (!(impulse > 0))
     throw Rubbish(fmt::format("a touch's normal impulse is {}, not > 0", impulse));
-  return {static_cast<int>(first),
-          second == kSubstrateOnWire ? kSubstrate : static_cast<int>(second), impulse};
+  return {static_cast<int>(first), signed_second, impulse};
+}
+
+std::string name_of_second(int second) {
+  if (second >= 0) return fmt::to_string(second);
+  return second == kSubstrate ? "the substrate"
+                              : fmt::format("the surface {}", touched_surface(second));
 }
 
 /// Each pair appears once. Most engines sort them.
@@ -104,8 +112,8 @@ void check_pairs(const std::vector<Touch>& touches) {
   const auto twice = std::ranges::adjacent_find(pairs);
   if (twice == pairs.end()) return;
   const auto& [first, second] = *twice;
-  throw Rubbish(fmt::format("a touch of {} and {} twice in a frame", first,
-                            second == kSubstrate ? "the substrate" : fmt::to_string(second)));
+  throw Rubbish(
+      fmt::format("a touch of {} and {} twice in a frame", first, name_of_second(second)));
 }
 
 Frames frames_of(const JsonNode& node) {

@@ -72,6 +72,7 @@ Applied RemoteEngine::configure(const EngineScene& scene, const Settings& settin
   auto reply =
       ask<protocol::Configured>(protocol::Configure{std::move(given), settings, time_step});
   bodies_ = scene.bodies.size();
+  surfaces_ = scene.surfaces.size();
   if (simpler) reply.applied.not_represented.push_back({lack::kFrictionLaw, lack::kFrictionLaw});
   return std::move(reply.applied);
 }
@@ -109,6 +110,12 @@ double RemoteEngine::advance(std::size_t steps, const std::function<void(const F
     if (static_cast<std::size_t>(ends) != count || reply.frames.front().bodies.size() != bodies_) {
       process_.fail(Status::crashed, "spoke rubbish: not the frames asked for");
     }
+    for (const Frame& frame : reply.frames)
+      for (const Touch& touch : frame.touches)
+        if (touch.second < kSubstrate && touched_surface(touch.second) >= surfaces_)
+          process_.fail(Status::crashed,
+                        fmt::format("spoke rubbish: a touch of the surface {} of {}",
+                                    touched_surface(touch.second), surfaces_));
     cpu_seconds += reply.cpu_seconds;
     for (const Frame& frame : reply.frames) callback(frame);
     steps -= count;

@@ -24,6 +24,7 @@ class RemoteEngine {
   const EngineInfo& info() const { return info_; }
 
   /// Engine::configure over there; throws Refused with the engine's reason, and the worker lives.
+  /// So does a scene of which the engine does not know what it holds (EngineInfo::takes).
   Applied configure(const EngineScene& scene, const Settings& settings, double time_step);
 
   /// A fresh world with one state for each body of the configured scene at `time` [s], >= 0. The
@@ -56,7 +57,7 @@ class RemoteEngine {
 
   WorkerProcess process_;
   EngineInfo info_;
-  std::size_t bodies_ = 0;
+  std::size_t bodies_ = 0, surfaces_ = 0;
   double run_limit_;
   WorkerProcess::Clock::time_point deadline_ = WorkerProcess::Clock::time_point::max();
 };

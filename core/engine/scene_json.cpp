@@ -9,6 +9,7 @@
 #include "engine/contact_json.h"
 #include "engine/message_fields.h"
 #include "engine/soft_json.h"
+#include "engine/surface_json.h"
 
 namespace slipcheck {
 namespace protocol {
@@ -84,6 +85,14 @@ void describe_vector(Fields& f, const char* key, Vector2& vector) {
   std::pair<double, double> xy(vector.x(), vector.y());
   f(key, xy);
   if constexpr (Fields::kReads) vector = {xy.first, xy.second};
+}
+
+template <class Fields, class List>
+void describe_unless_empty(Fields& f, const char* key, List& list) {
+  if constexpr (Fields::kReads)
+    f.if_any(key, list);
+  else if (!list.empty())
+    f(key, list);
 }
 
 /// Bodies and their materials go over one by one.
@@ -205,6 +214,9 @@ void describe(Fields& f, Scene& scene) {
   f("confined", scene.confined);
   describe_vector(f, "periodic", scene.periodic);
   f("box", scene.box);
+  f.unless("has_substrate", scene.has_substrate, true);
+  describe_unless_empty(f, "surfaces", scene.surfaces);
+  describe_unless_empty(f, "on_surfaces", scene.on_surfaces);
   if constexpr (Fields::kReads) {
     for (const MaterialBody& body : bodies) {
       scene.bodies.push_back(body.sphere);
@@ -238,6 +250,14 @@ void check_soft_sizes(const JsonNode& node, const SoftContacts& soft, std::size_
     check_size(node[key], contacts->size(), surfaces, "materials in a box");
 }
 
+void check_surfaces(const JsonNode& node, const Scene& scene) {
+  const std::size_t count = scene.substrate.size() * scene.surfaces.size();
+  if (count > 0 || !scene.on_surfaces.empty())
+    check_size(node["on_surfaces"], scene.on_surfaces.size(), count, "materials on surfaces");
+  const bool is_beside = !scene.surfaces.empty() || !scene.has_substrate;
+  if (scene.box && is_beside) node["box"].fault_alone("must stand alone, without surfaces");
+}
+
 }  // namespace
 
 json scene_to_json(const EngineScene& scene) { return message_json(scene); }
@@ -258,6 +278,7 @@ EngineScene scene_from_json(const JsonNode& node) {
                                         {"on_wall", &scene.box->on_wall},
                                         {"on_lid", &scene.box->on_lid}})
       check_size(node["box"][key], contacts->size(), materials, "materials");
+  check_surfaces(node, scene);
   if (scene.soft) check_soft_sizes(node["soft"], *scene.soft, materials, scene.box.has_value());
   return scene;
 }

@@ -56,19 +56,59 @@ void add_box(SceneNeeds& needs, const Scene& scene, double time_step) {
   needs.far_in_a_step = can_pass_in_a_step(scene, time_step);
 }
 
+void add_lasting(SceneNeeds& needs, const SubstrateContact& ground) {
+  needs.friction |= ground.kinetic_friction > 0;
+  needs.static_friction |= ground.static_friction != ground.kinetic_friction;
+  needs.rolling |= !ground.rolling.is_zero();
+  needs.rolling_only |= !ground.rolling.is_zero() && !ground.rolling_while_sliding;
+  needs.rolling_table |= !ground.rolling.is_constant();
+  needs.drilling |= ground.drilling_length > 0;
+  needs.coupled_drilling |= ground.coupled_radius > 0;
+}
+
 void add_substrate(SceneNeeds& needs, const Scene& scene) {
   needs.moving_substrate = !scene.motion.is_still();
   for (const std::size_t material : scene.material) {
-    const SubstrateContact& ground = scene.substrate[material];
-    needs.friction |= ground.kinetic_friction > 0;
-    needs.static_friction |= ground.static_friction != ground.kinetic_friction;
-    needs.rolling |= !ground.rolling.is_zero();
-    needs.rolling_only |= !ground.rolling.is_zero() && !ground.rolling_while_sliding;
-    needs.rolling_table |= !ground.rolling.is_constant();
-    needs.drilling |= ground.drilling_length > 0;
-    needs.coupled_drilling |= ground.coupled_radius > 0;
-    needs.bounce |= ground.restitution > 0;
+    add_lasting(needs, scene.substrate[material]);
+    needs.bounce |= scene.substrate[material].restitution > 0;
   }
+}
+
+/// The lowest point of a plate at rest.
+double lowest_of(const RectangleShape& plate) {
+  return plate.centre.z() - std::abs(plate.half_length.z()) - std::abs(plate.half_width.z());
+}
+
+/// Whether a body may go further than its radius in a step, by its speed at the start or after a
+/// fall to the lowest plate.
+bool can_pass_a_plate(const Scene& scene, double time_step) {
+  for (const Surface& surface : scene.surfaces) {
+    const auto* plate = std::get_if<RectangleShape>(&surface.shape);
+    if (!plate) continue;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const BodyState& start = scene.initial[i];
+      const double drop = std::max(0.0, start.position.z() - lowest_of(*plate));
+      const double speed = std::sqrt(start.velocity.squaredNorm() + 2 * scene.gravity * drop) +
+                           surface.motion.course().largest_speed();
+      if (speed * time_step > scene.bodies[i].radius) return true;
+    }
+  }
+  return false;
+}
+
+void add_surfaces(SceneNeeds& needs, const Scene& scene, double time_step) {
+  for (const std::size_t material : scene.material)
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+      const SurfaceContact& contact = scene.on_surfaces[material * scene.surfaces.size() + k];
+      add_lasting(needs, contact.lasting);
+      add_pair(needs, contact.impact);
+    }
+  for (const Surface& surface : scene.surfaces) {
+    const SubstrateMotion::Kind kind = surface.motion.course().kind();
+    needs.swinging_surface |=
+        kind != SubstrateMotion::Kind::still && kind != SubstrateMotion::Kind::constant;
+  }
+  needs.through_in_a_step = can_pass_a_plate(scene, time_step);
 }
 
 }  // namespace
@@ -78,7 +118,8 @@ SceneNeeds needs_of(const Scene& scene, double time_step) {
   if (scene.box) {
     add_box(needs, scene, time_step);
   } else {
-    add_substrate(needs, scene);
+    if (scene.has_substrate) add_substrate(needs, scene);
+    add_surfaces(needs, scene, time_step);
   }
   for (const auto& [i, j] : material_pairs(scene)) add_pair(needs, scene.between(i, j));
   return needs;

@@ -11,7 +11,7 @@
 namespace slipcheck {
 
 /// What a scene needs of an engine, each found on any of its bodies: on the substrate, between two
-/// bodies, or on the surfaces of a box.
+/// bodies, on the surfaces of a box, or on those beside the substrate.
 struct SceneNeeds {
   bool friction = false;
   bool static_friction = false;  ///< other than kinetic
@@ -24,7 +24,9 @@ struct SceneNeeds {
   bool bounce_law = false;     ///< restitution depends on the impact speed
   bool reversed_slip = false;  ///< β0 other than −1 (slip is kept) and 0 (just stopped)
   bool moving_substrate = false, moving_floor = false;
-  bool far_in_a_step = false;  ///< bodies in a box may pass each other within a step
+  bool swinging_surface = false;   ///< beside the substrate, with a velocity that changes
+  bool far_in_a_step = false;      ///< bodies in a box may pass each other within a step
+  bool through_in_a_step = false;  ///< a body's centre may pass a plate within a step
 };
 
 /// Of a scene in SI with steps of `time_step` [s], > 0.
@@ -71,6 +73,8 @@ inline constexpr const char* kFrictionLaw = "friction between bodies that depend
 inline constexpr const char* kConfinement = "confinement to the plane";
 inline constexpr const char* kFloorVelocity = "the floor's velocity at the contact";
 inline constexpr const char* kSubstrateVelocity = "the substrate's velocity at the end of a step";
+inline constexpr const char* kSurfaceVelocity = "a surface's velocity at the end of a step";
+inline constexpr const char* kThrough = "plates that a body passes within a step";
 inline constexpr const char* kPassing = "collisions of bodies that pass each other within a step";
 }  // namespace lack
 

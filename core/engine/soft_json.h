@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "engine/alternatives_json.h"
 #include "engine/contact_json.h"
 #include "engine/engine_scene.h"
 
@@ -15,15 +16,12 @@ inline constexpr std::array kNamesOf<ViscousForce::Caps> = {"together", "apart"}
 template <>
 inline constexpr std::array kNamesOf<AsperityForce::Form> = {"printed", "passive"};
 
-/// The words for the alternatives of a law, in the order of its variant.
-template <class Law>
-inline constexpr std::array<const char*, 0> kModelsOf{};
 template <>
-inline constexpr std::array kModelsOf<NormalForce> = {"linear", "hertz", "power", "viscoelastic",
-                                                      "compact_viscoelastic"};
+inline constexpr std::array kWordsOf<NormalForce> = {"linear", "hertz", "power", "viscoelastic",
+                                                     "compact_viscoelastic"};
 template <>
-inline constexpr std::array kModelsOf<TangentialForce> = {"none", "viscous", "asperity",
-                                                          "impact_angle"};
+inline constexpr std::array kWordsOf<TangentialForce> = {"none", "viscous", "asperity",
+                                                         "impact_angle"};
 
 template <class Fields>
 void describe(Fields& f, LinearForce& force) {
@@ -81,25 +79,10 @@ void describe(Fields& f, ImpactAngleForce& force) {
   describe_restitution(f, force.restitution);
 }
 
-/// One alternative of a law and the word that tells which.
-template <class Fields, class... Forces>
-void describe(Fields& f, std::variant<Forces...>& law) {
-  constexpr auto& words = kModelsOf<std::variant<Forces...>>;
-  static_assert(words.size() == sizeof...(Forces));
-  std::string model = words[law.index()];
-  f("model", model);
-  if constexpr (Fields::kReads) {
-    std::size_t k = 0;
-    const bool known = ((words[k++] == model && (law = Forces{}, true)) || ...);
-    if (!known) f["model"].fault(fmt::format("must be one of {}", fmt::join(words, ", ")));
-  }
-  std::visit([&](auto& force) { describe(f, force); }, law);
-}
-
 template <class Fields>
 void describe(Fields& f, SoftContact& contact) {
   const auto law = [&](const char* key, auto& force) {
-    f.object(key, [&](auto& fields) { describe(fields, force); });
+    f.object(key, [&](auto& fields) { describe_alternative(fields, "model", force); });
   };
   law("normal", contact.normal);
   law("tangential", contact.tangential);

@@ -38,8 +38,9 @@ void ContactRules::fill(dContact& contact, const Ball& ball, const Partner& part
 
   peer::ContactMotion seen{std::max(0.0, approach), motion.norm(), true};
   bool slides = true;
-  if (other == peer::kFloor && !scene_.box) {
-    slides = slip.norm() > peer::slip_stopped_in(scene_, body, time_step_);
+  if (peer::lasting_contact(scene_, body, other)) {
+    const double onto = std::max(0.0, -normal.dot(scene_.gravity_vector()));
+    slides = slip.norm() > peer::slip_stopped_in(scene_, body, other, onto, time_step_);
     seen.slips = slides || ball.hit;
   }
   const peer::ContactValues numbers = values(body, other, seen);

@@ -6,6 +6,7 @@
 
 #include "engine/scene_needs.h"
 #include "peer_backends/ode/ode_contacts.h"
+#include "peer_backends/ode/ode_surfaces.h"
 #include "peer_backends/shared/applied.h"
 #include "peer_backends/shared/surfaces.h"
 #include "peer_backends/shared/touch_list.h"
@@ -41,7 +42,8 @@ struct OdeWorld::Parts {
         time_step(made.time_step / made.settings.substeps),
         start_time(time),
         rules(setup.scene, setup.settings, time_step),
-        surfaces(peer::surfaces_of(setup.scene)) {
+        surfaces(peer::surfaces_of(setup.scene)),
+        touches(setup.scene.box.has_value()) {
     start_ode();
     dRandSetSeed(0);  // dWorldQuickStep shuffles its rows
     world = dWorldCreate();
@@ -56,6 +58,11 @@ struct OdeWorld::Parts {
       const Vector3& n = surface.normal;
       planes.push_back(dCreatePlane(space, n.x(), n.y(), n.z(), surface.offset));
       tag(planes.back(), -1 - static_cast<std::intptr_t>(k));
+    }
+    for (const Surface& surface : scene.surfaces) {
+      beside.push_back(make_geom(space, surface.shape));
+      lay(beside.back(), surface, start_time);
+      tag(beside.back(), -1 - static_cast<std::intptr_t>(planes.size() + beside.size() - 1));
     }
   }
 
@@ -93,7 +100,7 @@ struct OdeWorld::Parts {
   }
 
   /// ODE's cylinders lie along z.
-  dGeomID make_geom(const Sphere& body, const Extent* extent) const {
+  dGeomID geom_of(const Sphere& body, const Extent* extent) const {
     if (!extent) return dCreateSphere(space, body.radius);
     const Vector3& size = extent->size;
     return body.shape == Shape::block ? dCreateBox(space, size.x(), size.y(), size.z())
@@ -114,7 +121,7 @@ struct OdeWorld::Parts {
     dBodySetPosition(ball, x.x(), x.y(), x.z());
     dBodySetLinearVel(ball, v.x(), v.y(), v.z());
     dBodySetAngularVel(ball, w.x(), w.y(), w.z());
-    const dGeomID geom = make_geom(sphere, extent);
+    const dGeomID geom = geom_of(sphere, extent);
     dGeomSetBody(geom, ball);
     if (sphere.shape == Shape::cylinder)
       dGeomSetOffsetQuaternion(geom, to_ode(turn_of_z_to_x()).data());
@@ -130,6 +137,9 @@ struct OdeWorld::Parts {
   double now() const { return start_time + static_cast<double>(steps) * time_step; }
 
   void move_surfaces() {
+    for (std::size_t k = 0; k < beside.size(); ++k)
+      if (!setup.scene.surfaces[k].motion.is_still())
+        lay(beside[k], setup.scene.surfaces[k], now());
     if (!setup.scene.box) return;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       const peer::Surface& surface = surfaces[k];
@@ -140,11 +150,22 @@ struct OdeWorld::Parts {
     }
   }
 
-  /// A surface's velocity at the end of the step, which is what a row of ODE's asks for.
-  BodyState moving(const peer::Surface& surface) const {
-    BodyState state;
-    state.velocity = surface.velocity(setup.scene, now() + time_step);
-    return state;
+  /// Of a surface by its place: its number as another that a body touches.
+  int index_of(std::intptr_t place) const {
+    const auto k = static_cast<std::size_t>(-1 - place);
+    return k < surfaces.size() ? surfaces[k].index : surface_touch(k - surfaces.size());
+  }
+
+  /// A surface's velocity where it is touched, at the end of the step, which is what a row of ODE's
+  /// asks for.
+  Partner surface_partner(const Point& point) const {
+    const auto k = static_cast<std::size_t>(-1 - point.place);
+    Partner partner{index_of(point.place), {}};
+    partner.state.velocity = k < surfaces.size()
+                                 ? surfaces[k].velocity(setup.scene, now() + time_step)
+                                 : setup.scene.surfaces[k - surfaces.size()].motion.velocity(
+                                       now() + time_step, from_ode(point.contact.geom.pos));
+    return partner;
   }
 
   static void near(void* self, dGeomID first, dGeomID second) {
@@ -172,21 +193,18 @@ struct OdeWorld::Parts {
 
   void join(Point& point) {
     const auto body = static_cast<std::size_t>(point.body);
-    const peer::Surface* surface =
-        point.place < 0 ? &surfaces[static_cast<std::size_t>(-1 - point.place)] : nullptr;
+    const bool on_surface = point.place < 0;
     const auto place = static_cast<std::size_t>(point.place);
-    rules.fill(point.contact, {point.body, state(body), hit[body]},
-               surface ? Partner{surface->index, moving(*surface)}
-                       : Partner{static_cast<int>(place), state(place)});
+    rules.fill(
+        point.contact, {point.body, state(body), hit[body]},
+        on_surface ? surface_partner(point) : Partner{static_cast<int>(place), state(place)});
     const dJointID joint = dJointCreateContact(world, contacts, &point.contact);
-    dJointAttach(joint, balls[body], surface ? nullptr : balls[place]);
+    dJointAttach(joint, balls[body], on_surface ? nullptr : balls[place]);
     dJointSetFeedback(joint, &point.feedback);
   }
 
   void count(const Point& point) {
-    const bool on_surface = point.place < 0;
-    const int other = on_surface ? surfaces[static_cast<std::size_t>(-1 - point.place)].index
-                                 : static_cast<int>(point.place);
+    const int other = point.place < 0 ? index_of(point.place) : static_cast<int>(point.place);
     const Vector3 normal = from_ode(point.contact.geom.normal);
     touches.add(point.body, other, from_ode(point.feedback.f1).dot(normal) * time_step);
   }
@@ -216,9 +234,10 @@ struct OdeWorld::Parts {
   dSpaceID space;
   dJointGroupID contacts;
   std::vector<dBodyID> balls;
-  std::vector<dGeomID> planes;
-  std::vector<bool> hit;     // by another body, in this step
-  std::deque<Point> points;  // of the last step; ODE keeps the address of their feedback
+  std::vector<dGeomID> planes;  // of `surfaces`
+  std::vector<dGeomID> beside;  // of the scene's surfaces
+  std::vector<bool> hit;        // by another body, in this step
+  std::deque<Point> points;     // of the last step; ODE keeps the address of their feedback
   peer::TouchList touches;
 };
 
@@ -227,7 +246,7 @@ EngineInfo OdeWorld::info() {
           SLIPCHECK_ODE_VERSION,
           "double",
           setting_table(),
-          {scene_part::kBlock, scene_part::kCylinder}};
+          {scene_part::kBlock, scene_part::kCylinder, scene_part::kSurfaces}};
 }
 
 std::string OdeWorld::refusal(const OdeSetup&) { return ""; }
@@ -252,6 +271,7 @@ std::vector<Lack> OdeWorld::lacks(const OdeSetup& setup) {
   missing.note(needs.reversed_slip, lack::kTangentialRestitution, "friction only stops the slip");
   missing.note(setup.scene.confined, lack::kConfinement);
   missing.note(needs.far_in_a_step, lack::kPassing);
+  missing.note(needs.through_in_a_step, lack::kThrough);
   missing.note(needs.rolling && fields, "rolling friction", "mu_r in the place of a length");
   missing.note(needs.rolling_table && fields, lack::kRollingTable);
   missing.note(needs.bounce_law && fields, lack::kRestitutionLaw);

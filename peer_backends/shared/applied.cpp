@@ -39,6 +39,31 @@ void add_substrate(GatheredSettings& out, const Scene& scene, SlipRule rule, con
 }
 
 /// One body for each material.
+void add_surfaces(GatheredSettings& out, const Scene& scene, SlipRule rule, const ValuesOf& of) {
+  std::set<std::size_t> seen;
+  const bool told_apart = rule == SlipRule::told_apart;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!seen.insert(scene.material[i]).second) continue;
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+      const SurfaceContact& contact = scene.on_surface(i, k);
+      const SubstrateContact& ground = contact.lasting;
+      const ContactValues values = of(static_cast<int>(i), surface_touch(k));
+      const std::string whose = fmt::format("{}-{}", i, k);
+      const bool by_slip = told_apart && ground.static_friction != ground.kinetic_friction;
+      const bool rolls_by_slip =
+          told_apart && !ground.rolling.is_zero() && !ground.rolling_while_sliding;
+      out.add("surface_friction", whose, by_slip ? Setting(kBySlip) : Setting(values.friction));
+      out.add("surface_restitution", whose, restitution_of(contact.impact, values.restitution));
+      out.add("surface_rolling_friction", whose,
+              !ground.rolling.is_constant() ? Setting(kBySpeed)
+              : rolls_by_slip               ? Setting(kBySlip)
+                                            : Setting(values.rolling));
+      out.add("surface_spinning_friction", whose, values.drilling);
+    }
+  }
+}
+
+/// One body for each material.
 void add_box(GatheredSettings& out, const Scene& scene, const ValuesOf& of) {
   std::set<std::size_t> seen;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -64,7 +89,8 @@ void add_coefficients(Settings& settings, const Scene& scene, SlipRule rule, con
   if (scene.box) {
     add_box(gathered, scene, of);
   } else {
-    add_substrate(gathered, scene, rule, of);
+    if (scene.has_substrate) add_substrate(gathered, scene, rule, of);
+    add_surfaces(gathered, scene, rule, of);
   }
   for (const auto& [i, j] : material_pairs(scene)) {
     const ContactValues values = of(static_cast<int>(i), static_cast<int>(j));

@@ -6,7 +6,8 @@
 namespace slipcheck::peer {
 
 /// What stands in the place of a body's index where a ball touches no other ball: the substrate or
-/// the floor of a box, either of its walls, its lid.
+/// the floor of a box, either of its walls, its lid. Where there is no box, what is below
+/// kSubstrate is a surface_touch().
 inline constexpr int kFloor = kSubstrate, kWall = -2, kLid = -3;
 
 /// The numbers of a contact in the terms that most engines share.
@@ -29,7 +30,7 @@ struct ContactMotion {
 /// Whether an adapter tells contacts that slip from those that do not.
 enum class SlipRule { ignored, told_apart };
 
-/// What the scene says of a body and another, or kFloor, kWall, kLid.
+/// What the scene says of a body and another, kFloor, kWall, kLid, or a surface.
 ///
 /// K (16): a rolling sphere slows down with μ_r g. With a torque ρ m g it slows down with
 /// ρ g/((1 + q) R), q = I/(m R²), hence ρ = (1 + q) μ_r R. A contact of β0 = −1 keeps its slip: no
@@ -42,10 +43,14 @@ ContactValues exact_values(const Scene& scene, int body, int other, const Contac
 /// speed.
 ContactValues typed_values(const Scene& scene, int body, int other);
 
-/// The slip that the substrate's friction stops in a step [m/s]: (1 + 1/q) μ_k g dt.
-double slip_stopped_in(const Scene& scene, int body, double time_step);
+/// The slip that the friction of the substrate or a surface stops in a step [m/s]:
+/// (1 + 1/q) μ_k g dt, with g the gravity onto it [m/s²].
+double slip_stopped_in(const Scene& scene, int body, int other, double onto, double time_step);
 
-/// The contact of a body with another, or with a box's surface.
+/// Of a body on the substrate or a surface; null elsewhere.
+const SubstrateContact* lasting_contact(const Scene& scene, int body, int other);
+
+/// The contact of a body with another, with a box's surface or with one beside the substrate.
 const PairContact& pair_contact(const Scene& scene, int body, int other);
 
 }  // namespace slipcheck::peer

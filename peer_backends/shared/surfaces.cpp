@@ -14,6 +14,7 @@ Vector3 Surface::velocity(const Scene& scene, double time) const {
 }
 
 std::vector<Surface> surfaces_of(const Scene& scene) {
+  if (!scene.box && !scene.has_substrate) return {};
   if (!scene.box) return {{Vector3::UnitZ(), 0, kFloor, !scene.motion.is_still()}};
   const Box& box = *scene.box;
   const bool shaken = !box.floor.is_still(), walls = shaken && box.moving_walls;

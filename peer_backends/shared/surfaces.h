@@ -20,7 +20,8 @@ struct Surface {
   Vector3 velocity(const Scene& scene, double time) const;
 };
 
-/// The substrate, or floor, walls and lid of a box, in this order.
+/// The substrate where there is one, or floor, walls and lid of a box, in this order. What stands
+/// beside the substrate is not among them.
 std::vector<Surface> surfaces_of(const Scene& scene);
 
 }  // namespace slipcheck::peer

@@ -4,8 +4,8 @@
 // is made from what is there.
 
 import {
-  FLOOR, LID, WALL, contactOf, frictionOf, groundOf, materialPairs, naiveBall, naiveSurface,
-  pairRestitution, surfaceRestitution,
+  FLOOR, LID, WALL, contactOf, frictionOf, materialPairs, naiveBall, naiveSurface, onSurface,
+  pairRestitution, surfaceTouch, touchedSurface,
 } from '../kit/contacts.mjs';
 import { Refused } from '../kit/faults.mjs';
 import { Gathered } from '../kit/gathered.mjs';
@@ -14,6 +14,7 @@ import { surfaceMotion } from '../kit/motion.mjs';
 import { load, versionOf } from '../kit/packages.mjs';
 import { count, flag, number, search, word } from '../kit/settings.mjs';
 import { halfOf, isBlock, isSphere, turnFromY, turnOf } from '../kit/solids.mjs';
+import { besideSurfaces, hasSubstrate } from '../kit/surfaces.mjs';
 import { Touches } from '../kit/touches.mjs';
 import { Units, gravityOf, unitSettings } from '../kit/units.mjs';
 
@@ -109,6 +110,9 @@ function shortest(single) {
 }
 
 const vector = ([x, y, z]) => ({ x, y, z });
+const turn = ([x, y, z, w]) => ({ x, y, z, w });
+/// Of a plate, of the shorter of its half sides.
+const THICKNESS = 1e-6;
 const NO_TURN = { x: 0, y: 0, z: 0, w: 1 };
 
 export async function open(folder) {
@@ -122,7 +126,7 @@ class RapierEngine {
     this.rapier = rapier;
     this.version = version;
     this.precision = 'single';
-    this.takes = ['block', 'cylinder'];
+    this.takes = ['block', 'cylinder', 'surfaces'];
     this.parameters = parametersOf(rapier);
     const own = OWN_SETTINGS.map((row) => (row.name === 'contact_recycling' && !recycles(version)
       ? { ...row, shipped: false, candidates: [] } : row));
@@ -189,7 +193,7 @@ class RapierEngine {
         states[at + 2] = z / factors[3 * p];
       });
     });
-    const found = new Touches();
+    const found = new Touches(this.scene);
     // Contacts cannot be asked: before 0.18 a step looks for those of the next step at its end.
     this.events.drainContactForceEvents((event) => {
       const [i, j] = [event.collider1(), event.collider2()].map((handle) => this.bodyOf.get(handle));
@@ -255,7 +259,8 @@ class RapierEngine {
     this.motion = surfaceMotion(this.scene);
     this.moving = [];
     const moves = !this.motion.isStill;
-    this.#addSurface(FLOOR, [0, 0, 1], [0, 0, 0], moves);
+    if (hasSubstrate(this.scene)) this.#addSurface(FLOOR, [0, 0, 1], [0, 0, 0], moves);
+    this.beside = besideSurfaces(this.scene).map((surface) => this.#addBeside(surface));
     if (!box) return;
     this.#addSurface(WALL, [1, 0, 0], [0, 0, 0], moves && box.moving_walls);
     this.#addSurface(WALL, [-1, 0, 0], [box.width, 0, 0], moves && box.moving_walls);
@@ -276,6 +281,51 @@ class RapierEngine {
     }
   }
 
+  /// A half-space, a cuboid of as good as no thickness, a cylinder or a ball.
+  #shapeOf({ shape, extent }) {
+    const { rapier } = this;
+    switch (shape.kind) {
+      case 'plane': return new rapier.HalfSpace(vector([0, 0, 1]));
+      case 'rectangle': return new rapier.Cuboid(extent[0], extent[1], THICKNESS * Math.min(extent[0], extent[1]));
+      case 'rod': return new rapier.Cylinder(extent[2], shape.radius);
+      default: return new rapier.Ball(shape.radius);
+    }
+  }
+
+  #addBeside(surface) {
+    const { rapier, world } = this;
+    const { RigidBodyDesc: desc } = rapier;
+    const kinematic = this.#movesByPosition() ? 'kinematicPositionBased' : 'kinematicVelocityBased';
+    const body = world.createRigidBody(
+      (surface.isStill ? desc.fixed() : desc[kinematic]())
+        .setTranslation(...surface.centre(this.startTime))
+        .setRotation(turn(surface.quaternion(this.startTime, 'y'))));
+    for (const contact of this.contacts.surfaces(surface.touch)) {
+      const shape = this.#withContact(new rapier.ColliderDesc(this.#shapeOf(surface)), contact);
+      this.bodyOf.set(world.createCollider(shape, body).handle, surface.touch);
+    }
+    return { surface, body };
+  }
+
+  /// A belt stays where it is, and so begins each step there.
+  #moveBeside(now) {
+    for (const { surface, body } of this.beside) {
+      if (surface.isStill) continue;
+      const centre = surface.centre(now);
+      const mean = this.#movesByPosition();
+      const velocity = surface.stepVelocity(now, this.timeStep, centre, mean);
+      body.setTranslation(vector(centre), true);
+      if (surface.turns) body.setRotation(turn(surface.quaternion(now, 'y')), true);
+      if (mean) {
+        body.setNextKinematicTranslation(vector(centre.map((x, k) => x + velocity[k] * this.timeStep)));
+        if (surface.turns) body.setNextKinematicRotation(turn(surface.quaternion(now + this.timeStep, 'y')));
+      } else {
+        body.setLinvel(vector(velocity), true);
+        body.setAngvel(vector(surface.rate), true);
+      }
+    }
+  }
+
   #movesByPosition() {
     return this.chosen.surface_velocity === 'this_step';
   }
@@ -291,8 +341,9 @@ class RapierEngine {
   }
 
   #moveSurfaces() {
-    if (this.moving.length === 0) return;
     const now = this.startTime + this.steps * this.timeStep;
+    this.#moveBeside(now);
+    if (this.moving.length === 0) return;
     const then = now + this.timeStep;
     for (const { body, place } of this.moving) {
       if (this.#movesByPosition()) {
@@ -328,8 +379,9 @@ function asTyped(scene) {
     applied.add('body_restitution', i, restitution);
   });
   for (const [surface, name] of surfaceNames(scene)) {
-    applied.add(`${name}_friction`, surface, naiveSurface(scene, surface).friction);
-    applied.add(`${name}_restitution`, surface, naiveSurface(scene, surface).restitution);
+    const whose = name === 'surface' ? touchedSurface(surface) : surface;
+    applied.add(`${name}_friction`, whose, naiveSurface(scene, surface).friction);
+    applied.add(`${name}_restitution`, whose, naiveSurface(scene, surface).restitution);
   }
   return {
     balls: (i) => [balls[i]],
@@ -339,21 +391,12 @@ function asTyped(scene) {
 }
 
 /// The surfaces of a scene, each with its name in the settings in force.
-function surfaceNames({ box }) {
-  if (!box) return [[FLOOR, 'substrate']];
+function surfaceNames(scene) {
+  const { box, surfaces = [] } = scene;
+  const beside = surfaces.map((_, k) => [surfaceTouch(k), 'surface']);
+  if (!box) return hasSubstrate(scene) ? [[FLOOR, 'substrate'], ...beside] : beside;
   const both = [[FLOOR, 'floor'], [WALL, 'wall']];
   return box.lid ? [...both, [LID, 'lid']] : both;
-}
-
-/// What a body has on a surface.
-function onSurface(scene, body, surface) {
-  if (scene.box)
-    return {
-      friction: frictionOf(contactOf(scene, body, surface)),
-      restitution: surfaceRestitution(scene, body, surface),
-    };
-  const { kinetic_friction, restitution } = groundOf(scene, body);
-  return { friction: kinetic_friction, restitution };
 }
 
 const alike = (a, b) => a.friction === b.friction && a.restitution === b.restitution;
@@ -382,8 +425,9 @@ function byPair(scene) {
   for (const [surface, name] of surfaceNames(scene)) {
     for (const body of firstOf.filter((i) => i >= 0)) {
       const { friction, restitution } = onSurface(scene, body, surface);
-      applied.add(name === 'substrate' ? 'friction' : `${name}_friction`, body, friction);
-      applied.add(`${name}_restitution`, body, restitution);
+      const whose = name === 'surface' ? `${body}-${touchedSurface(surface)}` : body;
+      applied.add(name === 'substrate' ? 'friction' : `${name}_friction`, whose, friction);
+      applied.add(`${name}_restitution`, whose, restitution);
     }
   }
   return {
@@ -413,7 +457,7 @@ function sortsOf(scene, pairs) {
     const found = [];
     firstOf.forEach((body, material) => {
       if (body < 0) return;
-      const value = onSurface(scene, body, surface);
+      const value = fieldsOf(onSurface(scene, body, surface));
       const ball = balls[material][0];
       const contact = {
         ...value,

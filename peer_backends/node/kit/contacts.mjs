@@ -4,6 +4,9 @@
 export const FLOOR = -1; // the substrate's too
 export const WALL = -2;
 export const LID = -3;
+/// A surface beside the substrate, where there is no box; and back.
+export const surfaceTouch = (surface) => -2 - surface;
+export const touchedSurface = (touch) => -2 - touch;
 
 /// A sphere's material on the substrate.
 export const groundOf = (scene, body) => scene.substrate[scene.bodies[body].material];
@@ -11,10 +14,19 @@ export const groundOf = (scene, body) => scene.substrate[scene.bodies[body].mate
 /// What two materials have between them.
 export const pairOf = (scene, a, b) => scene.pairs[a * scene.substrate.length + b];
 
-/// Between a body and another one, or a surface of the box.
+/// A body as it lies on a surface beside the substrate and as it bounces off: {lasting, impact}.
+const onBeside = (scene, body, touch) =>
+  scene.on_surfaces[scene.bodies[body].material * scene.surfaces.length + touchedSurface(touch)];
+
+/// What a body has while it lies on the substrate or a surface beside it, as in `substrate`.
+export const lastingOf = (scene, body, surface) =>
+  (surface === FLOOR ? groundOf(scene, body) : onBeside(scene, body, surface).lasting);
+
+/// Between a body and another one, or a surface of the box, or one beside the substrate.
 export function contactOf(scene, body, other) {
   const { material } = scene.bodies[body];
   if (other >= 0) return pairOf(scene, material, scene.bodies[other].material);
+  if (!scene.box) return onBeside(scene, body, other).impact;
   const { on_floor, on_wall, on_lid } = scene.box;
   return { [FLOOR]: on_floor, [WALL]: on_wall, [LID]: on_lid }[other][material];
 }
@@ -95,8 +107,12 @@ const speedBetween = (scene, i, j) =>
 export const pairRestitution = (scene, i, j) =>
   oneRestitution(contactOf(scene, i, j).restitution, speedBetween(scene, i, j));
 
-/// Restitution on a surface of a box as one number, by the speed at which the body starts.
+/// Restitution on a surface, of a box or beside the substrate, as one number, by the speed at which
+/// the body starts.
 export function surfaceRestitution(scene, body, surface) {
+  if (!scene.box)
+    return oneRestitution(contactOf(scene, body, surface).restitution,
+      Math.hypot(...scene.initial.subarray(9 * body + 3, 9 * body + 6)));
   const moves = surface === FLOOR || scene.box.moving_walls;
   const { amplitude, frequency } = scene.box.floor;
   const up = moves ? 2 * Math.PI * frequency * amplitude : 0;
@@ -104,10 +120,31 @@ export function surfaceRestitution(scene, body, surface) {
   return oneRestitution(contactOf(scene, body, surface).restitution, Math.hypot(x, y, z - up));
 }
 
+/// Kinetic and static friction, restitution and drilling length of a body on the substrate or a
+/// surface. One that keeps its slip in an impact, β0 = -1, has no friction.
+export function onSurface(scene, body, surface) {
+  if (scene.box) {
+    const friction = frictionOf(contactOf(scene, body, surface));
+    return {
+      friction, staticFriction: friction, restitution: surfaceRestitution(scene, body, surface), drilling: 0,
+    };
+  }
+  const ground = lastingOf(scene, body, surface);
+  const own = surface === FLOOR ? undefined : contactOf(scene, body, surface);
+  const isSmooth = own?.tangential_restitution === -1;
+  return {
+    friction: isSmooth ? 0 : ground.kinetic_friction,
+    staticFriction: isSmooth ? 0 : ground.static_friction,
+    restitution: own ? surfaceRestitution(scene, body, surface) : ground.restitution,
+    drilling: ground.drilling_length,
+  };
+}
+
 /// What people type into the fields of a body.
 export function naiveBall(scene, body) {
   if (scene.box && scene.bodies.length === 1) return naiveSurface(scene, FLOOR);
-  const ground = groundOf(scene, body);
+  const isAbove = scene.has_substrate !== false || !(scene.surfaces?.length > 0);
+  const ground = isAbove ? groundOf(scene, body) : lastingOf(scene, body, surfaceTouch(0));
   const other = body === 0 ? 1 : 0;
   if (scene.bodies.length === 1)
     return {
@@ -126,6 +163,11 @@ export function naiveBall(scene, body) {
 /// What people type into the fields of the substrate or of a surface of the box.
 export function naiveSurface(scene, surface) {
   const none = { rolling: 0, spinning: 0 };
+  if (!scene.box && surface !== FLOOR)
+    return {
+      friction: lastingOf(scene, 0, surface).kinetic_friction,
+      restitution: surfaceRestitution(scene, 0, surface), ...none,
+    };
   if (!scene.box) {
     const ground = groundOf(scene, 0);
     return { friction: ground.kinetic_friction, restitution: ground.restitution, ...none };

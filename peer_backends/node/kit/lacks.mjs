@@ -1,6 +1,8 @@
 // What of a scene an engine cannot express, in the words that all engines use for it.
 
-import { FLOOR, LID, WALL, contactOf, dependsOnSpeed, groundOf, materialPairs } from './contacts.mjs';
+import {
+  FLOOR, LID, WALL, contactOf, dependsOnSpeed, groundOf, lastingOf, materialPairs, surfaceTouch,
+} from './contacts.mjs';
 import { rounded } from './text.mjs';
 
 const bounces = (contact) => dependsOnSpeed(contact) || contact.restitution > 0;
@@ -9,9 +11,37 @@ const bounces = (contact) => dependsOnSpeed(contact) || contact.restitution > 0;
 const reversesSlip = ({ friction, tangential_restitution }) =>
   friction > 0 && tangential_restitution !== 0 && tangential_restitution !== -1;
 
+/// Each body with each surface beside the substrate.
+const contactsBeside = (scene) =>
+  scene.bodies.flatMap((_, i) => (scene.surfaces ?? []).map((__, k) => [i, surfaceTouch(k)]));
+
+/// What bodies have while they lie somewhere.
+function groundsOf(scene) {
+  if (scene.box) return [];
+  const below = scene.has_substrate === false ? [] : scene.bodies.map((_, i) => groundOf(scene, i));
+  return [...new Set([...below, ...contactsBeside(scene).map(([i, touch]) => lastingOf(scene, i, touch))])];
+}
+
+const SWINGS = ['oscillation', 'table'];
+
+/// Whether a body may go further than its radius in a step, by its speed at the start or after a fall
+/// to the lowest plate, so that its centre passes a plate before the engine looks again.
+function canPassAPlate(scene, timeStep) {
+  const plates = (scene.surfaces ?? []).filter(({ shape }) => shape.kind === 'rectangle');
+  return plates.some(({ shape }) => {
+    const lowest = shape.centre[2] - Math.abs(shape.half_length[2]) - Math.abs(shape.half_width[2]);
+    return scene.bodies.some(({ radius }, i) => {
+      const state = scene.initial.subarray(9 * i, 9 * i + 9);
+      const fall = 2 * scene.gravity * Math.max(0, state[2] - lowest);
+      return Math.sqrt(state[3] ** 2 + state[4] ** 2 + state[5] ** 2 + fall) * timeStep > radius;
+    });
+  });
+}
+
 /// All contacts there are in a scene, of one body or two for each kind.
 function* contactsOf(scene) {
   for (const [i, j] of materialPairs(scene)) yield contactOf(scene, i, j);
+  for (const [body, touch] of contactsBeside(scene)) yield contactOf(scene, body, touch);
   if (!scene.box) return;
   const surfaces = scene.box.lid ? [FLOOR, WALL, LID] : [FLOOR, WALL];
   for (let i = 0; i < scene.bodies.length; ++i)
@@ -34,7 +64,7 @@ function canPassInAStep(scene, timeStep) {
 /// What the scene's bodies need of the engine, each found on any of them.
 function needsOf(scene, timeStep) {
   const contacts = [...contactsOf(scene)];
-  const grounds = scene.box ? [] : [...new Set(scene.bodies.map((_, i) => groundOf(scene, i)))];
+  const grounds = groundsOf(scene);
   const rolls = ({ rolling }) => rolling.some(([, mu]) => mu > 0);
   return {
     staticFriction: grounds.some((each) => each.static_friction !== each.kinetic_friction),
@@ -48,6 +78,8 @@ function needsOf(scene, timeStep) {
     reversedSlip: contacts.some(reversesSlip),
     movingFloor: Boolean(scene.box) && scene.box.floor.amplitude > 0 && scene.box.floor.frequency > 0,
     movingSubstrate: scene.motion.kind !== 'still',
+    swingingSurface: (scene.surfaces ?? []).some(({ motion }) => SWINGS.includes(motion.course?.kind)),
+    throughInAStep: canPassAPlate(scene, timeStep),
     farInAStep: Boolean(scene.box) && canPassInAStep(scene, timeStep),
   };
 }
@@ -89,6 +121,9 @@ export function lacks(scene, timeStep, abilities) {
     'it is the mean over the step');
   note(needs.movingSubstrate && !can.surfaceVelocity,
     "the substrate's velocity at the end of a step", 'it is the mean over the step');
+  note(needs.swingingSurface && !can.surfaceVelocity, "a surface's velocity at the end of a step",
+    'it is the mean over the step');
+  note(needs.throughInAStep && !can.sweeps, 'plates that a body passes within a step');
   note(needs.farInAStep && !can.sweeps, 'collisions of bodies that pass each other within a step');
   if (can.rolling && !can.rollingTable)
     note(needs.rollingTable, 'rolling friction that depends on the speed');

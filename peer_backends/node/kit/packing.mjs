@@ -3,7 +3,6 @@
 import { Rubbish } from './faults.mjs';
 
 const STATE = 9; // numbers of a state: position, velocity, angular velocity
-const SUBSTRATE = 0xffffffff;
 
 /// 9 numbers for each body.
 export function unpackStates(bytes, place) {
@@ -25,7 +24,7 @@ export function packFrames(states, touches) {
   for (const here of touches) {
     for (const [first, second, impulse] of here) {
       packed.writeUInt32LE(first, at);
-      packed.writeUInt32LE(second < 0 ? SUBSTRATE : second, at + 4);
+      packed.writeInt32LE(second, at + 4); // the substrate and surfaces are negative
       packed.writeDoubleLE(impulse, at + 8);
       at += 16;
     }
@@ -48,6 +47,20 @@ function listOf(scene, key, place, count, things) {
   return list;
 }
 
+const SHAPES = ['plane', 'rectangle', 'rod', 'ball'];
+const MOTIONS = ['still', 'belt', 'moving', 'turning'];
+
+function readSurfaces(scene, place, materials) {
+  const surfaces = listOf(scene, 'surfaces', place);
+  listOf(scene, 'on_surfaces', place, materials * surfaces.length, 'materials on surfaces');
+  surfaces.forEach(({ shape, motion }, k) => {
+    if (!SHAPES.includes(shape?.kind))
+      throw new Rubbish(`${place}.surfaces[${k}].shape.kind must be one of ${SHAPES.join(', ')}`);
+    if (!MOTIONS.includes(motion?.kind))
+      throw new Rubbish(`${place}.surfaces[${k}].motion.kind must be one of ${MOTIONS.join(', ')}`);
+  });
+}
+
 /// The scene of a request, its states unpacked.
 export function readScene(scene) {
   const place = 'request.scene';
@@ -67,6 +80,7 @@ export function readScene(scene) {
   if (scene.box)
     for (const key of ['on_floor', 'on_wall', 'on_lid'])
       listOf(scene.box, key, `${place}.box`, materials, 'materials');
+  if (scene.surfaces !== undefined) readSurfaces(scene, place, materials);
   const initial = unpackStates(scene.initial, `${place}.initial`);
   if (initial.length !== STATE * bodies.length)
     throw new Rubbish(`${place}.initial must have an entry for each of ${bodies.length} bodies, has ${initial.length / STATE}`);

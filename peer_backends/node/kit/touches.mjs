@@ -1,11 +1,17 @@
 /// Normal impulses of one step, summed over the contact points of each pair.
 export class Touches {
   #sums = new Map();
+  #lowest;
 
-  /// Two bodies, in any order, or a body and something < 0: floor, walls and lid of a box are one.
+  /// Floor, walls and lid of a box are one; without one what is < 0 is the substrate or a surface.
+  constructor({ box } = { box: true }) {
+    this.#lowest = box ? -1 : -Infinity;
+  }
+
+  /// Two bodies, in any order, or a body and something < 0.
   add(first, second, impulse) {
     if (!(impulse > 0)) return;
-    const other = Math.max(second, -1);
+    const other = Math.max(second, this.#lowest);
     const [low, high] = other >= 0 && other < first ? [other, first] : [first, other];
     const key = `${low} ${high}`;
     const sum = this.#sums.get(key);

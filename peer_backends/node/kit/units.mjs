@@ -54,6 +54,12 @@ export class Units {
       return restitution;
     };
     const contacts = (list) => list.map((each) => ({ ...each, restitution: law(each.restitution) }));
+    const lasting = (ground) => ({
+      ...ground,
+      rolling: ground.rolling.map(([v, mu]) => [v * speed, mu]),
+      drilling_length: ground.drilling_length * length,
+      coupled_radius: ground.coupled_radius * length,
+    });
     const { box } = scene;
     return {
       ...scene,
@@ -62,16 +68,17 @@ export class Units {
         ...(body.size && { size: body.size.map((edge) => edge * length) }),
       })),
       initial: scene.initial.map((value, k) => value * factors[k % 9]),
-      substrate: scene.substrate.map((ground) => ({
-        ...ground,
-        rolling: ground.rolling.map(([v, mu]) => [v * speed, mu]),
-        drilling_length: ground.drilling_length * length,
-        coupled_radius: ground.coupled_radius * length,
-      })),
+      substrate: scene.substrate.map(lasting),
       pairs: contacts(scene.pairs),
       gravity: scene.gravity * acceleration,
       downhill: scene.downhill.map((a) => a * acceleration),
       motion: this.#motion(scene.motion),
+      surfaces: scene.surfaces?.map(({ shape, motion }) => ({
+        shape: this.#shape(shape), motion: this.#surfaceMotion(motion),
+      })),
+      on_surfaces: scene.on_surfaces?.map((each) => ({
+        lasting: lasting(each.lasting), impact: contacts([each.impact])[0],
+      })),
       box: box && {
         ...box,
         width: box.width * length,
@@ -82,6 +89,22 @@ export class Units {
         on_lid: contacts(box.on_lid),
       },
     };
+  }
+
+  #shape(shape) {
+    const scaled = { ...shape };
+    for (const key of ['point', 'centre', 'half_length', 'half_width', 'begin', 'end'])
+      if (shape[key]) scaled[key] = shape[key].map((x) => x * this.length);
+    if (shape.radius) scaled.radius = shape.radius * this.length;
+    return scaled;
+  }
+
+  #surfaceMotion(motion) {
+    const scaled = { ...motion };
+    if (motion.course) scaled.course = this.#motion(motion.course);
+    if (motion.pivot) scaled.pivot = motion.pivot.map((x) => x * this.length);
+    if (motion.rate) scaled.rate = motion.rate.map((x) => x / this.time);
+    return scaled;
   }
 
   #motion(motion) {
