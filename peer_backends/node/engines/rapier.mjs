@@ -282,7 +282,7 @@ class RapierEngine {
   }
 
   /// A half-space, a cuboid of as good as no thickness, a cylinder or a ball.
-  #shapeOf({ shape, extent }) {
+  #shapeOfSurface({ shape, extent }) {
     const { rapier } = this;
     switch (shape.kind) {
       case 'plane': return new rapier.HalfSpace(vector([0, 0, 1]));
@@ -301,7 +301,7 @@ class RapierEngine {
         .setTranslation(...surface.centre(this.startTime))
         .setRotation(turn(surface.quaternion(this.startTime, 'y'))));
     for (const contact of this.contacts.surfaces(surface.touch)) {
-      const shape = this.#withContact(new rapier.ColliderDesc(this.#shapeOf(surface)), contact);
+      const shape = this.#withContact(new rapier.ColliderDesc(this.#shapeOfSurface(surface)), contact);
       this.bodyOf.set(world.createCollider(shape, body).handle, surface.touch);
     }
     return { surface, body };
