@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../reference/soft_scenes.h"
+#include "harness/observe/observer.h"
 #include "harness/run/reference_run.h"
 
 namespace slipcheck {
@@ -48,6 +49,40 @@ Strike random_strike(std::mt19937& random) {
     return std::uniform_real_distribution<>(low, high)(random);
   };
   return {in(0.02, 0.4), in(-80, 80), in(0.4, 0.95), in(0.02, 2), in(0.02, 0.6)};
+}
+
+/// An engine may take steps to turn a body round, and further ones to throw it up again (Havok:
+/// two; MuJoCo as shipped: 60 ms of them): all of it is one landing, with the largest speed
+/// upwards.
+TEST(Flight, ALandingOfSeveralStepsIsOne) {
+  constexpr double kStep = 1.0 / 240, kDown = 1.0;
+  for (const std::vector<double>& after :
+       std::vector<std::vector<double>>{{0.8}, {0.0, 0.8}, {-0.5, 0.0, 0.4, 0.8}, {0.0, 0.0}}) {
+    const Scene scene = test::steel_scene(1);
+    Observer observer(scene, kStep, kDown);
+    Frame frame;
+    frame.bodies = {scene.initial[0]};
+    BodyState& ball = frame.bodies[0];
+    ball.position.z() += 0.01;
+    ball.velocity = {0, 0, -kDown};
+    observer.take(0, frame);
+    double time = 0;
+    ball.position.z() = scene.bodies[0].radius;
+    frame.touches = {{0, kSubstrate, 1e-3}};
+    for (const double speed : after) {
+      ball.velocity.z() = speed;
+      observer.take(time += kStep, frame);
+    }
+    frame.touches.clear();
+    for (int k = 0; k < 3; ++k) {
+      ball.velocity.z() = std::max(0.0, ball.velocity.z() - 9.81 * kStep);
+      ball.position.z() += ball.velocity.z() * kStep;
+      observer.take(time += kStep, frame);
+    }
+    const Observables seen = observer.finish(time);
+    ASSERT_EQ(seen.pairs.size(), 1u);
+    EXPECT_DOUBLE_EQ(seen.pairs[0].restitution, after.back() / kDown);
+  }
 }
 
 /// From the lift-off at T_0 to the landing: up to the end of the collision, at most t_col, where
