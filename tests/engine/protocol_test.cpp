@@ -99,6 +99,28 @@ TEST(Protocol, FramesComeThroughBitForBit) {
   }
 }
 
+TEST(Protocol, ATouchNamesItsSurface) {
+  Frames sent;
+  sent.frames.resize(1);
+  sent.frames[0].bodies.resize(2);
+  sent.frames[0].touches = {
+      {0, surface_touch(3), 0.5}, {1, kSubstrate, 1}, {1, surface_touch(0), 2}};
+  const auto received = through<Frames>(sent);
+  ASSERT_EQ(received.frames[0].touches.size(), 3u);
+  EXPECT_EQ(touched_surface(received.frames[0].touches[0].second), 3u);
+  EXPECT_EQ(received.frames[0].touches[1].second, kSubstrate);
+  sent.frames[0].touches[1].first = 0;
+  sent.frames[0].touches[2] = sent.frames[0].touches[0];
+  EXPECT_EQ(test::refusal_of<Rubbish>([&] { through<Frames>(sent); }),
+            "a touch of 0 and the surface 3 twice in a frame");
+}
+
+TEST(Protocol, AWelcomeThatSaysNothingOfItKnowsNoSurfaces) {
+  EXPECT_TRUE(through<Welcome>(Welcome{1, {"e", "1", "single", {}}}).info.knows.empty());
+  const auto knows = through<Welcome>(Welcome{1, {"e", "1", "single", {}, {kKnowsSurfaces}}});
+  EXPECT_EQ(knows.info.knows, std::vector<std::string>{"surfaces"});
+}
+
 TEST(Protocol, TheOtherMessagesComeThrough) {
   EXPECT_EQ(request_through<Hello>(Hello{}).version, kVersion);
   EXPECT_EQ(request_through<Step>(Step{77}).count, 77u);

@@ -244,5 +244,73 @@ TEST(SceneJson, ABadBoxIsNamed) {
   expect([](json& s) { s.erase("periodic"); }, "periodic: must be there");
 }
 
+TEST(SceneJson, SurfacesComeThroughWhole) {
+  const Scene scene = some_surfaces();
+  const Scene received = through(scene);
+  EXPECT_EQ(scene_to_json(received), scene_to_json(scene));
+  EXPECT_FALSE(received.has_substrate);
+  ASSERT_EQ(received.surfaces.size(), 4u);
+  const Vector3 at(0.3, 0.2, 0.1);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (const double t : {0.0, 0.7}) {
+      const Surface &sent = scene.surfaces[k], &got = received.surfaces[k];
+      EXPECT_EQ(got.nearest(t, at).point, sent.nearest(t, at).point) << k;
+      EXPECT_EQ(got.motion.velocity(t, at), sent.motion.velocity(t, at)) << k;
+      EXPECT_EQ(got.motion.is_belt(), sent.motion.is_belt()) << k;
+    }
+  EXPECT_EQ(std::get<double>(received.on_surface(1, 3).impact.restitution), 0.1 * 7);
+  EXPECT_EQ(received.on_surface(1, 3).lasting.coupled_radius, 1e-4);
+}
+
+TEST(SceneJson, WhereThereAreNoSurfacesNothingIsSaidOfThem) {
+  const json object = scene_to_json(some_scene());
+  for (const char* key : {"has_substrate", "surfaces", "on_surfaces"})
+    EXPECT_FALSE(object.contains(key)) << key;
+  EXPECT_TRUE(through(some_scene()).has_substrate);
+}
+
+TEST(SceneJson, ABadSurfaceIsNamed) {
+  const auto expect = [](auto spoil, const char* reason) {
+    expect_rubbish(some_surfaces(), spoil, reason);
+  };
+  expect([](json& s) { s["surfaces"][0]["shape"]["kind"] = "cone"; },
+         "surfaces[0].shape.kind: must be one of plane, rectangle, rod, ball, got \"cone\"");
+  expect(
+      [](json& s) {
+        s["surfaces"][0]["shape"]["normal"] = {0, 0, 2};
+      },
+      "surfaces[0].shape.normal: must have the length 1, got a list");
+  expect(
+      [](json& s) {
+        s["surfaces"][1]["shape"]["half_width"] = {1, 1, 0};
+      },
+      "surfaces[1].shape.half_width: must be at right angles to the one before, got a list");
+  expect(
+      [](json& s) {
+        s["surfaces"][1]["shape"]["half_length"] = {0, 0, 0};
+      },
+      "surfaces[1].shape.half_length: must have a length > 0, got a list");
+  expect(
+      [](json& s) {
+        s["surfaces"][2]["shape"]["end"] = {0, 0, 0};
+      },
+      "surfaces[2].shape.end: must be apart from begin, got a list");
+  expect(
+      [](json& s) {
+        s["surfaces"][2]["motion"]["rate"] = {0, 0, 0};
+      },
+      "surfaces[2].motion.rate: must not be zero, got a list");
+  expect([](json& s) { s["surfaces"][3]["shape"]["radius"] = 0; },
+         "surfaces[3].shape.radius: must be > 0, got 0");
+  expect([](json& s) { s["surfaces"][3]["motion"]["kind"] = "hop"; },
+         "surfaces[3].motion.kind: must be one of still, belt, moving, turning, got \"hop\"");
+  expect([](json& s) { s["on_surfaces"].erase(0); },
+         "on_surfaces: must have an entry for each of 8 materials on surfaces, has 7");
+  Scene both = some_box();
+  both.has_substrate = false;
+  expect_rubbish(
+      both, [](json&) {}, "box: must stand alone, without surfaces");
+}
+
 }  // namespace
 }  // namespace slipcheck::protocol

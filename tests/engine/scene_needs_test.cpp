@@ -74,5 +74,24 @@ TEST(LackList, KindsAreWithoutReasonsAndNumbers) {
   EXPECT_EQ(lacks[1].kind, "restitution below … m/s of approach");
 }
 
+TEST(SceneNeeds, SurfacesCountInPlaceOfASubstrateThatIsNotThere) {
+  Scene scene = balls_of({0}, 1);
+  scene.has_substrate = false;
+  scene.substrate[0].rolling = RollingFriction(0.01);
+  scene.surfaces = {{RectangleShape{}, {}}};
+  scene.on_surfaces = {{{}, {0.0, 0, -1}}};
+  EXPECT_FALSE(needs_of(scene, 1e-3).rolling);
+  scene.on_surfaces[0].lasting.drilling_length = 1e-3;
+  scene.on_surfaces[0].impact = {PowerLawRestitution{}, 0.2, 0.5};
+  const SceneNeeds needs = needs_of(scene, 1e-3);
+  EXPECT_TRUE(needs.drilling && needs.bounce_law && needs.reversed_slip && needs.friction);
+  EXPECT_FALSE(needs.swinging_surface || needs.through_in_a_step);
+  scene.initial[0].velocity = {0, 0, -11};  // radius 1 cm, 11 mm in a step
+  EXPECT_TRUE(needs_of(scene, 1e-3).through_in_a_step);
+  scene.surfaces[0].motion =
+      SurfaceMotion::moving(SubstrateMotion::oscillation({1, 0}, 1, 0), kUp, Vector3::UnitX());
+  EXPECT_TRUE(needs_of(scene, 1e-3).swinging_surface);
+}
+
 }  // namespace
 }  // namespace slipcheck

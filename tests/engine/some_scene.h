@@ -59,6 +59,22 @@ inline Scene some_box(std::size_t count = 2) {
   return scene;
 }
 
+/// The same spheres among a surface of each shape and motion, without a substrate.
+inline Scene some_surfaces(std::size_t count = 2) {
+  Scene scene = some_scene(count);
+  scene.has_substrate = false;
+  const SubstrateMotion course = SubstrateMotion::oscillation({0.1, 1.0 / 3}, 1.0 / 7, 0.3);
+  const Vector3 x = Vector3::UnitX(), z = Vector3::UnitZ();
+  scene.surfaces = {
+      {PlaneShape{{0, 0, 1.0 / 3}, {0.6, 0, 0.8}}, {}},
+      {RectangleShape{{1, 2, 3}, {0.5, 0, 0}, {0, 0.1, 0}}, SurfaceMotion::moving(course, z, x)},
+      {RodShape{{0, 0, 0}, {0, 1, 0}, 0.1}, SurfaceMotion::turning({0, 0, 0.2}, {0, 3, 0})},
+      {BallShape{{1, 1, 1}, 0.25}, SurfaceMotion::belt(course, x, z)}};
+  for (std::size_t k = 0; k < 8; ++k)
+    scene.on_surfaces.push_back({scene.substrate[k % 2], {0.1 * static_cast<double>(k), 0.3, 0.5}});
+  return scene;
+}
+
 /// A setting of each kind.
 inline std::vector<SettingInfo> some_settings() {
   SettingInfo on, erp, iterations, body, label;

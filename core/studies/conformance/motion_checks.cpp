@@ -186,6 +186,22 @@ std::string clock(const Trial& trial) {
   return {};
 }
 
+/// Of tan θ = 3/4 and μ = 0.3 > (2/7) tan θ: it rolls down with (5/7) g sin θ, and the slope
+/// carries m g cos θ.
+std::string rolls_down_surface(const Trial& trial) {
+  const Scene scene = sphere_on_slope();
+  const Frames frames = run_alone(trial, scene, kTenth);
+  const double t = kTenth * kStep, speed = 5.0 / 7 * 0.6 * kGravity * t;
+  expect_near("the velocity of a sphere that rolled down a surface for 0.1 s",
+              last(frames).velocity, speed * Vector3(0.8, 0, -0.6),
+              5 * kSloppiness * speed + kGravity * kStep, speeds);
+  const double load = scene.bodies[0].mass * 0.8 * kGravity * t;
+  const double carried = impulse_of(frames, 0, surface_touch(1)) / load;
+  if (!(std::abs(carried - 1) < 0.2))
+    throw Breach(fmt::format("the impulses of surface 1 are {:.3g} of m g cos θ t", carried));
+  return fmt::format("carries {:.4g} of m g cos θ t", carried);
+}
+
 }  // namespace
 
 std::vector<Check> motion_checks() {
@@ -219,6 +235,11 @@ std::vector<Check> motion_checks() {
       {"touches of a collision",
        "Report a pair of bodies that collide in the frame that shows their new velocities, once.",
        touches_of_collision},
+      {"rolling down a surface",
+       "A surface is where its point and normal say and has its own friction; a touch with surface "
+       "k "
+       "has fffffffe - k for its second body.",
+       rolls_down_surface},
       {"clock", "Let the plane begin at the time that start gives, not at 0.", clock},
   };
 }

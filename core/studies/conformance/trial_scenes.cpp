@@ -53,6 +53,18 @@ Scene two_that_meet(double speed) {
   return scene;
 }
 
+Scene sphere_on_slope() {
+  Scene scene = spheres_on_plane(1);
+  const Vector3 normal(0.6, 0, 0.8);
+  scene.has_substrate = false;
+  scene.surfaces = {{PlaneShape{{0, 0, -10}, kUp}, {}}, {PlaneShape{{0, 0, 0}, normal}, {}}};
+  SubstrateContact ground;
+  ground.static_friction = ground.kinetic_friction = kTrialFriction;
+  scene.on_surfaces.assign(2, {ground, {0.0, kTrialFriction, 0}});
+  scene.initial[0].position = kTrialRadius * normal;
+  return scene;
+}
+
 Scene spheres_in_box() {
   Scene scene = spheres_on_plane(3);
   for (BodyState& state : scene.initial) state.position += Vector3(0.03, 0, 0.02);

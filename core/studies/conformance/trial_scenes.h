@@ -22,6 +22,10 @@ Scene one_sphere(double height, const Vector3& velocity = Vector3::Zero());
 /// them.
 Scene two_that_meet(double speed);
 
+/// One at rest on a tilted plane beside another, with no substrate: surface 1, whose normal is
+/// (0.6, 0, 0.8). Surface 0 is a plane far below.
+Scene sphere_on_slope();
+
 /// A wide vertical box with a shaken floor and three spheres that fall.
 Scene spheres_in_box();
 
