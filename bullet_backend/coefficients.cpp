@@ -117,8 +117,10 @@ double PairCoefficients::spinning_friction(int body, int other) const {
 }
 
 bool PairCoefficients::slips(int body, int other, double slip_speed, double onto) const {
+  const SubstrateContact* ground = lasting_contact(body, other);
+  if (!ground) return true;
   const double in_a_step = (1 + scene_.bodies[index(body)].inverse_shape_factor()) *
-                           lasting_contact(body, other)->kinetic_friction * onto * time_step_;
+                           ground->kinetic_friction * onto * time_step_;
   return slip_speed > in_a_step;
 }
 
