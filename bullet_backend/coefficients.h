@@ -79,7 +79,8 @@ class PairCoefficients {
   bool slips(int body, double slip_speed) const {
     return slips(body, kSubstrate, slip_speed, scene_.gravity);
   }
-  /// The same on the substrate or a surface onto which gravity pulls with `onto`, >= 0.
+  /// The same on the substrate or a surface onto which gravity pulls with `onto`, >= 0. All else,
+  /// where it makes no difference, slips.
   bool slips(int body, int other, double slip_speed, double onto) const;
 
   /// Along the world's axes as Bullet has it.

@@ -126,9 +126,12 @@ void SurfaceBody::begin_step(double time, double time_step) {
   body_->body.setInterpolationWorldTransform(then);
 }
 
-void SurfaceBody::tell_rate() const {
-  if (turning_rate() > 0 && told_ != SurfaceVelocity::step_before)
-    body_->body.setAngularVelocity(to_bullet(turn_ * surface_.motion.rate()));
+void SurfaceBody::tell_velocity() const {
+  if (is_still() || told_ == SurfaceVelocity::step_before) return;
+  btRigidBody& body = body_->body;
+  body.setLinearVelocity(
+      to_bullet(told_velocity(from_bullet(body.getWorldTransform().getOrigin()))));
+  body.setAngularVelocity(to_bullet(turn_ * surface_.motion.rate()));
 }
 
 NearestPoint SurfaceBody::nearest(double time, const Vector3& to) const {

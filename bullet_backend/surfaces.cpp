@@ -72,11 +72,11 @@ Surfaces::Surfaces(btDiscreteDynamicsWorld& world, const Scene& scene, const Wor
     bodies_.push_back(&beside_.back()->body());
     world.addRigidBody(bodies_.back());
   }
-  if (std::ranges::any_of(beside_, [](const auto& surface) { return surface->turning_rate() > 0; }))
+  if (std::ranges::any_of(beside_, [](const auto& surface) { return !surface->is_still(); }))
     world.setInternalTickCallback(
         [](btDynamicsWorld* turning, btScalar) {
           const auto* surfaces = static_cast<const Surfaces*>(turning->getWorldUserInfo());
-          for (const auto& surface : surfaces->beside_) surface->tell_rate();
+          for (const auto& surface : surfaces->beside_) surface->tell_velocity();
         },
         this, true);
   if (!scene.box) return;

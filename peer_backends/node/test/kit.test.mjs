@@ -12,6 +12,7 @@ import { substrateMotion } from '../kit/motion.mjs';
 import { readScene } from '../kit/packing.mjs';
 import { count, flag, number, refuseBadSettings, word } from '../kit/settings.mjs';
 import { inertiaOf, turnFromY, turnFromZ, turnOf } from '../kit/solids.mjs';
+import { besideSurfaces } from '../kit/surfaces.mjs';
 import { exactText, rounded } from '../kit/text.mjs';
 import { Units } from '../kit/units.mjs';
 import { ball, codec, packed, replies, sceneOf } from './support.mjs';
@@ -251,4 +252,22 @@ test('units count the edges of bodies too', () => {
   const block = { ...ball(0.1), shape: 'block', size: [0.2, 0.3, 0.2], axis: [1, 0] };
   const units = new Units({ ...scene(), bodies: [block] }, { scale_radius_to: 1, scale_mass_to: 0, scale_gravity_to: 0 });
   assert.deepEqual(units.scene({ ...readScene({ ...scene(), bodies: [block, block] }) }).bodies[0].size, [2, 3, 2]);
+});
+
+test('surfaces lie and move as the scene says', () => {
+  const spin = { kind: 'turning', pivot: [1, 0, 0], rate: [0, 0, Math.PI / 2] };
+  const course = { kind: 'constant', velocity: [0.5, 0] };
+  const [plate, belt] = besideSurfaces({ surfaces: [
+    { shape: { kind: 'rectangle', centre: [2, 0, 0], half_length: [0.5, 0, 0], half_width: [0, 0.2, 0] }, motion: spin },
+    { shape: { kind: 'rod', begin: [0, 0, 0], end: [0, 2, 0], radius: 0.1 },
+      motion: { kind: 'belt', course, first: [0, 0, 1], second: [1, 0, 0] } },
+  ] });
+  const near = (a, b) => a.forEach((value, k) => assert.ok(Math.abs(value - b[k]) < 1e-15, `${a} is not ${b}`));
+  near(plate.centre(1), [1, 1, 0]); // a quarter turn about x = 1
+  near(plate.quaternion(1), [0, 0, Math.SQRT1_2, Math.SQRT1_2]);
+  near(plate.velocity(0, [3, 0, 0]), [0, Math.PI, 0]);
+  near(belt.centre(4), [0, 1, 0]); // the shape stays
+  near(belt.stepVelocity(1, 0.25, [0, 0, 0], true), [0, 0, 0.5]);
+  near(belt.axes(0)[2], [0, 1, 0]);
+  assert.deepEqual([plate.touch, belt.touch], [-2, -3]);
 });
