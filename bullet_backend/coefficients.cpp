@@ -124,8 +124,8 @@ double PairCoefficients::spinning_friction(int body, int other) const {
 bool PairCoefficients::slips(int body, int other, double slip_speed, double onto) const {
   const SubstrateContact* ground = lasting_contact(body, other);  // none in a box
   const double friction = ground ? ground->kinetic_friction : 0;
-  return slip_speed > (1 + scene_.bodies[index(body)].inverse_shape_factor()) * friction * onto *
-                          time_step_;
+  return slip_speed >
+         (1 + scene_.bodies[index(body)].inverse_shape_factor()) * friction * onto * time_step_;
 }
 
 namespace {
