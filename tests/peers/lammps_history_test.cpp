@@ -80,6 +80,8 @@ Scene history_scene(const HistoryCase& each) {
   scene.initial[1].position = -apart;
   if (each.angle != 0) scene.initial[0].angular_velocity = {3, -5, 20};
   if (!each.wall) return scene;
+  // LAMMPS does not turn a spring with the spin about the normal, as here: 20 rad/s make 4e-5.
+  scene.initial[0].angular_velocity.z() = 0;
   scene.bodies.resize(1);
   scene.material.resize(1);
   scene.initial.resize(1);
@@ -207,11 +209,11 @@ TEST(LammpsHistory, ComesToTheSameAsItsStepFalls) {
                    fmt::format("{:.2e} {:.2e} {:.2e} {:.2e}", own, at_500, at_1000, at_4000));
     fmt::print("{:24} own {:.1e}; LAMMPS at t_col/500 {:.1e}, /1000 {:.1e}, /4000 {:.1e}\n",
                each.name, own, at_500, at_1000, at_4000);
-    // Of Hertz's contact on the wall 4e-5; all others are below 1e-6.
-    EXPECT_LT(own, 1e-4);
-    EXPECT_LT(at_1000, 2e-4);
-    // On a wall 3.6e-5 stay, whatever the step.
-    EXPECT_LT(at_4000, std::max(0.6 * at_1000, 5e-5));
+    // Hertz's oblique contact on the wall is not yet as near as the others: 4.4e-5, 1.2e-4.
+    const bool is_far = std::string_view(each.name) == "hertz, wall, oblique";
+    EXPECT_LT(own, is_far ? 1e-4 : 2e-6);
+    EXPECT_LT(at_1000, is_far ? 2e-4 : 1e-4);
+    EXPECT_LT(at_4000, std::max(0.6 * at_1000, 1e-5));
   }
 }
 
