@@ -104,12 +104,13 @@ void write_package_json(const NpmChoice& choice, const fs::path& folder) {
 void install_packages(const NpmChoice& choice, const fs::path& folder) {
   write_package_json(choice, folder);
   const fs::path lock = npm_worker_folder() / "locks" / (choice.name() + ".json");
+  // With a lock npm installs what it names and checks each file. "npm ci" would as well, but some
+  // of its versions ask for packages of other platforms that no installation here takes.
   std::error_code ignored;
-  const bool is_locked = fs::exists(lock, ignored);
-  if (is_locked) fs::copy_file(lock, folder / "package-lock.json");
-  const ProgramEnd end = run_npm({is_locked ? "ci" : "install", "--ignore-scripts",
-                                  "--omit=optional", "--omit-lockfile-registry-resolved"},
-                                 folder);
+  if (fs::exists(lock, ignored)) fs::copy_file(lock, folder / "package-lock.json");
+  const ProgramEnd end = run_npm(
+      {"install", "--ignore-scripts", "--omit=optional", "--omit-lockfile-registry-resolved"},
+      folder);
   if (end.exit_code != 0) throw NotInstalled(failure_of(choice, end.said));
 }
 
