@@ -1,16 +1,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "../scenes.h"
+#include "lammps_bare.h"
 #include "physics/contact/linear_contact.h"
 #include "reference/piles/pile_solver.h"
 
@@ -22,53 +19,15 @@
 namespace slipcheck {
 namespace {
 
-namespace folders = std::filesystem;
-
 constexpr double kHistoryTime = 2.55e-5;  // t_col [s]
 constexpr double kHistoryRadius = 0.002;
-
-/// A law as LAMMPS takes it: coefficients of gran/hooke/history or gran/hertz/history.
-struct HistoryLaw {
-  bool hertz = false;
-  double k_n = 0, k_t = 0;          // [N/m], or [Pa]
-  double gamma_n = 0, gamma_t = 0;  // [1/s], or [1/(m s)]
-  double friction = 0;
-
-  std::string words() const {
-    return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} 1 limit_damping", k_n, k_t, gamma_n,
-                       gamma_t, friction);
-  }
-  const char* style() const { return hertz ? "hertz/history" : "hooke/history"; }
-
-  /// The same here, between two that have this reduced mass and effective radius.
-  SoftContact contact(double mass, double radius) const {
-    SoftContact made;
-    made.end = ContactEnd::zero_force;
-    SpringFriction sliding;
-    sliding.static_friction = sliding.kinetic_friction = friction;
-    // hertz/history: all of it times √(R_eff ξ).
-    const double unit = hertz ? std::sqrt(radius) : 1;
-    if (hertz) {
-      const double rho = k_n * unit;
-      made.normal = ViscoelasticForce{rho, gamma_n * mass * unit / (1.5 * rho)};
-      sliding.form = SpringFriction::Form::mindlin_displacement;
-      sliding.damping_ratio = gamma_n > 0 ? gamma_t / gamma_n : 0;
-    } else {
-      made.normal = LinearForce{k_n, gamma_n * mass};
-      sliding.damping = gamma_t * mass;
-    }
-    sliding.stiffness = k_t * unit;
-    made.memory = ContactMemory{sliding, {}, {}};
-    return made;
-  }
-};
 
 /// What one case is: two spheres, or one on a wall.
 struct HistoryCase {
   const char* name;
   bool wall = false;
   double angle = 0;  // of the line of centres to the way they come
-  HistoryLaw law;
+  test::HistoryLaw law;
 };
 
 Scene history_scene(const HistoryCase& each) {
@@ -93,54 +52,15 @@ Scene history_scene(const HistoryCase& each) {
 }
 
 std::vector<BodyState> by_lammps(const Scene& scene, const HistoryCase& each, int per_contact) {
-  const auto folder =
-      folders::temp_directory_path() / fmt::format("slipcheck-history-{}", getpid());
-  folders::create_directories(folder);
-  std::ofstream in(folder / "in.history");
-  in << "units si\natom_style sphere\nboundary s s s\nnewton off\ncomm_modify mode single vel yes\n"
-        "region box block -1 1 -1 1 -1 1\ncreate_box 1 box\n";
-  int id = 0;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const BodyState& s = scene.initial[i];
-    const auto three = [](const Vector3& v) {
-      return fmt::format("{:.17g} {:.17g} {:.17g}", v.x(), v.y(), v.z());
-    };
-    in << fmt::format("create_atoms 1 single {} units box\n", three(s.position));
-    in << fmt::format("set atom {} diameter {:.17g} mass {:.17g} omega {}\n", ++id,
-                      2 * scene.bodies[i].radius, scene.bodies[i].mass, three(s.angular_velocity));
-    in << fmt::format("set atom {} vx {:.17g} vy {:.17g} vz {:.17g}\n", id, s.velocity.x(),
-                      s.velocity.y(), s.velocity.z());
-  }
-  in << fmt::format("pair_style gran/{} {}\npair_coeff * *\n", each.law.style(), each.law.words());
-  in << "neighbor 0.0005 nsq\nneigh_modify delay 0 every 1 check yes\nfix 1 all nve/sphere\n";
+  std::string in = test::bare_atoms(scene, {{-1, -1, -1}, {1, 1, 1}});
+  in += fmt::format("pair_style gran/{} {}\npair_coeff * *\n", each.law.style(), each.law.words());
+  in += "neighbor 0.0005 nsq\nneigh_modify delay 0 every 1 check yes\nfix 1 all nve/sphere\n";
   if (each.wall)
-    in << fmt::format("fix 2 all wall/gran {} {} zplane 0 NULL\n", each.law.style(),
+    in += fmt::format("fix 2 all wall/gran {} {} zplane 0 NULL\n", each.law.style(),
                       each.law.words());
-  in << fmt::format("timestep {:.17g}\n", kHistoryTime / per_contact)
-     << fmt::format("dump 1 all custom {} dump id x y z vx vy vz omegax omegay omegaz\n",
-                    3 * per_contact / 2)
-     << "dump_modify 1 format float %.17g sort id\n"
-     << fmt::format("run {}\n", 3 * per_contact / 2);
-  in.close();
-  EXPECT_EQ(std::system(
-                fmt::format("cd {} && lmp -log none -in in.history > out.txt 2>&1", folder.string())
-                    .c_str()),
-            0);
-  std::vector<BodyState> last(scene.bodies.size());
-  std::ifstream dump(folder / "dump");
-  for (std::string line; std::getline(dump, line);) {
-    if (!line.starts_with("ITEM: ATOMS")) continue;
-    for (BodyState& s : last) {
-      std::getline(dump, line);
-      std::istringstream words(line);
-      int number = 0;
-      words >> number;
-      for (Vector3* v : {&s.position, &s.velocity, &s.angular_velocity})
-        words >> v->x() >> v->y() >> v->z();
-    }
-  }
-  folders::remove_all(folder);
-  return last;
+  const int steps = 3 * per_contact / 2;
+  return test::bare_lammps(in, kHistoryTime / per_contact, steps, steps, scene.bodies.size())
+      .back();
 }
 
 std::vector<BodyState> by_piles(const Scene& scene, const HistoryCase& each, int per_contact) {
@@ -169,17 +89,17 @@ std::vector<HistoryCase> history_cases() {
   const auto hooke = [&](double mass, double e, double friction) {
     const LinearContact law =
         LinearContact::with_collision_time(mass, e, kHistoryTime, ContactEnd::zero_force);
-    return HistoryLaw{false,
-                      law.stiffness(),
-                      2.0 / 7 * law.stiffness(),
-                      law.damping_rate(),
-                      0.5 * law.damping_rate(),
-                      friction};
+    return test::HistoryLaw{false,
+                            law.stiffness(),
+                            2.0 / 7 * law.stiffness(),
+                            law.damping_rate(),
+                            0.5 * law.damping_rate(),
+                            friction};
   };
   const auto hertz = [&](double mass, double radius, double damping, double friction) {
     const double rho = 1.25 * mass * std::pow(kHistoryTime / 2.9433 * std::pow(0.3, 0.2), -2.5);
     const double k = rho / std::sqrt(radius);
-    return HistoryLaw{true, k, 0.8 * k, damping, 0.5 * damping, friction};
+    return test::HistoryLaw{true, k, 0.8 * k, damping, 0.5 * damping, friction};
   };
   const double R = kHistoryRadius, rate = 2e9;
   return {

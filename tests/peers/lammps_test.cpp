@@ -1,21 +1,18 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <string>
+#include <vector>
 
 #include "../scenes.h"
 #include "../support/refusal.h"
 #include "engine/lacks.h"
+#include "lammps_bare.h"
 #include "worker_run.h"
 
 namespace slipcheck {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double kRate = 240;
 
@@ -27,72 +24,36 @@ double number(const Applied& applied, const std::string& name) {
 
 // --- the same as a bare input file ---------------------------------------------------------------
 
-/// A ball as somebody types it who has no adapter.
-struct Typed {
-  double radius, mass, x, y, z, vx, wy;
-};
-
-/// An input file of LAMMPS's own language, run by lmp: the states after each of `steps` steps.
-std::vector<std::vector<double>> bare(const std::vector<Typed>& balls, const Applied& applied,
-                                      const std::string& pair, double friction, int steps) {
-  const auto folder = fs::temp_directory_path() / fmt::format("slipcheck-bare-{}", getpid());
-  fs::create_directories(folder);
+/// The states after each of so many steps.
+std::vector<std::vector<BodyState>> bare(const Scene& scene, const Applied& applied,
+                                         const std::string& pair, int steps) {
   const double k = number(applied, "substrate_stiffness"), c = number(applied, "substrate_damping");
   const double tangential = number(applied, "substrate_tangential_damping");
   const int inner = static_cast<int>(number(applied, "substeps"));
-  std::ofstream in(folder / "in.bare");
-  in << "units si\natom_style sphere\nboundary s s s\nnewton off\ncomm_modify mode single vel yes\n"
-     << "region box block -1 1 -1 1 -1 1\ncreate_box 1 box\n";
-  int id = 0;
-  for (const Typed& b : balls)
-    in << fmt::format(
-        "create_atoms 1 single {:.17g} {:.17g} {:.17g} units box\n"
-        "set atom {} diameter {:.17g} mass {:.17g} vx {:.17g} omega 0 {:.17g} 0\n",
-        b.x, b.y, b.z, ++id, 2 * b.radius, b.mass, b.vx, b.wy);
-  in << pair << "neighbor 0.0005 nsq\nneigh_modify delay 0 every 1 check yes\n"
-     << "fix 1 all nve/sphere\nfix 2 all gravity 9.81 vector 0 0 -1\n"
-     << fmt::format(
-            "fix 3 all wall/gran granular hooke {:.17g} {:.17g} damping velocity tangential "
-            "linear_nohistory {:.17g} {:.17g} zplane 0 NULL\n",
-            k, c, tangential / c, friction)
-     << fmt::format("timestep {:.17g}\n", 1 / kRate / inner)
-     << fmt::format("dump 1 all custom {} {} id x y z vx vy vz omegax omegay omegaz\n", inner,
-                    (folder / "dump").string())
-     << "dump_modify 1 format float %.17g sort id\n"
-     << fmt::format("run {}\n", steps * inner);
-  in.close();
-  const std::string command =
-      fmt::format("cd {} && lmp -log none -in in.bare > out.txt 2>&1", folder.string());
-  EXPECT_EQ(std::system(command.c_str()), 0);
-
-  std::vector<std::vector<double>> frames;
-  std::ifstream dump(folder / "dump");
-  for (std::string line; std::getline(dump, line);) {
-    if (!line.starts_with("ITEM: ATOMS")) continue;
-    std::vector<double>& frame = frames.emplace_back();
-    for (std::size_t k_ball = 0; k_ball < balls.size(); ++k_ball) {
-      std::getline(dump, line);
-      std::istringstream words(line);
-      std::string word;
-      words >> word;  // the id
-      while (words >> word) frame.push_back(std::strtod(word.c_str(), nullptr));
-    }
-  }
-  fs::remove_all(folder);
-  if (!frames.empty()) frames.erase(frames.begin());  // the start
+  const std::string in =
+      test::bare_atoms(scene, {{-1, -1, -1}, {1, 1, 1}}) + pair +
+      "neighbor 0.0005 nsq\nneigh_modify delay 0 every 1 check yes\n"
+      "fix 1 all nve/sphere\nfix 2 all gravity 9.81 vector 0 0 -1\n" +
+      fmt::format(
+          "fix 3 all wall/gran granular hooke {:.17g} {:.17g} damping velocity tangential "
+          "linear_nohistory {:.17g} {:.17g} zplane 0 NULL\n",
+          k, c, tangential / c, scene.substrate[0].kinetic_friction);
+  auto frames = test::bare_lammps(in, 1 / kRate / inner, steps * inner, inner, scene.bodies.size());
+  frames.erase(frames.begin());  // the start
   return frames;
 }
 
-void expect_same_bits(const Scene& scene, const std::vector<Typed>& balls, const std::string& pair,
-                      int steps) {
+void expect_same_bits(const Scene& scene, const std::string& pair, int steps) {
   RemoteEngine engine(executable());
   const Applied applied = engine.configure(scene, {}, 1 / kRate);
   const auto frames = test::peer_run(engine, scene, {}, 1 / kRate, static_cast<std::size_t>(steps));
-  const auto expected = bare(balls, applied, pair, scene.substrate[0].kinetic_friction, steps);
+  const auto expected = bare(scene, applied, pair, steps);
   ASSERT_EQ(frames.size(), expected.size());
   for (std::size_t n = 0; n < frames.size(); ++n) {
-    ASSERT_EQ(expected[n].size(), 9 * balls.size());
-    ASSERT_EQ(std::memcmp(frames[n].bodies.data(), expected[n].data(), 72 * balls.size()), 0)
+    ASSERT_EQ(expected[n].size(), frames[n].bodies.size());
+    ASSERT_EQ(std::memcmp(frames[n].bodies.data(), expected[n].data(),
+                          expected[n].size() * sizeof(BodyState)),
+              0)
         << "frame " << n;
   }
 }
@@ -100,9 +61,9 @@ void expect_same_bits(const Scene& scene, const std::vector<Typed>& balls, const
 TEST(Lammps, NumbersAreThoseOfABareInputFile) {
   const Scene slide = test::slide_to_roll();
   const std::string any_pair = "pair_style gran/hooke 1e5 NULL 0 0 0 1\npair_coeff * *\n";
-  expect_same_bits(slide, {{0.005, slide.bodies[0].mass, 0, 0, 0.005, 0.5, 0}}, any_pair, 240);
+  expect_same_bits(slide, any_pair, 240);
   const Scene bounce = test::bouncing_ball();
-  expect_same_bits(bounce, {{0.01, bounce.bodies[0].mass, 0, 0, 0.06, 0, 0}}, any_pair, 240);
+  expect_same_bits(bounce, any_pair, 240);
 
   const Scene pair = test::head_on(0.15, -0.15, 0.9, 0.0095);
   RemoteEngine engine(executable());
@@ -112,11 +73,7 @@ TEST(Lammps, NumbersAreThoseOfABareInputFile) {
       fmt::format("pair_style gran/hooke {:.17g} NULL {:.17g} {:.17g} 0 1\npair_coeff * *\n",
                   number(applied, "pair_stiffness"), number(applied, "pair_damping") / (mass / 2),
                   number(applied, "pair_tangential_damping") / (mass / 2));
-  const double turn = pair.initial[0].angular_velocity.y();
-  expect_same_bits(
-      pair,
-      {{0.002, mass, -0.0095, 0, 0.002, 0.15, turn}, {0.002, mass, 0.0095, 0, 0.002, -0.15, -turn}},
-      hooke, 240);
+  expect_same_bits(pair, hooke, 240);
 }
 
 TEST(Lammps, SpringsHaveTheRestitutionAndTheTime) {
