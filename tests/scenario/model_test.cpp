@@ -111,6 +111,97 @@ TEST(Models, ViscoelasticNormal) {
   EXPECT_EQ(other.form, Form::compact);
 }
 
+TEST(Models, SpringsThatGiveWay) {
+  const auto ratios = tangential<SpringTangential>(
+      "{model: spring, stiffness_ratio: 0.25, damping_ratio: 0.5, friction: {static: 0.4, kinetic: "
+      "0.3}}");
+  EXPECT_EQ(ratios.stiffness_ratio, 0.25);
+  EXPECT_EQ(ratios.damping_ratio, 0.5);
+  EXPECT_EQ(ratios.friction.static_, 0.4);
+  EXPECT_EQ(ratios.friction.kinetic, 0.3);
+  const auto plain = tangential<SpringTangential>(
+      "{model: spring, stiffness: 2 kN/m, damping_rate: 3, friction: 0.5}");
+  EXPECT_EQ(plain.stiffness, 2000);
+  EXPECT_EQ(plain.damping_rate, 3);
+  EXPECT_EQ(plain.friction.static_, 0.5);
+  EXPECT_EQ(plain.friction.kinetic, 0.5);
+}
+
+/// Hertz's contact of the materials, with these keys beside it.
+Scenario with_hertz(const std::string& tangential, const std::string& normal = "hertz") {
+  const std::string text =
+      with(kHard, "{model: hard, friction: 0.1, tangential_restitution: 0.5}", tangential);
+  return with_materials(with(text, "{model: hard, restitution: 0.9}", normal));
+}
+
+TEST(Models, MindlinTangential) {
+  using Form = MindlinTangential::Form;
+  const auto model = [](const std::string& text, const std::string& normal) {
+    return std::get<MindlinTangential>(with_hertz(text, normal).contacts[0].tangential);
+  };
+  const auto plain = model("{model: mindlin, friction: 0.5}", "hertz");
+  EXPECT_EQ(plain.friction.kinetic, 0.5);
+  EXPECT_EQ(plain.damping_ratio, 0);
+  EXPECT_EQ(plain.form, Form::passive);
+  const auto damped = model(
+      "{model: mindlin, friction: {static: 0.5, kinetic: 0.4}, damping_ratio: 0.7, form: "
+      "displacement}",
+      "{model: viscoelastic, dissipation_time: 1e-6}");
+  EXPECT_EQ(damped.friction.static_, 0.5);
+  EXPECT_EQ(damped.damping_ratio, 0.7);
+  EXPECT_EQ(damped.form, Form::displacement);
+}
+
+TEST(Models, RollingResistance) {
+  const Scenario scene =
+      with_tangential("none\n    rolling: {friction: 0.02, stiffness_ratio: 0.1, damping: 0.3}");
+  ASSERT_TRUE(scene.contacts[0].rolling);
+  EXPECT_EQ(scene.contacts[0].rolling->friction, 0.02);
+  EXPECT_EQ(scene.contacts[0].rolling->stiffness_ratio, 0.1);
+  EXPECT_EQ(scene.contacts[0].rolling->damping, 0.3);
+}
+
+TEST(Models, SpringsThatCannotBe) {
+  const auto faults_of = [](const std::string& tangential, const std::string& normal) {
+    std::vector<std::string> said;
+    for (const Fault& fault : test::faults_of([&] { with_hertz(tangential, normal); }))
+      said.push_back(fault.message());
+    return said;
+  };
+  const std::string linear = "{model: linear, restitution: 0.9, collision_time: 1e-4}";
+  const auto expect_said = [&](const std::string& tangential, const std::string& normal,
+                               const std::string& part) {
+    const auto said = faults_of(tangential, normal);
+    ASSERT_EQ(said.size(), 1u) << tangential << " beside " << normal;
+    EXPECT_NE(said[0].find(part), std::string::npos) << said[0];
+  };
+  expect_said("{model: spring, friction: 0.5}", linear,
+              "contacts[0].tangential: needs exactly one of stiffness or stiffness_ratio");
+  expect_said("{model: spring, stiffness: 0, friction: 0.5}", linear,
+              "contacts[0].tangential.stiffness: must be");
+  expect_said("{model: spring, stiffness: 1e5}", linear,
+              "contacts[0].tangential: needs the key friction");
+  expect_said("{model: spring, stiffness: 1e5, friction: -1}", linear,
+              "contacts[0].tangential.friction: must be");
+  expect_said("{model: spring, stiffness: 1e5, friction: {static: 0.2, kinetic: 0.3}}", linear,
+              "contacts[0].tangential.friction.static: must be at least the kinetic friction 0.3");
+  expect_said("{model: spring, stiffness: 1e5, friction: 0.5, damping_ratio: 1, damping_rate: 2}",
+              linear, "contacts[0].tangential.damping_ratio: must not stand beside damping_rate");
+  expect_said("{model: spring, stiffness_ratio: 0.3, friction: 0.5}", "hertz",
+              "contacts[0].tangential.stiffness_ratio: needs the normal model linear");
+  expect_said("{model: spring, stiffness: 1e5, friction: 0.5, damping_ratio: 1}", "hertz",
+              "contacts[0].tangential.damping_ratio: needs the normal model linear, power");
+  expect_said("{model: mindlin, friction: 0.5}", linear,
+              "contacts[0].tangential.model: mindlin needs the normal model hertz");
+  expect_said("none\n    rolling: {friction: 0.1, stiffness_ratio: 0.1}", "hertz",
+              "contacts[0].rolling.stiffness_ratio: needs the normal model linear");
+  expect_said("none\n    rolling: {friction: -0.1, stiffness: 10}", linear,
+              "contacts[0].rolling.friction: must be");
+  expect_said("none\n    rolling: {friction: 0.1, stiffness: 10}",
+              "{model: hard, restitution: 0.9}",
+              "contacts[0].rolling: needs a normal model whose contacts last");
+}
+
 TEST(Models, Tangential) {
   tangential<NoTangential>("none");
   tangential<NoTangential>("{model: none}");
