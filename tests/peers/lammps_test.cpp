@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -206,6 +210,21 @@ TEST(Lammps, CpuTimeIsThatOfTheSteps) {
 }
 
 // --- what LAMMPS cannot --------------------------------------------------------------------------
+
+TEST(Lammps, NeedsNoNetwork) {
+  if (std::system("unshare --map-root-user --net true 2>/dev/null") != 0)
+    GTEST_SKIP() << "this machine gives no network namespaces";
+  const auto worker = std::filesystem::temp_directory_path() / fmt::format("lammps-{}", getpid());
+  std::ofstream(worker) << "#!/bin/sh\nexec unshare --map-root-user --net '" << executable()
+                        << "'\n";
+  std::filesystem::permissions(worker, std::filesystem::perms::owner_all);
+  {
+    RemoteEngine engine(worker.string());
+    EXPECT_NE(engine.info().version, "unknown");
+    EXPECT_EQ(test::peer_run(engine, test::slide_to_roll(), {}, 1 / kRate, 2).size(), 2u);
+  }
+  std::filesystem::remove(worker);
+}
 
 TEST(Lammps, RefusesWithTheReason) {
   RemoteEngine engine(executable());

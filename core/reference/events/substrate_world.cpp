@@ -95,7 +95,7 @@ void SubstrateWorld<Phase, Near>::set_state(std::uint32_t i, BodyState state, do
 }
 
 template <class Phase, class Near>
-auto SubstrateWorld<Phase, Near>::on_path(std::uint32_t i, double now) const -> Point {
+PathPoint SubstrateWorld<Phase, Near>::on_path(std::uint32_t i, double now) const {
   const Body& body = bodies_[i];
   const double t = now - body.start;
   if (body.is_parabola)
@@ -116,7 +116,7 @@ template <class Phase, class Near>
 double SubstrateWorld<Phase, Near>::own_event_time(std::uint32_t i, double now) {
   Body& body = bodies_[i];
   if constexpr (kHasCells) {
-    const Point at = on_path(i, now);
+    const PathPoint at = on_path(i, now);
     double after;
     if (body.is_parabola)
       after = near_.time_to_leave(i, at.position, at.velocity, body.acceleration);
@@ -170,7 +170,7 @@ double SubstrateWorld<Phase, Near>::collision_time(std::uint32_t i, std::uint32_
   const double end = std::min(a.end, b.end);
   const double horizon = end - now + 4 * kEpsilon * (std::isfinite(end) ? end : 0);
   if (!a.is_parabola || !b.is_parabola) return least_time_to_touch(i, j, now, horizon, shift);
-  const Point at_a = on_path(i, now), at_b = on_path(j, now);
+  const PathPoint at_a = on_path(i, now), at_b = on_path(j, now);
   Vector3 dx = at_a.position - at_b.position;
   if constexpr (kHasCells) {
     dx.x() -= shift.x;
@@ -180,36 +180,22 @@ double SubstrateWorld<Phase, Near>::collision_time(std::uint32_t i, std::uint32_
                              a.radius + b.radius, horizon);
 }
 
-/// The same where a path is not a parabola, by steps that never pass a contact: the gap bends by no
-/// more than the relative acceleration. After many of them the search leaves the rest for later.
+/// The same where a path is not a parabola.
 template <class Phase, class Near>
 double SubstrateWorld<Phase, Near>::least_time_to_touch(std::uint32_t i, std::uint32_t j,
                                                         double now, double horizon,
                                                         const CellGrid::Shift& shift) const {
-  constexpr int kManySteps = 64;
-  const double bound = bodies_[i].bound + bodies_[j].bound;
-  const double contact = bodies_[i].radius + bodies_[j].radius;
-  const double touching = 8 * kEpsilon * contact;
-  double t = 0;
-  for (int step = 0; t <= horizon; ++step) {
-    const Point at_a = on_path(i, now + t), at_b = on_path(j, now + t);
+  const auto apart = [&](double t) {
+    const PathPoint at_a = on_path(i, now + t), at_b = on_path(j, now + t);
     Vector3 dx = at_a.position - at_b.position;
     if constexpr (kHasCells) {
       dx.x() -= shift.x;
       dx.y() -= shift.y;
     }
-    const double distance = dx.norm();
-    const double gap = distance - contact;
-    const double closing = -dx.dot(at_a.velocity - at_b.velocity) / distance;
-    if (gap <= touching && closing > 0) return now + t;
-    const double way = step_to_bound(std::max(gap, touching), -closing, bound);
-    if (way == kNever) return kNever;
-    if (step >= kManySteps && gap > 10 * kTouching * contact) return now + t;
-    const double next = t + way;
-    if (next == t) return closing > 0 ? now + t : kNever;
-    t = next;
-  }
-  return kNever;
+    return std::pair<Vector3, Vector3>(dx, at_a.velocity - at_b.velocity);
+  };
+  return now + stepping_time_to_touch(apart, bodies_[i].bound + bodies_[j].bound,
+                                      bodies_[i].radius + bodies_[j].radius, horizon);
 }
 
 /// What leads from x_j to the image of it that is near x_i.

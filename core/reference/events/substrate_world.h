@@ -13,6 +13,7 @@
 #include "reference/events/event_scheduler.h"
 #include "reference/events/least_speeds.h"
 #include "reference/events/neighbours.h"
+#include "reference/events/path_collision.h"
 #include "scene/scene.h"
 
 namespace slipcheck {
@@ -81,17 +82,13 @@ class SubstrateWorld {
     bool is_parabola = true, is_at_rest = true;
     bool leaves_cell = false;  ///< before its phase ends
   };
-  struct Point {
-    Vector3 position, velocity;
-  };
-
   Phase phase_of(std::uint32_t i, const BodyState& state, double now) const;
   /// v_S [m/s]; zero where the plane is still.
   Vector3 substrate_velocity(double now) const;
   /// From a state in the coordinates of the body's last path.
   void set_state(std::uint32_t i, BodyState state, double now);
   void count(std::uint32_t i, bool is_there);
-  Point on_path(std::uint32_t i, double now) const;
+  PathPoint on_path(std::uint32_t i, double now) const;
   double least_time_to_touch(std::uint32_t i, std::uint32_t j, double now, double horizon,
                              const CellGrid::Shift& shift) const;
   Vector3 to_near(const Vector3& x_i, const Vector3& x_j) const;

@@ -13,6 +13,7 @@
 #include "reference/events/cell_grid.h"
 #include "reference/events/event_scheduler.h"
 #include "reference/events/least_speeds.h"
+#include "reference/events/surface_place.h"
 #include "scene/scene.h"
 
 namespace slipcheck {
@@ -74,20 +75,6 @@ class SurfaceWorld {
  private:
   static constexpr std::size_t kNone = ~std::size_t{0};
 
-  /// A surface, or the substrate.
-  struct Place {
-    Surface surface;
-    int touch = kSubstrate;  ///< as in frames
-    /// Of a plane or plate that can carry bodies: columns along it and its normal, and a point.
-    bool carries = false;
-    Matrix3 axes = Matrix3::Identity();
-    Vector3 origin = Vector3::Zero();
-    Vector2 half = Vector2::Zero();  ///< of a plate, along the axes; 0: a plane
-    SubstrateMotion motion;          ///< of its matter, along the axes
-    double gravity = 0;              ///< against the normal [m/s²]
-    Vector2 downhill = Vector2::Zero();
-    double bend = 0;  ///< bound of its acceleration [m/s²]
-  };
   enum class Own { phase, hit, edge };
   struct Body {
     Vector3 position, velocity, acceleration;  ///< of a parabola, at its start
@@ -102,27 +89,11 @@ class SurfaceWorld {
     std::size_t hit = kNone;  ///< the surface of Own::hit
     BodyState flight;         ///< at its start, where nothing carries it
   };
-  struct Point {
-    Vector3 position, velocity;
-  };
-  /// A surface beside a body at one instant.
-  struct Beside {
-    NearestPoint near;
-    double gap = 0;      ///< [m]
-    double opening = 0;  ///< its rate [m/s]
-  };
-
-  Place place_of(const Surface& surface, int touch) const;
   SurfaceContact contact_of(std::uint32_t i, std::size_t place) const;
-  /// Velocity of the place, not of matter that passes by [m/s].
-  Vector3 place_velocity(const Place& place, double now, const Vector3& at) const;
-  Beside beside(std::uint32_t i, const Place& place, const Point& body, double now) const;
   double touching(std::uint32_t i) const { return 1e-9 * scene_->bodies[i].radius; }
 
-  BodyState to_local(const Place& place, const BodyState& state) const;
-  BodyState from_local(const Place& place, const BodyState& state) const;
   BodyState path_state(std::uint32_t i, double now) const;
-  Point on_path(std::uint32_t i, double now) const;
+  PathPoint on_path(std::uint32_t i, double now) const;
   double first_hit(std::uint32_t i, std::size_t k, double now, double horizon) const;
   double first_edge(std::uint32_t i, double now, double horizon) const;
 
@@ -139,7 +110,7 @@ class SurfaceWorld {
   const Scene* scene_;
   LeastSpeeds least_;
   double slowest_;  ///< that counts as a speed [m/s]
-  std::vector<Place> places_;
+  std::vector<SurfacePlace> places_;
   std::vector<Body> bodies_;
   std::vector<DrivenPhase> phases_;
   std::vector<std::uint32_t> changed_;
