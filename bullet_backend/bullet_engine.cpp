@@ -36,10 +36,6 @@ class BulletEngine final : public Engine {
 
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
     const BulletSettings settings = read_settings(chosen);
-    if (scene.periodic != Vector2::Zero()) {
-      throw Refused(
-          "bullet: the substrate repeats itself, and a Bullet world has no periodic boundaries");
-    }
     if (is_no_time(time_step * world_units(scene, settings).time)) {
       throw Refused(fmt::format("bullet in {} precision takes a step of {} s for none",
                                 bullet_precision(), time_step));

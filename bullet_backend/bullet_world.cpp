@@ -18,6 +18,7 @@
 #include "bullet_backend/leave_outs.h"
 #include "bullet_backend/margins.h"
 #include "bullet_backend/next_contact.h"
+#include "bullet_backend/periodic_cell.h"
 #include "bullet_backend/surfaces.h"
 #include "bullet_backend/touches.h"
 
@@ -67,15 +68,17 @@ struct BulletWorld::Parts {
         scene(in_world_units(scene_in_si, units)),
         time_step(step * units.time),
         start_time(time * units.time),
+        cell(scene.periodic, units.turn),
         coefficients(scene, settings, time_step),
-        dynamics(settings, margin_scale(scene), leaves),
+        dynamics(settings, margin_scale(scene), leaves, cell),
         surfaces(dynamics.world(), scene, units, settings),
         balls(make_balls(dynamics.world(), scene, to_world(states, units), units.turn, settings)) {
     const Vector3 gravity = units.turn * scene.gravity_vector();
     dynamics.world().setGravity(to_bullet(gravity));
     coefficients.set_gravity(gravity);
+    coefficients.set_cell(cell);
     if (settings.splits_at_contacts > 0)
-      next_contact.emplace(*balls, surfaces, scene, units, touching_gap(scene, settings));
+      next_contact.emplace(*balls, surfaces, scene, units, cell, touching_gap(scene, settings));
   }
 
   bool is_one_step() const { return settings.substeps == 1 && !next_contact; }
@@ -127,6 +130,7 @@ struct BulletWorld::Parts {
   Scene scene;
   double time_step, start_time;
   std::size_t steps = 0;
+  PeriodicCell cell;
   PairCoefficients coefficients;
   DynamicsWorld dynamics;
   Surfaces surfaces;

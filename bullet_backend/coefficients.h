@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bullet_backend/bullet_settings.h"
+#include "bullet_backend/periodic_cell.h"
 #include "physics/frame.h"
 #include "scene/scene.h"
 
@@ -86,6 +87,9 @@ class PairCoefficients {
   /// Along the world's axes as Bullet has it.
   void set_gravity(const Vector3& gravity) { gravity_ = gravity; }
   const Vector3& gravity() const { return gravity_; }
+  /// Across whose edges balls meet; none repeats at first.
+  void set_cell(const PeriodicCell& cell) { cell_ = cell; }
+  const PeriodicCell& cell() const { return cell_; }
 
   const Sphere& body(int index) const { return scene_.bodies[static_cast<std::size_t>(index)]; }
 
@@ -108,6 +112,7 @@ class PairCoefficients {
   Scene scene_;
   BulletSettings settings_;
   double time_step_ = 0;
+  PeriodicCell cell_;
   Vector3 ground_velocity_ = Vector3::Zero(), gravity_ = Vector3::Zero();
   std::vector<double> raise_;      // max(1, m g dt), by body
   std::vector<BodyFields> fixed_;  // by body; empty where one of them depends on motion

@@ -50,7 +50,7 @@ Vector3 normal_of(const Pair& pair) {
     return from_bullet(plane->getPlaneNormal());
   }
   const Vector3 line = centre_of(pair) - from_bullet(pair.other->getWorldTransform().getOrigin());
-  return line.normalized();
+  return (line - pair.coefficients.cell().shift(line)).normalized();
 }
 
 /// How a ball moves over a plane or surface.

@@ -1,6 +1,7 @@
 #include "bullet_backend/dynamics_world.h"
 
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+#include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
 #include <BulletDynamics/ConstraintSolver/btNNCGConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -11,8 +12,11 @@
 #include <BulletDynamics/MLCPSolvers/btSolveProjectedGaussSeidel.h>
 #include <btBulletDynamicsCommon.h>
 
+#include <optional>
 #include <utility>
+#include <vector>
 
+#include "bullet_backend/image_contacts.h"
 #include "bullet_backend/margins.h"
 
 namespace slipcheck::bullet {
@@ -27,16 +31,20 @@ btDefaultCollisionConstructionInfo memory_for(const std::optional<int>& pairs) {
   return info;
 }
 
-/// With the margins of margins.h, and without what is left out. The last object is a ball.
+/// With the margins of margins.h, with images across edges, and without what is left out. The last
+/// object is a ball.
 template <class Base>
 class World final : public Base {
  public:
   template <class Solver>
-  World(btScalar body_margin, const LeaveOuts& leaves, btDispatcher* dispatcher,
-        btBroadphaseInterface* broadphase, Solver* solver, btCollisionConfiguration* configuration)
+  World(btScalar body_margin, const LeaveOuts& leaves, const PeriodicCell& cell,
+        btCollisionDispatcher* dispatcher, btBroadphaseInterface* broadphase, Solver* solver,
+        btCollisionConfiguration* configuration)
       : Base(dispatcher, broadphase, solver, configuration),
         body_margin_(body_margin),
-        leaves_(leaves) {}
+        leaves_(leaves) {
+    if (cell.repeats()) images_.emplace(cell, *dispatcher);
+  }
 
   void updateAabbs() override {
     is_broad_ = !leaves_.broadphase || !has_plain_box();
@@ -55,6 +63,7 @@ class World final : public Base {
   /// steps before, when it may have slid while it sticks now.
   void performDiscreteCollisionDetection() override {
     Base::performDiscreteCollisionDetection();
+    if (images_) find_images();
     const btCollisionObject* body = this->m_collisionObjects[this->m_collisionObjects.size() - 1];
     if (body->getCollisionShape()->getShapeType() == SPHERE_SHAPE_PROXYTYPE) return;
     btDispatcher& pairs = *this->getDispatcher();
@@ -94,8 +103,18 @@ class World final : public Base {
     return shape->getRadius() < kFar && now.length2() < kFar * kFar && then.length2() < kFar * kFar;
   }
 
+  void find_images() {
+    balls_.clear();
+    for (int k = 0; k < this->m_collisionObjects.size(); ++k)
+      if (this->m_collisionObjects[k]->getUserIndex() >= 0)
+        balls_.push_back(this->m_collisionObjects[k]);
+    images_->find(balls_, this->getDispatchInfo());
+  }
+
   btScalar body_margin_;  // [m]
   LeaveOuts leaves_;
+  std::optional<ImageContacts> images_;
+  std::vector<btCollisionObject*> balls_;
   bool is_broad_ = true;
 };
 
@@ -179,13 +198,14 @@ struct DynamicsWorld::Parts {
 };
 
 DynamicsWorld::DynamicsWorld(const BulletSettings& settings, double margin_scale,
-                             const LeaveOuts& leaves)
+                             const LeaveOuts& leaves, const PeriodicCell& cell)
     : parts_(std::make_unique<Parts>(settings.solver, leaves)) {
   Parts& parts = *parts_;
   const auto margin = static_cast<btScalar>(settings.breaking_threshold * margin_scale);
   const auto make = [&]<class Base>(std::type_identity<Base>, auto solver) {
-    parts.world = std::make_unique<World<Base>>(
-        margin, leaves, &parts.dispatcher, &parts.broadphase, solver.get(), &parts.configuration);
+    parts.world =
+        std::make_unique<World<Base>>(margin, leaves, cell, &parts.dispatcher, &parts.broadphase,
+                                      solver.get(), &parts.configuration);
     parts.solver = std::move(solver);
   };
   if (settings.body == BodyKind::rigid)
@@ -206,6 +226,8 @@ DynamicsWorld::DynamicsWorld(const BulletSettings& settings, double margin_scale
   parts.world->getDispatchInfo().m_useContinuous = settings.ccd;
   parts.world->setApplySpeculativeContactRestitution(settings.speculative_restitution);
   parts.world->setForceUpdateAllAabbs(settings.update_all_aabbs);
+  // Islands are of bodies whose boxes overlap, and an image's contact joins none.
+  if (cell.repeats()) parts.world->getSimulationIslandManager()->setSplitIslands(false);
 }
 
 DynamicsWorld::~DynamicsWorld() = default;

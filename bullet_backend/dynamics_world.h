@@ -4,6 +4,7 @@
 
 #include "bullet_backend/bullet_settings.h"
 #include "bullet_backend/leave_outs.h"
+#include "bullet_backend/periodic_cell.h"
 
 class btDiscreteDynamicsWorld;
 class btCollisionDispatcher;
@@ -15,8 +16,10 @@ namespace slipcheck::bullet {
 /// most one at a time.
 class DynamicsWorld {
  public:
-  /// `margin_scale` as in margins.h. Throws Refused where Bullet has no such solver.
-  DynamicsWorld(const BulletSettings& settings, double margin_scale, const LeaveOuts& leaves);
+  /// `margin_scale` as in margins.h; balls meet their images across the edges of `cell`, which must
+  /// outlive this. Throws Refused where Bullet has no such solver.
+  DynamicsWorld(const BulletSettings& settings, double margin_scale, const LeaveOuts& leaves,
+                const PeriodicCell& cell);
   ~DynamicsWorld();
   DynamicsWorld(const DynamicsWorld&) = delete;
   DynamicsWorld& operator=(const DynamicsWorld&) = delete;

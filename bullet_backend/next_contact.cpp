@@ -10,20 +10,23 @@
 namespace slipcheck::bullet {
 
 NextContact::NextContact(const Balls& balls, const Surfaces& surfaces, const Scene& scene,
-                         const WorldUnits& units, double tolerance)
+                         const WorldUnits& units, const PeriodicCell& cell, double tolerance)
     : balls_(balls),
       surfaces_(surfaces),
       scene_(scene),
       gravity_(units.turn * Vector3(scene.downhill.x(), scene.downhill.y(), -scene.gravity)),
       tolerance_(tolerance),
-      states_(balls.count()) {}
+      states_(balls.count()),
+      cell_(cell),
+      near_(cell) {}
 
 /// |Δx + Δv t| = reach: with b = Δx·Δv < 0 the first root c/(−b + √(b² − Δv² c)), c = Δx² − reach².
 /// Bullet sees two spheres touch only where they overlap, and so they are to overlap by half the
 /// tolerance.
 double NextContact::of_balls(const BodyState& a, const BodyState& b, double reach,
                              double within) const {
-  const Vector3 line = a.position - b.position, velocity = a.velocity - b.velocity;
+  const Vector3 apart = a.position - b.position;
+  const Vector3 line = apart - cell_.shift(apart), velocity = a.velocity - b.velocity;
   const double rate = line.dot(velocity);
   if (rate >= 0) return within;
   const double distance = line.norm();
@@ -106,22 +109,15 @@ double NextContact::of_surfaces(double now, double within) const {
   return within;
 }
 
-/// Only those pairs whose ways along x overlap.
+/// Only those pairs whose ways along an axis overlap.
 double NextContact::of_pairs(double within) {
-  ways_.clear();
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    const double x = states_[i].position.x(), then = x + within * states_[i].velocity.x();
-    const double radius = scene_.bodies[i].radius;
-    ways_.push_back({std::min(x, then) - radius, std::max(x, then) + radius, i});
-  }
-  std::ranges::sort(ways_, {}, &Way::low);
-  for (std::size_t k = 0; k < ways_.size(); ++k)
-    for (std::size_t l = k + 1; l < ways_.size() && ways_[l].low <= ways_[k].high; ++l) {
-      const std::size_t i = ways_[k].body, j = ways_[l].body;
-      within =
-          std::min(within, of_balls(states_[i], states_[j],
-                                    scene_.bodies[i].radius + scene_.bodies[j].radius, within));
-    }
+  near_.clear();
+  for (std::size_t i = 0; i < states_.size(); ++i)
+    near_.add(states_[i].position, within * states_[i].velocity, scene_.bodies[i].radius);
+  near_.for_each([&](std::size_t i, std::size_t j) {
+    within = std::min(within, of_balls(states_[i], states_[j],
+                                       scene_.bodies[i].radius + scene_.bodies[j].radius, within));
+  });
   return within;
 }
 

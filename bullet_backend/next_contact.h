@@ -1,6 +1,8 @@
 #pragma once
 
 #include "bullet_backend/balls.h"
+#include "bullet_backend/near_pairs.h"
+#include "bullet_backend/periodic_cell.h"
 #include "bullet_backend/surfaces.h"
 
 namespace slipcheck::bullet {
@@ -10,9 +12,9 @@ namespace slipcheck::bullet {
 /// Bullet's semi-implicit integration does.
 class NextContact {
  public:
-  /// To within `tolerance` of length, > 0. `balls` and `surfaces` must outlive this.
+  /// To within `tolerance` of length, > 0. All but `units` must outlive this.
   NextContact(const Balls& balls, const Surfaces& surfaces, const Scene& scene,
-              const WorldUnits& units, double tolerance);
+              const WorldUnits& units, const PeriodicCell& cell, double tolerance);
 
   /// Time after `now` until the first contact that is not there yet, at most `within`, > 0, or
   /// `within` where there is none; 0 where bodies touch and still approach each other. A surface
@@ -33,13 +35,8 @@ class NextContact {
   Vector3 gravity_;
   double tolerance_;
   std::vector<BodyState> states_;
-
-  /// Where a ball is along x while the time passes.
-  struct Way {
-    double low, high;
-    std::size_t body;
-  };
-  std::vector<Way> ways_;
+  const PeriodicCell& cell_;
+  NearPairs near_;
 };
 
 }  // namespace slipcheck::bullet

@@ -79,6 +79,8 @@ std::vector<Lack> not_represented(const Scene& scene, const BulletSettings& sett
                "GJK finds them to 0.03 rad in double, 0.5 rad in single precision in metres");
   missing.note(needs.through_in_a_step && settings.splits_at_contacts == 0, lack::kThrough);
   missing.note(needs.far_in_a_step && settings.splits_at_contacts == 0, lack::kPassing);
+  missing.note(settings.ccd && settings.ccd_motion_threshold > 0 && !scene.periodic.isZero(0),
+               "sweeps across the edges of the plane", "images are looked for where bodies are");
   if (settings.reach > 0 && approach > settings.reach)
     missing.add(
         {fmt::format("an approach of {:.2g} radii in a step: the profile is meant for up to {:.2g}",

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "../support/refusal.h"
 #include "bullet_backend/coefficients.h"
 #include "bullet_box.h"
 #include "engine/scene_needs.h"
@@ -92,16 +91,6 @@ TEST(BulletBoxProfiles, WhatIsNotRepresentedIsSaid) {
   scene.substrate[0].static_friction = 1;
   scene.substrate[0].rolling = RollingFriction(0.01);
   EXPECT_EQ(engine.configure(scene, kDefault, 1e-3).not_represented.size(), 1u);
-}
-
-TEST(BulletBoxProfiles, ARepeatedPlaneIsRefused) {
-  RemoteEngine engine(bullet_executable("double"));
-  Scene scene = scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 1)}, {});
-  scene.periodic = {0.5, 0};
-  EXPECT_EQ(test::refusal_of<Refused>([&] { engine.configure(scene, kDefault, 1e-3); }),
-            "bullet: the substrate repeats itself, and a Bullet world has no periodic "
-            "boundaries");
-  EXPECT_TRUE(engine.alive());
 }
 
 TEST(BulletBoxProfiles, ASubstrateAfterABoxHasBulletsOwnMargins) {
