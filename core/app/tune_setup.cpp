@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 EngineExecutable executable_of(const TuneArguments& arguments) {
-  const auto found = find_engine(arguments.engine, arguments.precision);
+  auto found = find_engine(arguments.engine, arguments.precision);
   if (found) return *found;
   std::set<std::string> names;
   for (const EngineExecutable& executable : find_engines())

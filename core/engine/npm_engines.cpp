@@ -65,7 +65,7 @@ fs::path engines_folder() {
   for (const auto& [variable, below] : {std::pair{"SLIPCHECK_ENGINES", ""},
                                         {"XDG_DATA_HOME", "slipcheck/engines"},
                                         {"HOME", ".local/share/slipcheck/engines"}}) {
-    const fs::path folder = folder_of_environment(variable, below);
+    fs::path folder = folder_of_environment(variable, below);
     if (!folder.empty()) return folder;
   }
   return {};

@@ -68,7 +68,7 @@ Applied RemoteEngine::configure(const EngineScene& scene, const Settings& settin
     throw Refused(fmt::format("{}: it knows no surfaces beside the substrate here", info_.engine));
   const bool simpler = needs_of(scene, time_step).friction_law && !takes(scene_part::kFrictionLaw);
   EngineScene given = scene;
-  if (simpler) static_cast<Scene&>(given) = with_friction_numbers(std::move(given));
+  if (simpler) static_cast<Scene&>(given) = with_friction_numbers(scene);
   auto reply =
       ask<protocol::Configured>(protocol::Configure{std::move(given), settings, time_step});
   bodies_ = scene.bodies.size();

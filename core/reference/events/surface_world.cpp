@@ -90,7 +90,7 @@ PathPoint SurfaceWorld::on_path(std::uint32_t i, double now) const {
   return {state.position, state.velocity};
 }
 
-void SurfaceWorld::start_path(std::uint32_t i, BodyState state, double now) {
+void SurfaceWorld::start_path(std::uint32_t i, const BodyState& state, double now) {
   Body& body = bodies_[i];
   body.support = find_support(i, state, now);
   body.start = now;

@@ -97,7 +97,7 @@ class SurfaceWorld {
   double first_hit(std::uint32_t i, std::size_t k, double now, double horizon) const;
   double first_edge(std::uint32_t i, double now, double horizon) const;
 
-  void start_path(std::uint32_t i, BodyState state, double now);
+  void start_path(std::uint32_t i, const BodyState& state, double now);
   /// A hop no higher than the rounding of places is none: with less than this [m/s].
   double slowest_hop(std::uint32_t i, const Vector3& at) const;
   /// Impacts on all surfaces that the body touches and approaches.
