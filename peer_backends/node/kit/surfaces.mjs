@@ -52,6 +52,11 @@ function frameAbout(centre, z) {
   return { centre, axes: [x, cross(z, x), z] };
 }
 
+/// Half of a plate's thickness, of the shorter of its half sides: engines have boxes, and plates none.
+const THICKNESS = 1e-6;
+/// A velocity along a plane is so to within this part of it.
+const ALONG = 1e-9;
+
 /// A course along two directions: way [m] and velocity [m/s] in space.
 function along({ course, first, second }) {
   const plane = substrateMotion(course);
@@ -64,11 +69,13 @@ function along({ course, first, second }) {
 ///   shape     as in the scene
 ///   moves     whether its shape goes anywhere; a belt's stays, and only its matter moves
 ///   isBelt, isStill, turns
+///   stays     whether each of its places is the surface's at all times, as a belt's, and those of a
+///             plane that moves or turns in itself
 ///   centre(t), axes(t), quaternion(t)   of the shape
 ///   way(t)                 of the matter, zero where it turns
 ///   velocity(t, at)        of the matter at a place
 ///   rate                   [rad/s]
-///   extent                 half sizes along the axes, of a plate and a rod
+///   extent                 half sizes along the axes, of a plate, which is as good as not thick, and a rod
 class BesideSurface {
   constructor({ shape, motion }, k) {
     this.touch = surfaceTouch(k);
@@ -90,10 +97,26 @@ class BesideSurface {
     };
     this.velocity = (t, at) =>
       (this.turns ? cross(this.rate, minus(at, motion.pivot)) : course.velocity(t));
-    if (shape.kind === 'rectangle')
-      this.extent = [Math.hypot(...shape.half_length), Math.hypot(...shape.half_width), 0];
+    this.stays = !this.moves || (shape.kind === 'plane' && this.#movesInItself(motion, axes[2]));
+    if (shape.kind === 'rectangle') {
+      const sides = [Math.hypot(...shape.half_length), Math.hypot(...shape.half_width)];
+      this.extent = [...sides, THICKNESS * Math.min(...sides)];
+    }
     if (shape.kind === 'rod')
       this.extent = [shape.radius, shape.radius, 0.5 * Math.hypot(...minus(shape.end, shape.begin))];
+  }
+
+  /// A plane turns about its normal alone.
+  #movesInItself({ course, first, second }, normal) {
+    if (this.turns) return true;
+    const most = (a) => a.reduce((sum, [x, y]) => [Math.max(sum[0], Math.abs(x)), Math.max(sum[1], Math.abs(y))], [0, 0]);
+    const [x, y] = most([course.velocity ?? course.amplitude ?? [0, 0], ...(course.points ?? []).map((p) => p.slice(1))]);
+    return Math.abs(x * dot(first, normal)) + Math.abs(y * dot(second, normal)) <= ALONG * (x + y);
+  }
+
+  /// So far behind the face of a plane, where the middle of a box is that stands in for it.
+  behind(t, depth) {
+    return minus(this.centre(t), scaled(this.axes(t)[2], depth));
   }
 
   /// That of axes(), or for an engine whose cylinders stand along their second axis or lie along the
