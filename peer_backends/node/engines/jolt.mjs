@@ -12,7 +12,7 @@ import { lacks } from '../kit/lacks.mjs';
 import { surfaceMotion } from '../kit/motion.mjs';
 import { load, versionOf } from '../kit/packages.mjs';
 import { count, flag, number, word } from '../kit/settings.mjs';
-import { besideSurfaces, hasSubstrate } from '../kit/surfaces.mjs';
+import { besideSurfaces, farthest, hasSubstrate, planeEnds } from '../kit/surfaces.mjs';
 import { rounded } from '../kit/text.mjs';
 import { Touches } from '../kit/touches.mjs';
 import { Units, gravityOf, unitSettings } from '../kit/units.mjs';
@@ -411,10 +411,7 @@ class JoltEngine {
   /// Half the width of what stands in for a plane that moves away: Jolt finds the places where a wide
   /// box is touched less well than those of a narrow one.
   #reach() {
-    const { scene, units } = this;
-    const places = scene.bodies.map((_, i) => scene.initial.subarray(9 * i, 9 * i + 3));
-    const edges = besideSurfaces(scene).map((each) => Math.hypot(...each.centre(0)) + Math.hypot(...(each.extent ?? [0])));
-    return 10 * Math.max(units.length, ...places.map((place) => Math.hypot(...place)), ...edges);
+    return 10 * farthest(this.scene, this.units.length);
   }
 
   #moveBeside(now) {
@@ -548,11 +545,7 @@ class JoltEngine {
         text: `moments of inertia below ${rounded(inertia, 2)} kg m² (that of a sphere of 1 m is taken)`,
         kind: 'moments of inertia below … kg m²',
       });
-    if (this.beside.some(({ surface }) => surface.shape.kind === 'plane' && !surface.stays))
-      own.push({
-        text: `planes without end that move away (boxes of ±${rounded(this.#reach() / length, 3)} m)`,
-        kind: 'planes without end that move away',
-      });
+    own.push(...planeEnds(this.beside.map(({ surface }) => surface), this.#reach() / length));
     const limit = this.chosen.max_angular_velocity * time;
     const turns = scene.bodies.map(({ radius }, i) => {
       const [vx, vy, vz, wx, wy, wz] = scene.initial.subarray(9 * i + 3, 9 * i + 9);

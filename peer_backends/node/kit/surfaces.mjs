@@ -2,6 +2,7 @@
 
 import { surfaceTouch } from './contacts.mjs';
 import { substrateMotion } from './motion.mjs';
+import { rounded } from './text.mjs';
 
 const dot = (a, b) => a.reduce((sum, value, k) => sum + value * b[k], 0);
 const scaled = (a, factor) => a.map((value) => value * factor);
@@ -119,6 +120,28 @@ class BesideSurface {
     return minus(this.centre(t), scaled(this.axes(t)[2], depth));
   }
 
+  /// From the nearest place of the surface to a point; of a plate's middle plane its own normal.
+  normalAt(t, point) {
+    const [x, y, z] = this.axes(t);
+    const { kind, radius } = this.shape;
+    if (kind === 'plane') return z;
+    const from = minus(point, this.centre(t));
+    const own = [x, y, z].map((axis) => dot(axis, from));
+    const clamped = (value, half) => Math.min(half, Math.max(-half, value));
+    let nearest = [0, 0, 0];
+    if (kind === 'rectangle') nearest = [clamped(own[0], this.extent[0]), clamped(own[1], this.extent[1]), 0];
+    if (kind === 'rod') {
+      const out = Math.hypot(own[0], own[1]);
+      const share = out > radius ? radius / out : 1;
+      nearest = [own[0] * share, own[1] * share, clamped(own[2], this.extent[2])];
+      if (share === 1 && nearest[2] === own[2]) nearest = [0, 0, own[2]]; // inside
+    }
+    const away = minus(own, nearest);
+    const length = Math.hypot(...away);
+    if (!(length > 0)) return z;
+    return [0, 1, 2].map((k) => (away[0] * x[k] + away[1] * y[k] + away[2] * z[k]) / length);
+  }
+
   /// That of axes(), or for an engine whose cylinders stand along their second axis or lie along the
   /// first, with those in their places.
   quaternion(t, rodAxis = 'z') {
@@ -140,3 +163,19 @@ export const besideSurfaces = ({ surfaces = [] }) => surfaces.map((each, k) => n
 
 /// Whether there is a plane below, which a scene with surfaces may lack.
 export const hasSubstrate = ({ has_substrate }) => has_substrate !== false;
+
+/// How far bodies and surfaces lie from the origin at the start, at least `least`.
+export function farthest(scene, least) {
+  const places = scene.bodies.map((_, i) => scene.initial.subarray(9 * i, 9 * i + 3));
+  const edges = besideSurfaces(scene).map(({ centre, extent }) => Math.hypot(...centre(0)) + Math.hypot(...(extent ?? [0])));
+  return Math.max(least, ...places.map((place) => Math.hypot(...place)), ...edges);
+}
+
+/// What an engine lacks whose planes that move away are boxes of half this width [m].
+export function planeEnds(beside, half) {
+  if (!beside.some(({ shape, stays }) => shape.kind === 'plane' && !stays)) return [];
+  return [{
+    text: `planes without end that move away (boxes of ±${rounded(half, 3)} m)`,
+    kind: 'planes without end that move away',
+  }];
+}
