@@ -15,7 +15,7 @@ namespace {
 /// Of a plate, of the shorter of its half sides.
 constexpr double kThickness = 1e-9;
 
-std::string exact(const Vector3& v) {
+std::string triple(const Vector3& v) {
   return fmt::format("{} {} {}", exact(v.x()), exact(v.y()), exact(v.z()));
 }
 
@@ -30,7 +30,7 @@ std::string upright(const Vector3& centre, const Vector3& half) {
 struct StyleOf {
   Vector3 centre;
   std::string operator()(const PlaneShape& plane) const {
-    return fmt::format("plane {} {} side in", exact(plane.point), exact(plane.normal));
+    return fmt::format("plane {} {} side in", triple(plane.point), triple(plane.normal));
   }
   std::string operator()(const RectangleShape& plate) const {
     return upright(centre, peer::half_sizes(plate, kThickness)) + " side out";
@@ -41,7 +41,7 @@ struct StyleOf {
                        exact(rod.radius), exact(centre.z() - half), exact(centre.z() + half));
   }
   std::string operator()(const BallShape& ball) const {
-    return fmt::format("sphere {} {} side out", exact(ball.centre), exact(ball.radius));
+    return fmt::format("sphere {} {} side out", triple(ball.centre), exact(ball.radius));
   }
 };
 
@@ -73,7 +73,7 @@ Placed moved(const SurfaceMotion& motion, std::size_t k, double start) {
 
 Placed turned(std::size_t k, const std::string& angle, const Vector3& about, const Vector3& axis) {
   return {fmt::format("variable turn{} equal \"{}\"\n", k, angle),
-          fmt::format(" rotate v_turn{} {} {}", k, exact(about), exact(axis))};
+          fmt::format(" rotate v_turn{} {} {}", k, triple(about), triple(axis))};
 }
 
 void refuse(std::size_t k, const char* what) {
