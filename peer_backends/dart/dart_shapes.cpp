@@ -9,6 +9,8 @@
 #include <set>
 #include <string>
 
+#include "peer_backends/shared/surfaces.h"
+
 namespace slipcheck::dart_engine {
 namespace {
 
@@ -71,7 +73,8 @@ int PairShapes::kind_of(int body) const {
 }
 
 peer::ContactValues PairShapes::typed_ball(int body) const {
-  peer::ContactValues values = peer::typed_values(scene_, body, peer::kFloor);
+  const int ground = scene_.has_substrate ? peer::kFloor : surface_touch(0);
+  peer::ContactValues values = peer::typed_values(scene_, body, ground);
   if (scene_.bodies.size() == 1) return values;
   const peer::ContactValues pair = peer::typed_values(scene_, body, body == 0 ? 1 : 0);
   if (scene_.box) return pair;
@@ -89,9 +92,9 @@ void PairShapes::dress_ball(::dart::dynamics::BodyNode& node, int body,
     add_shape(node, shape, {body, kind_of(body), kAnyone}, typed_ball(body));
     return;
   }
-  std::set<int> surfaces = {peer::kFloor};
-  if (scene_.box) surfaces.insert(peer::kWall);
-  if (scene_.box && scene_.box->lid) surfaces.insert(peer::kLid);
+  std::set<int> surfaces;
+  for (const peer::Surface& surface : peer::surfaces_of(scene_)) surfaces.insert(surface.index);
+  for (std::size_t k = 0; k < scene_.surfaces.size(); ++k) surfaces.insert(surface_touch(k));
   for (const int surface : surfaces)
     add_shape(node, shape, {body, kind_of(body), surface}, values(body, surface));
   std::set<std::size_t> met;

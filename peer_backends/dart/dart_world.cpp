@@ -1,5 +1,7 @@
 #include "peer_backends/dart/dart_world.h"
 
+#include <fmt/format.h>
+
 #include <dart/collision/CollisionObject.hpp>
 #include <dart/collision/dart/DARTCollisionDetector.hpp>
 #include <dart/collision/fcl/FCLCollisionDetector.hpp>
@@ -16,6 +18,7 @@
 #include "engine/scene_needs.h"
 #include "peer_backends/dart/dart_shapes.h"
 #include "peer_backends/shared/applied.h"
+#include "peer_backends/shared/surface_frame.h"
 #include "peer_backends/shared/surfaces.h"
 #include "peer_backends/shared/touch_list.h"
 #include "physics/solid.h"
@@ -29,6 +32,8 @@ using ::dart::constraint::ContactConstraint;
 /// Of the box that stands for the plane [m], as in DART's own examples: neither detector knows a
 /// PlaneShape (FCL's makes an upright plate of it). Wide, and thin, so that its top is exact.
 constexpr double kPlaneWidth = 1e4, kPlaneThickness = 1;
+/// Of a plate, of its shorter side.
+constexpr double kPlateThickness = 1e-9;
 
 dd::Inertia inertia_of(double mass, const Eigen::Vector3d& moments) {
   return dd::Inertia(mass, Eigen::Vector3d::Zero(), moments.asDiagonal());
@@ -50,15 +55,16 @@ struct DartWorld::Parts {
         time_step(made.time_step / made.settings.substeps),
         start_time(time),
         shapes(setup.scene, setup.settings),
-        surface(peer::surfaces_of(setup.scene).front()),
-        world(::dart::simulation::World::create("slipcheck")) {
+        world(::dart::simulation::World::create("slipcheck")),
+        touches(setup.scene.box.has_value()) {
     set_globals(setup.settings);
     const Scene& scene = setup.scene;
     world->setTimeStep(time_step);
     world->setGravity(Eigen::Vector3d(scene.downhill.x(), scene.downhill.y(), -scene.gravity) /
                       unit);
     set_solver();
-    add_plane();
+    if (scene.has_substrate) add_plane();
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k) add_beside(k);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       add_ball(scene.bodies[i], states[i], static_cast<int>(i));
   }
@@ -78,18 +84,66 @@ struct DartWorld::Parts {
     option.collisionFilter = shapes.filter();
   }
 
-  void add_plane() {
-    plane = dd::Skeleton::create("plane");
-    auto pair = plane->createJointAndBodyNodePair<dd::FreeJoint>();
-    plane_joint = pair.first;
-    const double width = kPlaneWidth / unit, thickness = kPlaneThickness / unit;
-    shapes.dress_surface(*pair.second, surface.index,
-                         std::make_shared<dd::BoxShape>(Eigen::Vector3d(width, width, thickness)));
+  dd::ShapePtr plane_shape() const {
+    const double width = kPlaneWidth / unit;
+    return std::make_shared<dd::BoxShape>(Eigen::Vector3d(width, width, kPlaneThickness / unit));
+  }
+
+  /// Something that is not mobile; its velocity is felt all the same.
+  dd::FreeJoint* add_surface(int index, const dd::ShapePtr& shape,
+                             const peer::SurfaceFrame& frame) {
+    const dd::SkeletonPtr skeleton = dd::Skeleton::create("surface" + std::to_string(index));
+    const auto [joint, node] = skeleton->createJointAndBodyNodePair<dd::FreeJoint>();
+    shapes.dress_surface(*node, index, shape);
+    joint->setTransform(place_of(frame));
+    skeleton->setMobile(false);
+    world->addSkeleton(skeleton);
+    return joint;
+  }
+
+  Eigen::Isometry3d place_of(const peer::SurfaceFrame& frame) const {
     Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
-    place.translation().z() = -thickness / 2;
-    plane_joint->setTransform(place);
-    plane->setMobile(false);  // its velocity is felt all the same
-    world->addSkeleton(plane);
+    place.linear() = frame.axes;
+    place.translation() = frame.centre / unit;
+    return place;
+  }
+
+  void add_plane() {
+    surface = peer::surfaces_of(setup.scene).front();
+    plane_joint =
+        add_surface(surface.index, plane_shape(), peer::SurfaceFrame{}.behind(kPlaneThickness / 2));
+  }
+
+  dd::ShapePtr shape_of(const SurfaceShape& shape) const {
+    if (const auto* plate = std::get_if<RectangleShape>(&shape))
+      return std::make_shared<dd::BoxShape>(2 * peer::half_sizes(*plate, kPlateThickness) / unit);
+    if (const auto* ball = std::get_if<BallShape>(&shape))
+      return std::make_shared<dd::SphereShape>(ball->radius / unit);
+    return plane_shape();
+  }
+
+  peer::SurfaceFrame frame_beside(std::size_t k, double time) const {
+    const slipcheck::Surface& each = setup.scene.surfaces[k];
+    const bool plane = std::holds_alternative<PlaneShape>(each.shape);
+    return peer::frame_at(each, time).behind(plane ? kPlaneThickness / 2 : 0);
+  }
+
+  void add_beside(std::size_t k) {
+    beside.push_back(add_surface(surface_touch(k), shape_of(setup.scene.surfaces[k].shape),
+                                 frame_beside(k, start_time)));
+  }
+
+  /// To where they are at the begin of a step, with the velocity at its end.
+  void move_beside() {
+    const double now = start_time + static_cast<double>(steps) * time_step;
+    for (std::size_t k = 0; k < beside.size(); ++k) {
+      const SurfaceMotion& motion = setup.scene.surfaces[k].motion;
+      if (motion.is_still()) continue;
+      const peer::SurfaceFrame frame = frame_beside(k, now);
+      beside[k]->setTransform(place_of(frame));
+      beside[k]->setLinearVelocity(motion.velocity(now + time_step, frame.centre) / unit);
+      beside[k]->setAngularVelocity(motion.rate());
+    }
   }
 
   void add_ball(const Sphere& sphere, const BodyState& state, int body) {
@@ -119,10 +173,11 @@ struct DartWorld::Parts {
   }
 
   void step() {
-    if (surface.moves) {
+    if (plane_joint && surface.moves) {
       const double end = start_time + static_cast<double>(steps + 1) * time_step;
       plane_joint->setLinearVelocity(surface.velocity(setup.scene, end) / unit);
     }
+    move_beside();
     world->step();
     ++steps;
     for (const auto& contact : world->getLastCollisionResult().getContacts())
@@ -137,18 +192,25 @@ struct DartWorld::Parts {
   PairShapes shapes;
   peer::Surface surface;
   ::dart::simulation::WorldPtr world;
-  dd::SkeletonPtr plane;
   dd::FreeJoint* plane_joint = nullptr;
+  std::vector<dd::FreeJoint*> beside;  // of the scene's surfaces
   std::vector<dd::BodyNode*> balls;
   peer::TouchList touches;
 };
 
 EngineInfo DartWorld::info() {
-  return {"dart", DART_VERSION, "double", setting_table(), {scene_part::kBlock}};
+  return {
+      "dart", DART_VERSION, "double", setting_table(), {scene_part::kBlock, scene_part::kSurfaces}};
 }
 
 std::string DartWorld::refusal(const DartSetup& setup) {
   if (setup.scene.box) return "only scenes on a substrate, not in a box, are mapped";
+  for (std::size_t k = 0; k < setup.scene.surfaces.size(); ++k)
+    if (std::holds_alternative<RodShape>(setup.scene.surfaces[k].shape))
+      return fmt::format(
+          "surface {} is a cylinder, which DART's own collision detector does not know and FCL's "
+          "takes for a mesh",
+          k);
   return "";
 }
 
@@ -165,6 +227,7 @@ std::vector<Lack> DartWorld::lacks(const DartSetup& setup) {
   missing.note(needs.reversed_slip, lack::kTangentialRestitution, "friction only stops the slip");
   missing.note(setup.scene.confined, lack::kConfinement);
   missing.note(needs.bounce_law, lack::kRestitutionLaw);
+  missing.note(needs.through_in_a_step, lack::kThrough);
   return missing.take();
 }
 

@@ -12,6 +12,7 @@
 #include "peer_backends/lammps/lammps_input.h"
 #include "peer_backends/lammps/lammps_process.h"
 #include "peer_backends/lammps/springs.h"
+#include "peer_backends/shared/applied.h"
 #include "peer_backends/shared/momentum_touches.h"
 #include "peer_backends/shared/moving_frame.h"
 
@@ -38,6 +39,8 @@ std::string lammps_version() {
 void refuse_what_cannot_be(const Scene& scene) {
   if (scene.box)
     throw Refused("lammps: the walls of a box are shaken and fix wall/gran knows no table of them");
+  if (!scene.surfaces.empty() && !scene.motion.is_still())
+    throw Refused("lammps: the substrate moves beside surfaces, and the world is seen from it");
   for (const Sphere& body : scene.bodies)
     if (body.shape_factor != 0.4)
       throw Refused(fmt::format(
@@ -59,7 +62,12 @@ std::vector<Lack> not_represented(const EngineScene& scene, const LammpsSettings
     low |= !soft && e && *e < settings.lowest_restitution;
   }
   for (const std::size_t material : scene.material)
-    low |= scene.substrate[material].restitution < settings.lowest_restitution;
+    low |=
+        scene.has_substrate && scene.substrate[material].restitution < settings.lowest_restitution;
+  for (const std::size_t body : peer::one_of_each_material(scene))
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
+      low |= peer::typed_values(scene, static_cast<int>(body), surface_touch(k)).restitution <
+             settings.lowest_restitution;
   LackList missing;
   missing.note(needs.static_friction, lack::kStaticFriction,
                "one coefficient, and damping below its limit");
@@ -71,6 +79,7 @@ std::vector<Lack> not_represented(const EngineScene& scene, const LammpsSettings
   missing.note(any_hard && needs.reversed_slip, lack::kTangentialRestitution,
                "friction only stops the slip");
   missing.note(scene.confined, lack::kConfinement);
+  missing.note(needs.through_in_a_step, lack::kThrough);
   if (low)
     missing.add({fmt::format("restitution below {:.3g}", settings.lowest_restitution),
                  "restitution below …"});
@@ -87,7 +96,7 @@ class LammpsEngine final : public Engine {
  public:
   EngineInfo info() const override {
     static const std::string version = lammps_version();
-    return {"lammps", version, "double", infos_of(setting_rows())};
+    return {"lammps", version, "double", infos_of(setting_rows()), {scene_part::kSurfaces}};
   }
 
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
@@ -95,7 +104,7 @@ class LammpsEngine final : public Engine {
     refuse_what_cannot_be(scene);
     const MovingFrame frame(scene, "lammps");
     const InnerSteps steps = inner_steps(scene, settings, time_step);
-    input(scene, scene.initial, settings, steps.length);  // refuses what cannot be said
+    input(scene, scene.initial, 0, settings, steps.length);  // refuses what cannot be said
     if (!process_ || settings.ranks != setup_->settings.ranks) {
       process_.reset();
       process_ = std::make_unique<LammpsProcess>(settings.ranks);
@@ -105,13 +114,15 @@ class LammpsEngine final : public Engine {
     return {applied(scene, settings, steps), not_represented(scene, settings, time_step), {}};
   }
 
-  void start(std::span<const BodyState> states, double) override {
+  void start(std::span<const BodyState> states, double time) override {
     if (run_ && run_->blown_up)  // that LAMMPS has ended
       process_ = std::make_unique<LammpsProcess>(setup_->settings.ranks);
     run_ = std::make_unique<Run>();
     run_->states = setup_->frame.enter(states);
-    process_->send(input(setup_->scene, run_->states, setup_->settings, setup_->steps.length) +
-                   dump_command(setup_->scene, process_->snapshot_file()) + "run 0\n");
+    run_->start = time;
+    process_->send(
+        input(setup_->scene, run_->states, time, setup_->settings, setup_->steps.length) +
+        dump_command(setup_->scene, process_->snapshot_file()) + "run 0\n");
     process_->finish_run();
   }
 
@@ -143,6 +154,7 @@ class LammpsEngine final : public Engine {
     std::vector<Frame> shown;       // of the last step
     long pending = 0;               // steps that are asked for and not taken
     long taken = 0;                 // of LAMMPS's
+    double start = 0;               // [s]
     bool blown_up = false;
   };
 
@@ -165,11 +177,14 @@ class LammpsEngine final : public Engine {
     for (int k = 1; k <= setup_->settings.frames; ++k) {
       read_states(before + k * each);
       ++parts;
-      if (k < setup_->settings.frames && in_impact(setup_->scene, run.states, length)) continue;
+      const double now = run.start + static_cast<double>(before + k * each) * setup_->steps.length;
+      if (k < setup_->settings.frames && in_impact(setup_->scene, run.states, length, now))
+        continue;
       Frame& frame = run.shown.emplace_back();
       frame.bodies = run.states;
       if (!run.blown_up)
-        frame.touches = momentum_touches(setup_->scene, last, run.states, parts * length);
+        frame.touches =
+            momentum_touches(setup_->scene, last, run.states, parts * length, now - parts * length);
       frame.part = k == setup_->settings.frames ? 1.0 : k / double(setup_->settings.frames);
       setup_->frame.leave(frame.bodies,
                           static_cast<double>(before + k * each) * setup_->steps.length);

@@ -6,13 +6,12 @@
 #include <cmath>
 
 #include "engine/engine.h"
+#include "peer_backends/lammps/regions.h"
 #include "peer_backends/lammps/springs.h"
+#include "peer_backends/shared/applied.h"
 
 namespace slipcheck::lammps {
 namespace {
-
-/// A number that LAMMPS reads back as the same.
-std::string exact(double value) { return fmt::format("{:.17g}", value); }
 
 double smallest_radius(const Scene& scene) {
   return std::ranges::min_element(scene.bodies, {}, &Sphere::radius)->radius;
@@ -106,10 +105,8 @@ std::string pair_commands(const EngineScene& scene, const AtomTypes& types,
 }
 
 /// Rolling and twisting as springs that hold up to their caps and are critically damped.
-std::string wall_torques(const Scene& scene, std::size_t body, const Spring& spring,
+std::string wall_torques(const Sphere& sphere, const SubstrateContact& ground, const Spring& spring,
                          const LammpsSettings& settings) {
-  const Sphere& sphere = scene.bodies[body];
-  const SubstrateContact& ground = scene.on_substrate(body);
   const double q = sphere.shape_factor;
   std::string text;
   if (!ground.rolling.is_zero()) {
@@ -133,11 +130,19 @@ std::string wall_commands(const EngineScene& scene, const AtomTypes& types,
   std::string text;
   for (std::size_t type = 0; type < types.first_body.size(); ++type) {
     const std::size_t body = types.first_body[type];
-    const Spring spring = substrate_spring(scene, body, settings);
-    text += fmt::format(
-        "group type{0} type {0}\n"
-        "fix wall{0} type{0} wall/gran granular {1}{2} zplane 0 NULL\n",
-        type + 1, granular(spring), wall_torques(scene, body, spring, settings));
+    text += fmt::format("group type{0} type {0}\n", type + 1);
+    const auto wall = [&](const std::string& of, const Spring& spring,
+                          const SubstrateContact& ground, const std::string& where) {
+      text += fmt::format("fix {0}{1} type{1} wall/{2} granular {3}{4} {5}\n", of, type + 1,
+                          of == "wall" ? "gran" : "gran/region", granular(spring),
+                          wall_torques(scene.bodies[body], ground, spring, settings), where);
+    };
+    if (scene.has_substrate)
+      wall("wall", substrate_spring(scene, body, settings), scene.on_substrate(body),
+           "zplane 0 NULL");
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
+      wall(fmt::format("beside{}_", k), surface_spring(scene, body, k, settings),
+           scene.on_surface(body, k).lasting, fmt::format("region {}", region_name(k)));
   }
   return text;
 }
@@ -224,7 +229,7 @@ InnerSteps inner_steps(const EngineScene& scene, const LammpsSettings& settings,
   return steps_of(std::max(1.0, count));
 }
 
-std::string input(const EngineScene& scene, std::span<const BodyState> states,
+std::string input(const EngineScene& scene, std::span<const BodyState> states, double time,
                   const LammpsSettings& settings, double inner_step) {
   const AtomTypes types = atom_types(scene);
   std::string text =
@@ -237,6 +242,7 @@ std::string input(const EngineScene& scene, std::span<const BodyState> states,
                       exact(settings.skin * smallest_radius(scene)),
                       scene.bodies.size() > kBins ? "bin" : "nsq");
   text += "fix motion all nve/sphere\n" + gravity_command(scene);
+  text += region_commands(scene, time);
   text += wall_commands(scene, types, settings);
   return text + fmt::format("timestep {}\nthermo 1000000000\n", exact(inner_step));
 }
@@ -261,7 +267,10 @@ Settings applied(const EngineScene& scene, const LammpsSettings& settings,
     all[of + "_friction"] = spring.friction;
   };
   if (scene.bodies.size() > 1) tell("pair", pair_spring(scene, 0, 1, settings));
-  tell("substrate", substrate_spring(scene, 0, settings));
+  if (scene.has_substrate) tell("substrate", substrate_spring(scene, 0, settings));
+  for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
+    for (const std::size_t body : peer::one_of_each_material(scene))
+      tell(fmt::format("surface[{}-{}]", body, k), surface_spring(scene, body, k, settings));
   return all;
 }
 

@@ -16,9 +16,9 @@ struct InnerSteps {
 };
 InnerSteps inner_steps(const EngineScene& scene, const LammpsSettings& settings, double time_step);
 
-/// The commands that make a fresh world of these states, as seen from the substrate, up to the run
-/// that finds the first forces. Nothing is left of an earlier one. Throws Refused.
-std::string input(const EngineScene& scene, std::span<const BodyState> states,
+/// The commands that make a fresh world of these states at `time` [s], as seen from the substrate,
+/// up to the run that finds the first forces. Nothing is left of an earlier one. Throws Refused.
+std::string input(const EngineScene& scene, std::span<const BodyState> states, double time,
                   const LammpsSettings& settings, double inner_step);
 
 /// The command for the file or pipe to which snapshots go, named `frames`: id, place, velocity and

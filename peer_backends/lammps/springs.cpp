@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "engine/engine.h"
+#include "peer_backends/shared/contact_values.h"
 #include "physics/contact/linear_contact.h"
 
 namespace slipcheck::lammps {
@@ -123,6 +124,16 @@ Spring substrate_spring(const Scene& scene, std::size_t body, const LammpsSettin
   Spring spring = spring_with(ground.restitution, scene.bodies[body].mass, settings);
   spring.effective_radius = scene.bodies[body].radius;
   spring.friction = ground.kinetic_friction;
+  return spring;
+}
+
+Spring surface_spring(const Scene& scene, std::size_t body, std::size_t k,
+                      const LammpsSettings& settings) {
+  const int touch = surface_touch(k), whose = static_cast<int>(body);
+  Spring spring = spring_with(peer::typed_values(scene, whose, touch).restitution,
+                              scene.bodies[body].mass, settings);
+  spring.effective_radius = scene.bodies[body].radius;
+  spring.friction = peer::exact_values(scene, whose, touch, {}).friction;
   return spring;
 }
 

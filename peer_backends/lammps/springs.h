@@ -37,6 +37,10 @@ Spring pair_spring(const EngineScene& scene, std::size_t i, std::size_t j,
 /// That of a body and the substrate. Throws Refused.
 Spring substrate_spring(const Scene& scene, std::size_t body, const LammpsSettings& settings);
 
+/// That of a body and surface k beside the substrate. Throws Refused.
+Spring surface_spring(const Scene& scene, std::size_t body, std::size_t k,
+                      const LammpsSettings& settings);
+
 /// How long a collision takes [s], of a Hertz contact at the relative speed [m/s].
 double collision_time(const Spring& spring, double speed);
 

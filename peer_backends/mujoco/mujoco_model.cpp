@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <iterator>
+#include <variant>
 
 #include "peer_backends/mujoco/restitution_spring.h"
 #include "peer_backends/shared/surfaces.h"
@@ -30,6 +32,13 @@ const char* word(Enum value, std::initializer_list<const char*> words) {
   return words.begin()[static_cast<std::size_t>(value)];
 }
 
+bool has_stage(const Scene& scene) {
+  return std::ranges::any_of(peer::surfaces_of(scene), &peer::Surface::moves) ||
+         std::ranges::any_of(scene.surfaces, [](const slipcheck::Surface& each) {
+           return !each.motion.is_still();
+         });
+}
+
 void put_options(Text& text, const MujocoSetup& setup) {
   const MujocoSettings& chosen = setup.settings;
   const Scene& scene = setup.scene;
@@ -41,8 +50,7 @@ void put_options(Text& text, const MujocoSetup& setup) {
       word(chosen.solver, {"PGS", "CG", "Newton"}), chosen.iterations, chosen.tolerance,
       chosen.noslip_iterations, word(chosen.integrator, {"Euler", "RK4", "implicit"}));
   // The solver's tolerance is relative to a mean inertia, in which a stage would be all.
-  if (peer::surfaces_of(scene).front().moves)
-    put(text, "<statistic meaninertia=\"{}\"/>\n", scene.bodies.front().mass);
+  if (has_stage(scene)) put(text, "<statistic meaninertia=\"{}\"/>\n", scene.bodies.front().mass);
 }
 
 std::string quaternion_text(const Eigen::Quaterniond& q) {
@@ -96,7 +104,7 @@ void put_surface(Text& text, const peer::Surface& surface, std::size_t k) {
 void put_surfaces(Text& text, const Scene& scene, const std::vector<peer::Surface>& surfaces) {
   for (std::size_t k = 0; k < surfaces.size(); ++k)
     if (!surfaces[k].moves) put_surface(text, surfaces[k], k);
-  if (!surfaces.front().moves) return;
+  if (!std::ranges::any_of(surfaces, &peer::Surface::moves)) return;
   put(text, "<body>\n");
   if (scene.box) {
     put(text, "<joint name=\"stage_z\" type=\"slide\" axis=\"0 0 1\"/>\n");
@@ -109,6 +117,49 @@ void put_surfaces(Text& text, const Scene& scene, const std::vector<peer::Surfac
   for (std::size_t k = 0; k < surfaces.size(); ++k)
     if (surfaces[k].moves) put_surface(text, surfaces[k], k);
   put(text, "</body>\n");
+}
+
+/// Half of a plate's thickness, of the shorter of its half sides.
+constexpr double kPlateThickness = 1e-9;
+
+/// Type and size of a geom in the surface's own frame.
+struct GeomOf {
+  bool driven;
+  std::string operator()(const PlaneShape&) const {
+    return driven ? fmt::format("type=\"box\" size=\"{0} {0} {1}\"", kHalfWidth, kThickness / 2)
+                  : "type=\"plane\" size=\"0 0 1\"";
+  }
+  std::string operator()(const RectangleShape& plate) const {
+    return fmt::format("type=\"box\" size=\"{}\"",
+                       vector_text(peer::half_sizes(plate, kPlateThickness)));
+  }
+  std::string operator()(const RodShape& rod) const {
+    return fmt::format("type=\"cylinder\" size=\"{} {}\"", rod.radius,
+                       0.5 * (rod.end - rod.begin).norm());
+  }
+  std::string operator()(const BallShape& ball) const {
+    return fmt::format("type=\"sphere\" size=\"{}\"", ball.radius);
+  }
+};
+
+/// Those that move or pass by are bodies of their own, so heavy that nothing turns or stops them.
+void put_beside(Text& text, const Scene& scene) {
+  constexpr double kGyration = 100;  // radius of [m]
+  for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+    const slipcheck::Surface& surface = scene.surfaces[k];
+    const bool driven = !surface.motion.is_still();
+    const peer::SurfaceFrame frame = frame_beside(surface, 0);
+    const std::string place =
+        fmt::format("pos=\"{}\" {}", vector_text(frame.centre), quaternion_text(frame.turn()));
+    const double mass = stage_mass(scene), moment = mass * kGyration * kGyration;
+    if (driven)
+      put(text,
+          "<body {0}><freejoint name=\"{1}\"/>\n<inertial pos=\"0 0 0\" mass=\"{2}\" "
+          "diaginertia=\"{3} {3} {3}\"/>\n",
+          place, beside_name(k), mass, moment);
+    put(text, "<geom name=\"{}\" {} {}contype=\"0\" conaffinity=\"0\"/>\n{}", beside_name(k),
+        std::visit(GeomOf{driven}, surface.shape), driven ? "" : place, driven ? "</body>\n" : "");
+  }
 }
 
 int dimensions(const MujocoSettings& chosen, const peer::ContactValues& values) {
@@ -153,6 +204,8 @@ void put_pairs(Text& text, const MujocoSetup& setup, const std::vector<peer::Sur
   for (std::size_t i = 0; i < bodies; ++i) {
     for (std::size_t k = 0; k < surfaces.size(); ++k)
       put_pair(text, setup, static_cast<int>(i), surfaces[k].index, surface_name(k), ball_name(i));
+    for (std::size_t k = 0; k < setup.scene.surfaces.size(); ++k)
+      put_pair(text, setup, static_cast<int>(i), surface_touch(k), beside_name(k), ball_name(i));
     for (std::size_t j = i + 1; j < bodies; ++j)
       put_pair(text, setup, static_cast<int>(i), static_cast<int>(j), ball_name(i), ball_name(j));
   }
@@ -164,6 +217,14 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 
 std::string ball_name(std::size_t body) { return fmt::format("ball{}", body); }
 std::string surface_name(std::size_t surface) { return fmt::format("surface{}", surface); }
+
+std::string beside_name(std::size_t surface) { return fmt::format("beside{}", surface); }
+
+peer::SurfaceFrame frame_beside(const slipcheck::Surface& surface, double time) {
+  const bool boxed =
+      std::holds_alternative<PlaneShape>(surface.shape) && !surface.motion.is_still();
+  return peer::frame_at(surface, time).behind(boxed ? kThickness / 2 : 0);
+}
 
 peer::ContactValues values_of(const MujocoSetup& setup, int body, int other) {
   peer::ContactValues typed = peer::typed_values(setup.scene, body, other);
@@ -186,6 +247,7 @@ std::string mjcf(const MujocoSetup& setup, std::span<const BodyState> states) {
   put_options(text, setup);
   put(text, "<worldbody>\n");
   put_surfaces(text, setup.scene, surfaces);
+  put_beside(text, setup.scene);
   for (std::size_t i = 0; i < states.size(); ++i) put_ball(text, setup.scene, states[i], i);
   put(text, "</worldbody>\n<contact>\n");
   put_pairs(text, setup, surfaces);

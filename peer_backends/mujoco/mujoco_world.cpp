@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
+#include <array>
 #include <stdexcept>
 
 #include "engine/scene_needs.h"
@@ -36,14 +37,19 @@ struct MujocoWorld::Parts {
       : setup(made),
         time_step(made.time_step / made.settings.substeps),
         start_time(time),
-        surfaces(peer::surfaces_of(setup.scene)) {
+        surfaces(peer::surfaces_of(setup.scene)),
+        touches(setup.scene.box.has_value()) {
     mju_user_error = &throw_error;
     mju_user_warning = &pass_over;
     model = compile(mjcf(setup, states));
     data.reset(mj_makeData(model.get()));
     for (std::size_t i = 0; i < states.size(); ++i) set_velocity(states[i], i);
     find_geoms();
-    if (!surfaces.front().moves) return;
+    for (std::size_t k = 0; k < setup.scene.surfaces.size(); ++k)
+      if (const int joint = mj_name2id(model.get(), mjOBJ_JOINT, beside_name(k).c_str());
+          joint >= 0)
+        driven.push_back({k, model->jnt_qposadr[joint], model->jnt_dofadr[joint]});
+    if (surfaces.empty() || !surfaces.front().moves) return;
     for (const char* axis : {"x", "y", "z"}) {
       const int joint = mj_name2id(model.get(), mjOBJ_JOINT, fmt::format("stage_{}", axis).c_str());
       if (joint >= 0)
@@ -76,6 +82,8 @@ struct MujocoWorld::Parts {
     };
     for (std::size_t i = 0; i < places.size(); ++i) at(ball_name(i)) = static_cast<int>(i);
     for (std::size_t k = 0; k < surfaces.size(); ++k) at(surface_name(k)) = surfaces[k].index;
+    for (std::size_t k = 0; k < setup.scene.surfaces.size(); ++k)
+      at(beside_name(k)) = surface_touch(k);
   }
 
   BodyState state(std::size_t i) const {
@@ -106,8 +114,34 @@ struct MujocoWorld::Parts {
     }
   }
 
+  /// Likewise; a belt begins each step where it is.
+  void move_beside() {
+    const double now = start_time + static_cast<double>(steps) * time_step;
+    for (const Driven& each : driven) {
+      const slipcheck::Surface& surface = setup.scene.surfaces[each.surface];
+      const peer::SurfaceFrame frame = frame_beside(surface, now);
+      const Eigen::Quaterniond turn = frame.turn();
+      const Vector3 velocity = surface.motion.velocity(now, frame.centre);
+      const Vector3 then =
+          surface.motion.velocity(now + time_step, frame_beside(surface, now + time_step).centre);
+      const Vector3 force =
+          stage_mass(setup.scene) * ((then - velocity) / time_step - setup.scene.gravity_vector());
+      const Vector3 rate = frame.axes.transpose() * surface.motion.rate();  // along its own axes
+      const std::array<double, 4> q = {turn.w(), turn.x(), turn.y(), turn.z()};
+      for (int k = 0; k < 3; ++k) {
+        data->qpos[each.position + k] = frame.centre[k];
+        data->qvel[each.velocity + k] = velocity[k];
+        data->qvel[each.velocity + 3 + k] = rate[k];
+        data->qfrc_applied[each.velocity + k] = force[k];
+      }
+      for (int k = 0; k < 4; ++k)
+        data->qpos[each.position + 3 + k] = q[static_cast<std::size_t>(k)];
+    }
+  }
+
   void step() {
     move_stage();
+    move_beside();
     mj_step(model.get(), data.get());
     if (started_anew(*data))
       throw std::runtime_error("mujoco: a state that is not finite or beyond 1e10: it starts anew");
@@ -128,6 +162,10 @@ struct MujocoWorld::Parts {
   struct Slide {
     int position, velocity, axis;
   };
+  struct Driven {
+    std::size_t surface;
+    int position, velocity;
+  };
 
   const MujocoSetup& setup;
   double time_step, start_time;  // of MuJoCo's own [s]
@@ -139,6 +177,7 @@ struct MujocoWorld::Parts {
   std::vector<Vector3> origins;  // of bodies in a box, from which their slides count
   std::vector<int> owners;       // of geoms
   std::vector<Slide> stage;      // what moves, where something does
+  std::vector<Driven> driven;    // what moves of the surfaces beside the substrate
   peer::TouchList touches;
 };
 
@@ -147,7 +186,7 @@ EngineInfo MujocoWorld::info() {
           mj_versionString(),
           "double",
           setting_table(),
-          {scene_part::kBlock, scene_part::kCylinder}};
+          {scene_part::kBlock, scene_part::kCylinder, scene_part::kSurfaces}};
 }
 
 std::string MujocoWorld::refusal(const MujocoSetup& setup) {
@@ -180,6 +219,7 @@ std::vector<Lack> MujocoWorld::lacks(const MujocoSetup& setup) {
   missing.note(needs.reversed_slip, lack::kTangentialRestitution, "friction only stops the slip");
   missing.note(setup.scene.confined, lack::kConfinement);
   missing.note(needs.far_in_a_step, lack::kPassing);
+  missing.note(needs.through_in_a_step, lack::kThrough);
   missing.note(needs.rolling && fields && !without(6), lack::kRolling,
                "mu_r in the place of a length");
   missing.note(needs.rolling_table, lack::kRollingTable);

@@ -40,10 +40,8 @@ void add_substrate(GatheredSettings& out, const Scene& scene, SlipRule rule, con
 
 /// One body for each material.
 void add_surfaces(GatheredSettings& out, const Scene& scene, SlipRule rule, const ValuesOf& of) {
-  std::set<std::size_t> seen;
   const bool told_apart = rule == SlipRule::told_apart;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (!seen.insert(scene.material[i]).second) continue;
+  for (const std::size_t i : one_of_each_material(scene)) {
     for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
       const SurfaceContact& contact = scene.on_surface(i, k);
       const SubstrateContact& ground = contact.lasting;
@@ -65,9 +63,7 @@ void add_surfaces(GatheredSettings& out, const Scene& scene, SlipRule rule, cons
 
 /// One body for each material.
 void add_box(GatheredSettings& out, const Scene& scene, const ValuesOf& of) {
-  std::set<std::size_t> seen;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (!seen.insert(scene.material[i]).second) continue;
+  for (const std::size_t i : one_of_each_material(scene)) {
     const int body = static_cast<int>(i);
     const auto add = [&](int surface, const std::string& name) {
       const ContactValues values = of(body, surface);
@@ -83,6 +79,14 @@ void add_box(GatheredSettings& out, const Scene& scene, const ValuesOf& of) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> one_of_each_material(const Scene& scene) {
+  std::set<std::size_t> seen;
+  std::vector<std::size_t> bodies;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    if (seen.insert(scene.material[i]).second) bodies.push_back(i);
+  return bodies;
+}
 
 void add_coefficients(Settings& settings, const Scene& scene, SlipRule rule, const ValuesOf& of) {
   GatheredSettings gathered;

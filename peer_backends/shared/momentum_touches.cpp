@@ -15,8 +15,25 @@ struct Candidate {
 /// Gap [m] that counts as touching: resting bodies hover by rounding.
 constexpr double kNear = 1e-6;  // of the radius
 
+/// The surfaces that a body overlaps before or after, or would in free flight.
+void add_surfaces(std::vector<Candidate>& found, const Scene& scene, std::size_t body,
+                  const BodyState& before, const BodyState& after, double time_step, double time) {
+  const double radius = scene.bodies[body].radius, reach = (1 + kNear) * radius;
+  const Vector3 flown = before.position + time_step * before.velocity +
+                        0.5 * time_step * time_step * scene.gravity_vector();
+  for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+    const Surface& surface = scene.surfaces[k];
+    const NearestPoint first = surface.nearest(time, before.position),
+                       last = surface.nearest(time + time_step, after.position),
+                       free = surface.nearest(time + time_step, flown);
+    if (std::min({first.distance, last.distance, free.distance}) < reach)
+      found.push_back({static_cast<int>(body), surface_touch(k),
+                       (first.normal + last.normal).stableNormalized()});
+  }
+}
+
 std::vector<Candidate> candidates(const Scene& scene, std::span<const BodyState> before,
-                                  std::span<const BodyState> after, double time_step) {
+                                  std::span<const BodyState> after, double time_step, double time) {
   std::vector<Candidate> found;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const double radius = scene.bodies[i].radius, margin = kNear * radius;
@@ -24,8 +41,9 @@ std::vector<Candidate> candidates(const Scene& scene, std::span<const BodyState>
     const double fall = 0.5 * scene.gravity * time_step * time_step;
     const double lowest = std::min({old.position.z(), after[i].position.z(),
                                     old.position.z() + time_step * old.velocity.z() - fall});
-    if (!scene.box && lowest < radius + margin)
+    if (!scene.box && scene.has_substrate && lowest < radius + margin)
       found.push_back({static_cast<int>(i), kSubstrate, Vector3::UnitZ()});
+    add_surfaces(found, scene, i, old, after[i], time_step, time);
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {
       const double reach = radius + scene.bodies[j].radius;
       const Vector3 apart = scene.to_nearest_image(old.position - before[j].position);
@@ -46,8 +64,9 @@ std::vector<Candidate> candidates(const Scene& scene, std::span<const BodyState>
 }  // namespace
 
 std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyState> before,
-                                    std::span<const BodyState> after, double time_step) {
-  const std::vector<Candidate> found = candidates(scene, before, after, time_step);
+                                    std::span<const BodyState> after, double time_step,
+                                    double time) {
+  const std::vector<Candidate> found = candidates(scene, before, after, time_step, time);
   if (found.empty()) return {};
   const auto bodies = static_cast<Eigen::Index>(scene.bodies.size());
   const auto count = static_cast<Eigen::Index>(found.size());
@@ -65,7 +84,7 @@ std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyStat
   for (Eigen::Index c = 0; c < count; ++c) {
     const Candidate& each = found[static_cast<std::size_t>(c)];
     lines.block<3, 1>(3 * each.first, c) = each.normal;
-    if (each.second != kSubstrate) lines.block<3, 1>(3 * each.second, c) = -each.normal;
+    if (each.second >= 0) lines.block<3, 1>(3 * each.second, c) = -each.normal;
   }
   const Eigen::VectorXd impulses = lines.completeOrthogonalDecomposition().solve(momenta);
   std::vector<Touch> touches;
@@ -76,12 +95,19 @@ std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyStat
   return touches;
 }
 
-bool in_impact(const Scene& scene, std::span<const BodyState> states, double time) {
+bool in_impact(const Scene& scene, std::span<const BodyState> states, double length, double time) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     const double radius = scene.bodies[i].radius;
-    if (states[i].position.z() < radius &&
-        std::abs(states[i].velocity.z()) > 10 * scene.gravity * time)
+    if (scene.has_substrate && states[i].position.z() < radius &&
+        std::abs(states[i].velocity.z()) > 10 * scene.gravity * length)
       return true;
+    for (const Surface& surface : scene.surfaces) {
+      const NearestPoint nearest = surface.nearest(time, states[i].position);
+      const Vector3 slip = states[i].velocity - surface.motion.velocity(time, nearest.point);
+      if (nearest.distance < radius &&
+          std::abs(nearest.normal.dot(slip)) > 10 * scene.gravity_vector().norm() * length)
+        return true;
+    }
     for (std::size_t j = i + 1; j < states.size(); ++j) {
       const Vector3 apart = scene.to_nearest_image(states[i].position - states[j].position);
       if (apart.norm() < radius + scene.bodies[j].radius) return true;

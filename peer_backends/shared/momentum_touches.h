@@ -12,13 +12,16 @@ namespace slipcheck {
 /// the bodies' momenta beyond gravity's comes to along the lines of centres and the substrate's
 /// normal. Only those count who overlap before or after, or who would by their velocities
 /// before. Friction's impulses are taken out as far as they are across those lines; where a body
-/// touches so many others that the split is not unique, it is the smallest.
+/// touches so many others that the split is not unique, it is the smallest. The states before are
+/// those at `time` [s], by which surfaces move.
 std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyState> before,
-                                    std::span<const BodyState> after, double time_step);
+                                    std::span<const BodyState> after, double time_step,
+                                    double time = 0);
 
-/// Whether bodies are in the middle of an impact: two overlap, or one overlaps the substrate and
-/// moves up or down faster than gravity makes it in ten times `time` [s]. A state in there is
-/// neither before nor after the impact.
-bool in_impact(const Scene& scene, std::span<const BodyState> states, double time);
+/// Whether bodies are in the middle of an impact: two overlap, or one overlaps the substrate or a
+/// surface and moves to or from it faster than gravity makes it in ten times `length` [s]. A state
+/// in there, at `time` [s], is neither before nor after the impact.
+bool in_impact(const Scene& scene, std::span<const BodyState> states, double length,
+               double time = 0);
 
 }  // namespace slipcheck

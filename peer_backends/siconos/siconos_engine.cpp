@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "engine/scene_needs.h"
+#include "peer_backends/shared/applied.h"
+#include "peer_backends/shared/contact_values.h"
 #include "peer_backends/shared/moving_frame.h"
 #include "peer_backends/siconos/siconos_settings.h"
 
@@ -31,6 +33,21 @@ void refuse_unfit(const Scene& scene) {
     throw Refused(fmt::format(
         "siconos: {} bodies, and with an interaction for each two at most {} are feasible",
         scene.bodies.size(), kMostBodies));
+}
+
+bool is_steady(const SurfaceMotion& motion) {
+  return motion.is_still() ||
+         (motion.rate().isZero(0) && motion.course().kind() == SubstrateMotion::Kind::constant);
+}
+
+void refuse_surfaces(const Scene& scene) {
+  for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
+    if (!is_steady(scene.surfaces[k].motion))
+      throw Refused(fmt::format(
+          "siconos: surface {} turns or swings, and what carries one has a constant velocity", k));
+  if (!scene.surfaces.empty() && !scene.motion.is_still())
+    throw Refused(
+        "siconos: the substrate moves beside surfaces, and the world is seen from one of them");
 }
 
 /// The approach of two bodies by the velocities at the start, or 1 mm/s.
@@ -56,19 +73,47 @@ ImpactLaw substrate_law(const Scene& scene, std::size_t body, const SiconosSetti
   return {ground.restitution, 0, ground.kinetic_friction, length};
 }
 
+ImpactLaw surface_law(const Scene& scene, std::size_t body, std::size_t k,
+                      const SiconosSettings& settings) {
+  const SurfaceContact& contact = scene.on_surface(body, k);
+  const int touch = surface_touch(k);
+  const peer::ContactValues exact = peer::exact_values(scene, static_cast<int>(body), touch, {});
+  const peer::ContactValues typed = peer::typed_values(scene, static_cast<int>(body), touch);
+  const bool fields = settings.coefficients == Coefficients::fields;
+  return {typed.restitution, std::max(contact.impact.tangential_restitution, 0.0), exact.friction,
+          fields ? typed.rolling : exact.rolling};
+}
+
 bool rolls(const Scene& scene) {
   return std::ranges::any_of(
-      scene.substrate, [](const SubstrateContact& ground) { return !ground.rolling.is_zero(); });
+             scene.substrate,
+             [](const SubstrateContact& ground) { return !ground.rolling.is_zero(); }) ||
+         std::ranges::any_of(scene.on_surfaces, [](const SurfaceContact& contact) {
+           return !contact.lasting.rolling.is_zero();
+         });
+}
+
+FixedSurface fixed_surface(const slipcheck::Surface& surface, double start) {
+  return {[surface, start](double time, const Vector3& from) {
+            const NearestPoint found = surface.nearest(start + time, from);
+            return NearestPlace{found.point, found.normal, found.distance};
+          },
+          surface.motion.velocity(start, Vector3::Zero())};
 }
 
 SystemPlan plan_of(const Scene& scene, const SiconosSettings& settings,
-                   const std::vector<BodyState>& states, double time_step) {
+                   const std::vector<BodyState>& states, double start, double time_step) {
   SystemPlan plan;
+  plan.has_substrate = scene.has_substrate;
+  for (const slipcheck::Surface& surface : scene.surfaces)
+    plan.surfaces.push_back(fixed_surface(surface, start));
   plan.bodies = scene.bodies;
   plan.states = states;
   plan.gravity = Vector3(scene.downhill.x(), scene.downhill.y(), -scene.gravity);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     plan.on_substrate.push_back(substrate_law(scene, i, settings));
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
+      plan.on_surfaces.push_back(surface_law(scene, i, k, settings));
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j)
       plan.pairs.push_back(pair_law(scene, i, j));
   }
@@ -85,10 +130,12 @@ SystemPlan plan_of(const Scene& scene, const SiconosSettings& settings,
 
 std::vector<Lack> not_represented(const Scene& scene, double time_step) {
   const SceneNeeds needs = needs_of(scene, time_step);
-  const bool sticks_less = std::ranges::any_of(scene.pairs, [](const PairContact& pair) {
+  const auto is_less = [](const PairContact& pair) {
     return has_friction(pair.friction) && pair.tangential_restitution < 0 &&
            pair.tangential_restitution > -1;
-  });
+  };
+  const bool sticks_less = std::ranges::any_of(scene.pairs, is_less) ||
+                           std::ranges::any_of(scene.on_surfaces, is_less, &SurfaceContact::impact);
   LackList missing;
   missing.note(needs.static_friction, lack::kStaticFriction,
                "one coefficient for sticking and sliding");
@@ -98,6 +145,7 @@ std::vector<Lack> not_represented(const Scene& scene, double time_step) {
   missing.note(needs.bounce_law, lack::kRestitutionLaw);
   missing.note(sticks_less, lack::kTangentialRestitution, "none below 0");
   missing.note(scene.confined, lack::kConfinement);
+  missing.note(needs.through_in_a_step, lack::kThrough);
   return missing.take();
 }
 
@@ -109,7 +157,10 @@ Settings applied(const Scene& scene, const SiconosSettings& settings) {
     all[of + "_tangential_restitution"] = law.tangential_restitution;
     all[of + "_rolling_length"] = law.rolling_length;
   };
-  tell("substrate", substrate_law(scene, 0, settings));
+  if (scene.has_substrate) tell("substrate", substrate_law(scene, 0, settings));
+  for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
+    for (const std::size_t body : peer::one_of_each_material(scene))
+      tell(fmt::format("surface[{}-{}]", body, k), surface_law(scene, body, k, settings));
   if (scene.bodies.size() > 1) tell("pair", pair_law(scene, 0, 1));
   return all;
 }
@@ -117,23 +168,28 @@ Settings applied(const Scene& scene, const SiconosSettings& settings) {
 class SiconosEngine final : public Engine {
  public:
   EngineInfo info() const override {
-    return {"siconos", SLIPCHECK_SICONOS_VERSION, "double", infos_of(setting_rows())};
+    return {"siconos",
+            SLIPCHECK_SICONOS_VERSION,
+            "double",
+            infos_of(setting_rows()),
+            {scene_part::kSurfaces}};
   }
 
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
     refuse_unfit(scene);
+    refuse_surfaces(scene);
     const SiconosSettings settings = read_rows(setting_rows(), chosen);
     setup_.emplace(Setup{scene, settings, time_step, MovingFrame(scene, "siconos")});
     start(scene.initial, 0);
     return {applied(scene, settings), not_represented(scene, time_step), {}};
   }
 
-  void start(std::span<const BodyState> states, double) override {
+  void start(std::span<const BodyState> states, double time) override {
     steps_ = 0;
     states_ = setup_->frame.enter(states);
     system_.reset();
     system_ = std::make_unique<System>(
-        plan_of(setup_->scene, setup_->settings, states_, setup_->time_step));
+        plan_of(setup_->scene, setup_->settings, states_, time, setup_->time_step));
   }
 
   void step() override {

@@ -14,6 +14,9 @@
 namespace slipcheck::siconos {
 namespace {
 
+/// Of what carries a moving surface: mass over that of all bodies, and radius of gyration [m].
+constexpr double kCarrierMass = 1e9, kCarrierGyration = 100;
+
 void set(SiconosVector& to, const Vector3& from) {
   for (unsigned int k = 0; k < 3; ++k) to.setValue(k, from[k]);
 }
@@ -40,6 +43,25 @@ class OnPlane : public Base {
   double radius_;
 };
 
+/// A sphere and a surface beside the plane.
+template <class Base>
+class OnSurface : public Base {
+ public:
+  OnSurface(double radius, FixedSurface surface) : radius_(radius), surface_(std::move(surface)) {}
+  void computeh(double time, const BlockVector& q, SiconosVector& y) override {
+    const Vector3 place = centre(q, 0);
+    const NearestPlace nearest = surface_.nearest(time, place);
+    y.setValue(0, nearest.distance - radius_);
+    set(*this->_Pc1, place - radius_ * nearest.normal);
+    set(*this->_Pc2, nearest.point);
+    set(*this->_Nc, nearest.normal);
+  }
+
+ private:
+  double radius_;
+  FixedSurface surface_;
+};
+
 /// Two spheres.
 template <class Base>
 class OnSphere : public Base {
@@ -59,7 +81,7 @@ class OnSphere : public Base {
 };
 
 template <class Relation3, class Relation5, class... Radii>
-SP::Interaction make_interaction(const ImpactLaw& law, bool rolls, Radii... radii) {
+SP::Interaction make_interaction(const ImpactLaw& law, bool rolls, const Radii&... radii) {
   if (rolls) {
     SP::NonSmoothLaw five(new NewtonImpactRollingFrictionNSL(
         law.restitution, law.tangential_restitution, law.friction, law.rolling_length, 5));
@@ -94,12 +116,19 @@ struct System::Parts {
 
   explicit Parts(const SystemPlan& plan) : model(new NonSmoothDynamicalSystem(0, 1e30)) {
     for (std::size_t i = 0; i < plan.bodies.size(); ++i) add_ball(plan, i);
+    for (const FixedSurface& surface : plan.surfaces) add_carrier(plan, surface);
     std::size_t pair = 0;
     for (std::size_t i = 0; i < balls.size(); ++i) {
       const double radius = plan.bodies[i].radius;
-      link(make_interaction<OnPlane<NewtonEuler3DR>, OnPlane<NewtonEuler5DR>>(plan.on_substrate[i],
-                                                                              plan.rolls, radius),
-           i, Impulse::kPlane);
+      if (plan.has_substrate)
+        link(make_interaction<OnPlane<NewtonEuler3DR>, OnPlane<NewtonEuler5DR>>(
+                 plan.on_substrate[i], plan.rolls, radius),
+             i, Impulse::kPlane);
+      for (std::size_t k = 0; k < plan.surfaces.size(); ++k)
+        link(make_interaction<OnSurface<NewtonEuler3DR>, OnSurface<NewtonEuler5DR>>(
+                 plan.on_surfaces[i * plan.surfaces.size() + k], plan.rolls, radius,
+                 plan.surfaces[k]),
+             i, Impulse::kPlane - 1 - static_cast<int>(k));
       for (std::size_t j = i + 1; j < balls.size(); ++j)
         if (const auto& law = plan.pairs[pair++])
           link(make_interaction<OnSphere<NewtonEuler3DR>, OnSphere<NewtonEuler5DR>>(
@@ -134,8 +163,32 @@ struct System::Parts {
     balls.push_back(ball);
   }
 
+  /// What has a surface's velocity: a body so heavy that nothing stops or turns it, without weight.
+  /// Where the surface lies, its relations know; one at rest needs none.
+  void add_carrier(const SystemPlan& plan, const FixedSurface& surface) {
+    carriers.emplace_back();
+    if (surface.velocity.isZero(0)) return;
+    double mass = 0;
+    for (const Sphere& body : plan.bodies) mass += kCarrierMass * body.mass;
+    SP::SiconosVector place(new SiconosVector(7)), twist(new SiconosVector(6));
+    place->zero();
+    place->setValue(3, 1);
+    twist->zero();
+    for (unsigned int k = 0; k < 3; ++k) twist->setValue(k, surface.velocity[k]);
+    SP::SimpleMatrix inertia(new SimpleMatrix(3, 3));
+    inertia->eye();
+    *inertia *= mass * kCarrierGyration * kCarrierGyration;
+    carriers.back().reset(new NewtonEulerDS(place, twist, mass, inertia));
+    model->insertDynamicalSystem(carriers.back());
+  }
+
   void link(const SP::Interaction& interaction, std::size_t first, int second) {
-    if (second == Impulse::kPlane)
+    const SP::NewtonEulerDS carrier =
+        second < Impulse::kPlane ? carriers[static_cast<std::size_t>(Impulse::kPlane - 1 - second)]
+                                 : SP::NewtonEulerDS();
+    if (carrier)
+      model->link(interaction, balls[first], carrier);
+    else if (second < 0)
       model->link(interaction, balls[first]);
     else
       model->link(interaction, balls[first], balls[static_cast<std::size_t>(second)]);
@@ -144,6 +197,7 @@ struct System::Parts {
 
   SP::NonSmoothDynamicalSystem model;
   std::vector<SP::NewtonEulerDS> balls;
+  std::vector<SP::NewtonEulerDS> carriers;  // by surface; none where it is at rest
   std::vector<Link> links;
   SP::TimeStepping stepping;
   std::vector<Impulse> impulses;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -18,7 +19,20 @@ struct ImpactLaw {
 
 enum class Solver { nsgs, admm };
 
-/// Two bodies, or a body and the plane, and what they exchanged along their normal.
+/// The place of a surface that is nearest to a point.
+struct NearestPlace {
+  Vector3 point = Vector3::Zero(), normal = Vector3::UnitZ();  ///< [m], unit, towards what asks
+  double distance = 0;                                         ///< [m]
+};
+
+/// Something fixed or of constant velocity beside the plane.
+struct FixedSurface {
+  std::function<NearestPlace(double time, const Vector3& from)> nearest;  ///< since the start [s]
+  Vector3 velocity = Vector3::Zero();                                     ///< of its matter [m/s]
+};
+
+/// Two bodies, or a body and the plane or surface k as kPlane − 1 − k, and what they exchanged
+/// along their normal.
 struct Impulse {
   static constexpr int kPlane = -1;
   int first = 0, second = kPlane;
@@ -29,7 +43,10 @@ struct Impulse {
 struct SystemPlan {
   std::vector<Sphere> bodies;
   std::vector<BodyState> states;
-  std::vector<ImpactLaw> on_substrate;          ///< by body
+  bool has_substrate = true;
+  std::vector<ImpactLaw> on_substrate;  ///< by body
+  std::vector<FixedSurface> surfaces;
+  std::vector<ImpactLaw> on_surfaces;           ///< by body × surface
   std::vector<std::optional<ImpactLaw>> pairs;  ///< of bodies i < j, in the order of i, then of j
   Vector3 gravity = Vector3::Zero();            ///< [m/s²]
   double time_step = 0;                         ///< [s]
@@ -42,8 +59,8 @@ struct SystemPlan {
   double activation_threshold = 0;  ///< [m]
 };
 
-/// One nonsmooth system of Siconos's: spheres and the plane z = 0. All that includes Siconos, whose
-/// headers are C++17 at most, is behind this.
+/// One nonsmooth system of Siconos's: spheres, the plane z = 0, and surfaces beside it. All that
+/// includes Siconos, whose headers are C++17 at most, is behind this.
 class System {
  public:
   explicit System(const SystemPlan& plan);

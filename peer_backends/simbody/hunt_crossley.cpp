@@ -21,6 +21,17 @@ double landing(const Scene& scene, std::size_t body) {
   return std::sqrt(std::pow(start.velocity.z(), 2) + 2 * scene.gravity * height);
 }
 
+/// Speed with which a body comes to a surface: its own towards it, and what the fall to it adds.
+double arrival(const Scene& scene, std::size_t body, const slipcheck::Surface& surface) {
+  const BodyState& start = scene.initial[body];
+  const NearestPoint nearest = surface.nearest(0, start.position);
+  const Vector3 relative = start.velocity - surface.motion.velocity(0, nearest.point);
+  const double towards = -nearest.normal.dot(relative);
+  const double height = std::max(0.0, nearest.distance - scene.bodies[body].radius);
+  const double fall = std::max(0.0, -nearest.normal.dot(scene.gravity_vector()));
+  return std::sqrt(towards * towards + 2 * fall * height);
+}
+
 double dissipation(double restitution, double seen, const SimbodySettings& settings) {
   if (settings.fields) return 1 - restitution;
   const double speed = settings.impact_speed > 0 ? settings.impact_speed : seen;
@@ -72,6 +83,18 @@ HuntCrossley substrate_contact(const Scene& scene, std::size_t body,
   return {settings.modulus, dissipation(ground.restitution, landing(scene, body), settings),
           settings.fields ? ground.kinetic_friction : ground.static_friction,
           ground.kinetic_friction};
+}
+
+HuntCrossley surface_contact(const Scene& scene, std::size_t body, std::size_t k,
+                             const SimbodySettings& settings) {
+  const SurfaceContact& contact = scene.on_surface(body, k);
+  const SubstrateContact& ground = contact.lasting;
+  const double speed = arrival(scene, body, scene.surfaces[k]);
+  const double e = restitution_at(contact.impact.restitution, speed > 0 ? speed : kGentle);
+  const bool smooth = contact.impact.tangential_restitution == -1;
+  const double kinetic = smooth ? 0 : ground.kinetic_friction;
+  return {settings.modulus, dissipation(e, speed, settings),
+          settings.fields || smooth ? kinetic : ground.static_friction, kinetic};
 }
 
 }  // namespace slipcheck::simbody

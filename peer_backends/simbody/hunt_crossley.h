@@ -20,5 +20,8 @@ HuntCrossley pair_contact(const EngineScene& scene, std::size_t i, std::size_t j
                           const SimbodySettings& settings);
 HuntCrossley substrate_contact(const Scene& scene, std::size_t body,
                                const SimbodySettings& settings);
+/// With surface k beside the substrate.
+HuntCrossley surface_contact(const Scene& scene, std::size_t body, std::size_t k,
+                             const SimbodySettings& settings);
 
 }  // namespace slipcheck::simbody

@@ -4,8 +4,10 @@
 
 #include <limits>
 #include <optional>
+#include <variant>
 
 #include "engine/scene_needs.h"
+#include "peer_backends/shared/applied.h"
 #include "peer_backends/shared/momentum_touches.h"
 #include "peer_backends/shared/moving_frame.h"
 #include "peer_backends/simbody/hunt_crossley.h"
@@ -27,6 +29,43 @@ void refuse_unfit(const Scene& scene) {
         fmt::format("simbody: {} bodies, and with a set of contacts for each two at most "
                     "{} are feasible",
                     scene.bodies.size(), kMostBodies));
+}
+
+/// A half-space may pass by as a belt does; a ball that does would be elsewhere.
+void refuse_surfaces(const Scene& scene) {
+  for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+    const slipcheck::Surface& surface = scene.surfaces[k];
+    const bool plane = std::holds_alternative<PlaneShape>(surface.shape);
+    if (!plane && !std::holds_alternative<BallShape>(surface.shape))
+      throw Refused(fmt::format(
+          "simbody: surface {} is a plate or a cylinder, and HuntCrossleyForce knows half-spaces "
+          "and spheres",
+          k));
+    const SurfaceMotion& motion = surface.motion;
+    const bool steady =
+        motion.is_still() ||
+        (motion.rate().isZero(0) && motion.course().kind() == SubstrateMotion::Kind::constant);
+    if (!steady || (motion.is_belt() && !plane))
+      throw Refused(fmt::format(
+          "simbody: surface {} turns or swings, and what carries one has a constant velocity", k));
+  }
+  if (!scene.surfaces.empty() && !scene.motion.is_still())
+    throw Refused("simbody: the substrate moves beside surfaces, and the world is seen from it");
+}
+
+SurfacePlan plan_of(const slipcheck::Surface& surface, double start) {
+  SurfacePlan plan;
+  plan.velocity = surface.motion.velocity(start, Vector3::Zero());
+  if (const auto* ball = std::get_if<BallShape>(&surface.shape)) {
+    plan.is_ball = true;
+    plan.radius = ball->radius;
+    plan.place = surface.motion.now(start, ball->centre);
+  } else {
+    const auto& plane = std::get<PlaneShape>(surface.shape);
+    plan.place = surface.motion.now(start, plane.point);
+    plan.normal = plane.normal;
+  }
+  return plan;
 }
 
 std::vector<Lack> not_represented(const EngineScene& scene, const SimbodySettings& settings,
@@ -62,19 +101,27 @@ Settings applied(const EngineScene& scene, const SimbodySettings& settings) {
     all[of + "_static_friction"] = contact.static_friction;
     all[of + "_dynamic_friction"] = contact.dynamic_friction;
   };
-  tell("substrate", substrate_contact(scene, 0, settings));
+  if (scene.has_substrate) tell("substrate", substrate_contact(scene, 0, settings));
+  for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
+    for (const std::size_t body : peer::one_of_each_material(scene))
+      tell(fmt::format("surface[{}-{}]", body, k), surface_contact(scene, body, k, settings));
   if (scene.bodies.size() > 1) tell("pair", pair_contact(scene, 0, 1, settings));
   return all;
 }
 
 SystemPlan plan_of(const EngineScene& scene, const SimbodySettings& settings,
-                   const std::vector<BodyState>& states) {
+                   const std::vector<BodyState>& states, double start) {
   SystemPlan plan;
+  plan.has_substrate = scene.has_substrate;
+  for (const slipcheck::Surface& surface : scene.surfaces)
+    plan.surfaces.push_back(plan_of(surface, start));
   plan.bodies = scene.bodies;
   plan.states = states;
   plan.gravity = Vector3(scene.downhill.x(), scene.downhill.y(), -scene.gravity);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     plan.on_substrate.push_back(substrate_contact(scene, i, settings));
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
+      plan.on_surfaces.push_back(surface_contact(scene, i, k, settings));
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j)
       plan.pairs.push_back(pair_contact(scene, i, j, settings));
   }
@@ -88,22 +135,28 @@ SystemPlan plan_of(const EngineScene& scene, const SimbodySettings& settings,
 class SimbodyEngine final : public Engine {
  public:
   EngineInfo info() const override {
-    return {"simbody", SLIPCHECK_SIMBODY_VERSION, "double", infos_of(setting_rows())};
+    return {"simbody",
+            SLIPCHECK_SIMBODY_VERSION,
+            "double",
+            infos_of(setting_rows()),
+            {scene_part::kSurfaces}};
   }
 
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
     refuse_unfit(scene);
+    refuse_surfaces(scene);
     const SimbodySettings settings = read_rows(setting_rows(), chosen);
     setup_.emplace(Setup{scene, settings, time_step, MovingFrame(scene, "simbody")});
     start(scene.initial, 0);
     return {applied(scene, settings), not_represented(scene, settings, time_step), {}};
   }
 
-  void start(std::span<const BodyState> states, double) override {
+  void start(std::span<const BodyState> states, double time) override {
     steps_ = 0;
+    start_time_ = time;
     blown_up_ = false;
     states_ = setup_->frame.enter(states);
-    world_ = std::make_unique<System>(plan_of(setup_->scene, setup_->settings, states_));
+    world_ = std::make_unique<System>(plan_of(setup_->scene, setup_->settings, states_, time));
   }
 
   void step() override {
@@ -115,7 +168,8 @@ class SimbodyEngine final : public Engine {
     for (int k = 1; k <= frames; ++k) {
       const double part = k == frames ? 1.0 : k / double(frames);
       advance_to((static_cast<double>(steps_) + part) * setup_->time_step);
-      if (k < frames && in_impact(setup_->scene, states_, length)) continue;
+      const double now = start_time_ + (static_cast<double>(steps_) + part) * setup_->time_step;
+      if (k < frames && in_impact(setup_->scene, states_, length, now)) continue;
       shown_.push_back({part, part - since, last, states_});
       last = states_;
       since = part;
@@ -161,10 +215,11 @@ class SimbodyEngine final : public Engine {
     Frame frame;
     frame.bodies = seen.after;
     frame.part = seen.part;
-    if (!blown_up_)
-      frame.touches =
-          momentum_touches(setup_->scene, seen.before, seen.after, seen.length * setup_->time_step);
     const double time = (static_cast<double>(steps_) - 1 + seen.part) * setup_->time_step;
+    const double length = seen.length * setup_->time_step;
+    if (!blown_up_)
+      frame.touches = momentum_touches(setup_->scene, seen.before, seen.after, length,
+                                       start_time_ + time - length);
     setup_->frame.leave(frame.bodies, time);
     return frame;
   }
@@ -175,6 +230,7 @@ class SimbodyEngine final : public Engine {
   mutable std::vector<Frame> frames_;
   std::vector<BodyState> states_;  // as seen from the substrate
   long steps_ = 0;
+  double start_time_ = 0;  // [s]
   bool blown_up_ = false;
 };
 

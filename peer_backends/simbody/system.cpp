@@ -42,15 +42,44 @@ struct System::Parts {
       const SimTK::Body::Rigid body(SimTK::MassProperties(sphere.mass, Vec3(0), inertia));
       balls.emplace_back(matter.Ground(), body);
     }
+    for (const SurfacePlan& surface : plan.surfaces) add_carrier(surface);
     std::size_t pair = 0;
     for (std::size_t i = 0; i < balls.size(); ++i) {
-      add(plan.on_substrate[i], plan, i, matter.Ground(), SimTK::ContactGeometry::HalfSpace(),
-          SimTK::Transform(SimTK::Rotation(SimTK::Pi / 2, SimTK::YAxis)));  // its x points down
+      if (plan.has_substrate)
+        add(plan.on_substrate[i], plan, i, matter.Ground(), SimTK::ContactGeometry::HalfSpace(),
+            SimTK::Transform(SimTK::Rotation(SimTK::Pi / 2, SimTK::YAxis)));  // its x points down
+      for (std::size_t k = 0; k < plan.surfaces.size(); ++k) add_beside(plan, i, k);
       for (std::size_t j = i + 1; j < balls.size(); ++j)
         add(plan.pairs[pair++], plan, i, balls[j],
             SimTK::ContactGeometry::Sphere(plan.bodies[j].radius), SimTK::Transform());
     }
     system.realizeTopology();
+  }
+
+  /// What a surface that moves is fixed to: a body whose motion is prescribed.
+  void add_carrier(const SurfacePlan& surface) {
+    if (surface.velocity.isZero(0)) {
+      carriers.push_back(matter.Ground());
+      return;
+    }
+    const SimTK::Body::Rigid body(SimTK::MassProperties(1, Vec3(0), SimTK::Inertia(1)));
+    SimTK::MobilizedBody::Translation carrier(matter.Ground(), body);
+    SimTK::Motion::Steady(carrier, to_simbody(surface.velocity));
+    carriers.push_back(carrier);
+  }
+
+  void add_beside(const SystemPlan& plan, std::size_t ball, std::size_t k) {
+    const SurfacePlan& surface = plan.surfaces[k];
+    const HuntCrossley& contact = plan.on_surfaces[ball * plan.surfaces.size() + k];
+    const Vec3 place = to_simbody(surface.place);
+    if (surface.is_ball) {
+      add(contact, plan, ball, carriers[k], SimTK::ContactGeometry::Sphere(surface.radius),
+          SimTK::Transform(place));
+      return;
+    }
+    const SimTK::UnitVec3 inward(-to_simbody(surface.normal));
+    add(contact, plan, ball, carriers[k], SimTK::ContactGeometry::HalfSpace(),
+        SimTK::Transform(SimTK::Rotation(inward, SimTK::XAxis), place));
   }
 
   void add(const HuntCrossley& contact, const SystemPlan& plan, std::size_t ball,
@@ -73,6 +102,7 @@ struct System::Parts {
   SimTK::GeneralForceSubsystem forces;
   SimTK::GeneralContactSubsystem contacts;
   std::vector<SimTK::MobilizedBody::Free> balls;
+  std::vector<SimTK::MobilizedBody> carriers;  // by surface; the ground where it is at rest
   std::unique_ptr<SimTK::Integrator> integrator;
   std::unique_ptr<SimTK::TimeStepper> stepper;
 };

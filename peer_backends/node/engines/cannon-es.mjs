@@ -2,8 +2,8 @@
 // materials; the limit of friction is an impulse of μ m g in each step, whatever its length.
 
 import {
-  FLOOR, LID, WALL, contactOf, dependsOnSpeed, frictionOf, groundOf, materialPairs, naiveBall,
-  naiveSurface, pairRestitution, restitutionAt, surfaceRestitution,
+  FLOOR, LID, WALL, contactOf, dependsOnSpeed, frictionOf, groundOf, lastingOf, materialPairs,
+  naiveBall, naiveSurface, onSurface, pairRestitution, restitutionAt, surfaceNames, whoseOn,
 } from '../kit/contacts.mjs';
 import { Refused } from '../kit/faults.mjs';
 import { Gathered } from '../kit/gathered.mjs';
@@ -12,11 +12,16 @@ import { surfaceMotion } from '../kit/motion.mjs';
 import { load, versionOf } from '../kit/packages.mjs';
 import { count, flag, number, search, word } from '../kit/settings.mjs';
 import { halfOf, inertiaOf, isBlock, isSphere, turnFromY, turnOf } from '../kit/solids.mjs';
+import { besideSurfaces, hasSubstrate } from '../kit/surfaces.mjs';
 import { Touches } from '../kit/touches.mjs';
 import { Units, gravityOf, unitSettings } from '../kit/units.mjs';
 
 /// Of a cylinder, which is a prism here.
 const CYLINDER_FACES = 64;
+/// Cosine of the slope beyond which a surface is a wall.
+const STEEP = Math.SQRT1_2;
+/// Steps over which an overlap is pushed out, beyond which it is as good as not.
+const MOST_RELAXED = 1e3;
 
 const PACKAGE = 'cannon-es';
 
@@ -53,7 +58,7 @@ class CannonEngine {
     this.cannon = cannon;
     this.version = version;
     this.precision = 'double';
-    this.takes = ['block', 'cylinder'];
+    this.takes = ['block', 'cylinder', 'surfaces'];
     this.settings = SETTINGS;
   }
 
@@ -120,7 +125,7 @@ class CannonEngine {
         states[at + 2] = z / factors[3 * p];
       });
     });
-    const found = new Touches();
+    const found = new Touches(this.scene);
     for (const contact of this.world.contacts) {
       const [i, j] = [contact.bi, contact.bj].map((body) => this.indexOf.get(body));
       const impulse = contact.multiplier * this.timeStep;
@@ -185,11 +190,11 @@ class CannonEngine {
   /// depends on the approach, this is where it is known.
   #followLaws(body, i) {
     const { scene } = this;
-    const laws = [...scene.pairs, ...(scene.box ? [...scene.box.on_floor, ...scene.box.on_wall, ...scene.box.on_lid] : [])];
+    const laws = [...scene.pairs, ...(scene.on_surfaces ?? []).map(({ impact }) => impact), ...(scene.box ? [...scene.box.on_floor, ...scene.box.on_wall, ...scene.box.on_lid] : [])];
     if (!laws.some(dependsOnSpeed)) return;
     body.addEventListener('collide', ({ body: other, contact }) => {
       const j = this.indexOf.get(other);
-      if (j < 0 && !scene.box) return;
+      if (j === FLOOR && !scene.box) return;
       const law = contactOf(scene, i, j);
       if (!dependsOnSpeed(law)) return;
       contact.restitution = restitutionAt(law.restitution, Math.abs(contact.getImpactVelocityAlongNormal()));
@@ -201,7 +206,8 @@ class CannonEngine {
     this.motion = surfaceMotion(this.scene);
     this.moving = [];
     const moves = !this.motion.isStill;
-    this.#addSurface(FLOOR, [0, 0, 1], [0, 0, 0], moves);
+    if (hasSubstrate(this.scene)) this.#addSurface(FLOOR, [0, 0, 1], [0, 0, 0], moves);
+    this.beside = besideSurfaces(this.scene).map((surface) => this.#addBeside(surface));
     if (!box) return;
     this.#addSurface(WALL, [1, 0, 0], [0, 0, 0], moves && box.moving_walls);
     this.#addSurface(WALL, [-1, 0, 0], [box.width, 0, 0], moves && box.moving_walls);
@@ -225,6 +231,48 @@ class CannonEngine {
     if (moves) this.moving.push({ body, place });
   }
 
+  /// A plane, a box, a prism along y or a sphere, in the surface's own frame.
+  #shapeOfSurface({ shape, extent }) {
+    const { cannon } = this;
+    switch (shape.kind) {
+      case 'plane': return new cannon.Plane();
+      case 'rectangle': return new cannon.Box(new cannon.Vec3(...extent));
+      case 'rod': return new cannon.Cylinder(shape.radius, shape.radius, 2 * extent[2], CYLINDER_FACES);
+      default: return new cannon.Sphere(shape.radius);
+    }
+  }
+
+  #addBeside(surface) {
+    const { cannon } = this;
+    const { touch } = surface;
+    const body = new cannon.Body({
+      mass: 0,
+      type: surface.isStill ? cannon.Body.STATIC : cannon.Body.KINEMATIC,
+      shape: this.#shapeOfSurface(surface),
+      material: this.asTyped ? this.#typed(naiveSurface(this.original, touch)) : this.#material(touch),
+    });
+    body.position.set(...surface.centre(this.startTime));
+    body.quaternion.set(...surface.quaternion(this.startTime, 'y'));
+    body.updateAABB();
+    this.world.addBody(body);
+    this.indexOf.set(body, touch);
+    return { surface, body };
+  }
+
+  /// What stays, as a belt does, begins each step where it is.
+  #moveBeside(now) {
+    const isMean = this.chosen.surface_velocity === 'this_step';
+    for (const { surface, body } of this.beside) {
+      if (surface.isStill) continue;
+      const centre = surface.centre(now);
+      body.position.set(...centre);
+      body.quaternion.set(...surface.quaternion(now, 'y'));
+      body.velocity.set(...surface.stepVelocity(now, this.timeStep, centre, isMean));
+      body.angularVelocity.set(...surface.rate);
+      body.aabbNeedsUpdate = true;
+    }
+  }
+
   #setSprings(material) {
     const { chosen } = this;
     material.contactEquationStiffness = chosen.contact_stiffness;
@@ -242,17 +290,30 @@ class CannonEngine {
     for (const [i, j] of materialPairs(original))
       pair(original.bodies[i].material, original.bodies[j].material,
         frictionOf(contactOf(original, i, j)), pairRestitution(original, i, j));
-    const surfaces = original.box ? [FLOOR, WALL, LID].slice(0, original.box.lid ? 3 : 2) : [FLOOR];
     original.substrate.forEach((_, material) => {
       const body = original.bodies.findIndex((each) => each.material === material);
       if (body < 0) return;
-      for (const surface of surfaces) pair(material, surface, ...onSurface(original, body, surface));
+      for (const [surface] of surfaceNames(original)) {
+        const { friction, restitution } = onSurface(original, body, surface);
+        pair(material, surface, friction * this.#weightShare(surface), restitution);
+      }
     });
   }
 
+  /// Of the weight that cannon limits friction by, what a body presses on a plane or plate with that
+  /// it lies on: the cosine of its slope.
+  #weightShare(touch) {
+    const surface = this.beside.find((each) => each.surface.touch === touch)?.surface;
+    if (!surface || !isFlat(surface)) return 1;
+    const pull = gravityOf(this.scene);
+    const along = surface.axes(this.startTime)[2].reduce((sum, n, k) => sum + n * pull[k], 0);
+    return this.scene.gravity > 0 ? Math.abs(along) / this.scene.gravity : 1;
+  }
+
   #moveSurfaces() {
-    if (this.moving.length === 0) return;
     const now = this.startTime + this.steps * this.timeStep;
+    this.#moveBeside(now);
+    if (this.moving.length === 0) return;
     const then = now + this.timeStep;
     const [from, to] = [this.motion.position(now), this.motion.position(then)];
     const velocity = this.chosen.surface_velocity === 'step_end'
@@ -272,15 +333,51 @@ class CannonEngine {
         kind: "a sphere's moment of inertia",
       });
     const pairs = materialPairs(scene).map(([i, j]) => contactOf(scene, i, j));
-    if (pairs.some((pair) => frictionOf(pair) > 0))
+    const impacts = (scene.on_surfaces ?? []).map(({ impact }) => impact);
+    const bouncing = impacts.filter((each) => dependsOnSpeed(each) || each.restitution > 0);
+    if ([...pairs, ...bouncing].some((contact) => frictionOf(contact) > 0))
       own.push({ text: 'friction in collisions (its limit is by the weight)', kind: 'friction in collisions' });
-    const grounds = scene.box ? [] : scene.bodies.map((_, i) => groundOf(scene, i));
+    const grounds = this.#grounds(scene);
     if (grounds.some(({ kinetic_friction }) => kinetic_friction > 0))
       own.push({
         text: 'friction alike in all headings (up to 1.41 times on diagonals)',
         kind: 'friction alike in all headings',
       });
+    const round = scene.surfaces?.some(({ shape }) => shape.kind === 'rod');
+    if (round)
+      own.push({ text: `round cylinders (prisms of ${CYLINDER_FACES} faces)`, kind: 'round cylinders' });
+    if (this.#isSteep())
+      own.push({
+        text: 'friction on what is not level (its limit is by the weight)',
+        kind: 'friction on what is not level',
+      });
+    if (this.#sinksIn())
+      own.push({
+        text: 'surfaces that turn over and carry bodies (contact_relaxation lets overlaps grow)',
+        kind: 'surfaces that turn over and carry bodies',
+      });
     return own;
+  }
+
+  #grounds(scene) {
+    if (scene.box) return [];
+    const beside = scene.bodies.flatMap((_, i) => this.beside.map(({ surface }) => lastingOf(scene, i, surface.touch)));
+    return hasSubstrate(scene) ? [...scene.bodies.map((_, i) => groundOf(scene, i)), ...beside] : beside;
+  }
+
+  /// Whether a surface that turns comes at bodies while nothing pushes overlaps out: the velocities
+  /// agree, but the places drift.
+  #sinksIn() {
+    return this.chosen.contact_relaxation > MOST_RELAXED && this.beside.some(({ surface }) => turnsOver(surface));
+  }
+
+  /// Whether there is friction on a surface on which a body does not simply lie: a round one, a wall,
+  /// one that turns over.
+  #isSteep() {
+    return this.beside.some(({ surface }) => {
+      const rubs = this.scene.bodies.some((_, i) => onSurface(this.scene, i, surface.touch).friction > 0);
+      return rubs && (!isFlat(surface) || turnsOver(surface) || this.#weightShare(surface.touch) < STEEP);
+    });
   }
 
   #applied(scene, timeStep) {
@@ -288,9 +385,14 @@ class CannonEngine {
     if (!this.asTyped) {
       const first = scene.substrate.map((_, material) => scene.bodies.findIndex((b) => b.material === material));
       for (const i of first.filter((body) => body >= 0 && !scene.box)) {
-        const [friction, restitution] = onSurface(scene, i, FLOOR);
-        gathered.add('friction', i, friction * this.timeStep);
-        gathered.add('substrate_restitution', i, restitution);
+        for (const [surface, name] of surfaceNames(scene)) {
+          const { friction, restitution } = onSurface(scene, i, surface);
+          const whose = whoseOn(name, i, surface);
+          const limit = friction * this.#weightShare(surface) * this.timeStep;
+          gathered.add(name === 'substrate' ? 'friction' : `${name}_friction`, whose, limit);
+          const law = surface === FLOOR ? 0 : contactOf(scene, i, surface);
+          gathered.add(`${name}_restitution`, whose, law && dependsOnSpeed(law) ? 'by speed' : restitution);
+        }
       }
       for (const [i, j] of materialPairs(scene)) {
         const contact = contactOf(scene, i, j);
@@ -310,14 +412,9 @@ class CannonEngine {
   }
 }
 
+const isFlat = ({ shape }) => shape.kind === 'plane' || shape.kind === 'rectangle';
+const turnsOver = ({ turns, rate: [x, y] }) => turns && (x !== 0 || y !== 0);
 const added = (a, b) => a.map((value, k) => value + b[k]);
-
-/// Friction and restitution of a body on a surface.
-function onSurface(scene, body, surface) {
-  if (scene.box) return [frictionOf(contactOf(scene, body, surface)), surfaceRestitution(scene, body, surface)];
-  const { kinetic_friction, restitution } = groundOf(scene, body);
-  return [kinetic_friction, restitution];
-}
 
 /// cannon takes a body's inertia to be that of the box around it.
 function setInertia(body, inertia) {

@@ -13,6 +13,7 @@ import { pairShapes, typedShapes } from '../kit/pair_shapes.mjs';
 import { flag, number, word } from '../kit/settings.mjs';
 import { rounded } from '../kit/text.mjs';
 import { halfOf, inertiaOf, isBlock, isSphere, turnOf } from '../kit/solids.mjs';
+import { besideSurfaces, hasSubstrate } from '../kit/surfaces.mjs';
 import { Touches } from '../kit/touches.mjs';
 import { Units, gravityOf, unitSettings } from '../kit/units.mjs';
 
@@ -40,7 +41,7 @@ class HavokEngine {
     this.hp = havok;
     this.version = version;
     this.precision = 'single';
-    this.takes = ['block', 'cylinder'];
+    this.takes = ['block', 'cylinder', 'surfaces'];
     this.hasSpeedLimit = Boolean(havok.HP_World_SetSpeedLimit);
     this.settings = this.#makeSettings();
   }
@@ -89,7 +90,8 @@ class HavokEngine {
           this.chosen.max_angular_velocity,
         ),
       );
-    this.#addSubstrate();
+    if (hasSubstrate(this.scene)) this.#addSubstrate();
+    this.beside = besideSurfaces(this.scene).map((surface) => this.#addBeside(surface));
     this.balls = this.scene.bodies.map((_, i) =>
       this.#addBall(
         i,
@@ -99,7 +101,9 @@ class HavokEngine {
   }
 
   step() {
-    if (!this.motion.isStill) this.#moveSubstrate();
+    const now = this.startTime + this.steps * this.timeStep;
+    if (!this.motion.isStill) this.#moveSubstrate(now);
+    this.#moveBeside(now);
     this.hp.HP_World_Step(this.world, this.timeStep);
     ++this.steps;
   }
@@ -272,9 +276,8 @@ class HavokEngine {
 
   /// A box, so thin that single precision tells where its face is: Havok has no plane.
   #addSubstrate() {
-    const { hp, units } = this;
-    const thick = 32 * this.scene.bodies.reduce((most, { radius }) => Math.max(most, radius), 0);
-    const wide = 200 * units.length;
+    const { hp } = this;
+    const { wide, thick } = this.#plane();
     const shapes = this.shapes
       .ofSurface(FLOOR)
       .map((contact) =>
@@ -286,9 +289,51 @@ class HavokEngine {
     this.#enter(this.substrate, FLOOR);
   }
 
-  #moveSubstrate() {
+  /// Sizes of a box in the place of a plane.
+  #plane() {
+    const thick = 32 * this.scene.bodies.reduce((most, { radius }) => Math.max(most, radius), 0);
+    return { wide: 200 * this.units.length, thick };
+  }
+
+  /// A box, a cylinder or a sphere in the surface's own frame.
+  #shapeOfSurface({ shape, extent }) {
+    const { hp } = this;
+    const { wide, thick } = this.#plane();
+    switch (shape.kind) {
+      case 'plane': return hp.HP_Shape_CreateBox([0, 0, -thick / 2], NO_TURN, [wide, wide, thick]);
+      case 'rectangle': return hp.HP_Shape_CreateBox([0, 0, 0], NO_TURN, extent.map((half) => 2 * half));
+      case 'rod': return hp.HP_Shape_CreateCylinder([0, 0, -extent[2]], [0, 0, extent[2]], shape.radius);
+      default: return hp.HP_Shape_CreateSphere([0, 0, 0], shape.radius);
+    }
+  }
+
+  #addBeside(surface) {
+    const { hp } = this;
+    const shapes = this.shapes
+      .ofSurface(surface.touch)
+      .map((contact) => this.#shape(this.#shapeOfSurface(surface), contact));
+    const body = this.#body(shapes, surface.isStill ? hp.MotionType.STATIC : hp.MotionType.KINEMATIC);
+    const place = [surface.centre(this.startTime), surface.quaternion(this.startTime)];
+    done(hp, hp.HP_Body_SetQTransform(body, place));
+    this.#enter(body, surface.touch);
+    return { surface, body };
+  }
+
+  /// What stays, as a belt does, begins each step where it is.
+  #moveBeside(now) {
+    const { hp, timeStep } = this;
+    const isMean = this.chosen.surface_velocity === 'this_step';
+    for (const { surface, body } of this.beside) {
+      if (surface.isStill) continue;
+      const centre = surface.centre(now);
+      done(hp, hp.HP_Body_SetQTransform(body, [centre, surface.quaternion(now)]));
+      done(hp, hp.HP_Body_SetLinearVelocity(body, surface.stepVelocity(now, timeStep, centre, isMean)));
+      done(hp, hp.HP_Body_SetAngularVelocity(body, surface.rate));
+    }
+  }
+
+  #moveSubstrate(now) {
     const { hp, substrate, motion } = this;
-    const now = this.startTime + this.steps * this.timeStep;
     const then = now + this.timeStep;
     if (this.chosen.surface_velocity === 'step_end') {
       hp.HP_Body_SetPosition(substrate, motion.position(now));
@@ -302,7 +347,7 @@ class HavokEngine {
   /// repeats the last.
   #findTouches(touches) {
     const { hp } = this;
-    const found = new Touches();
+    const found = new Touches(this.scene);
     const world = Number(this.world[0]);
     for (
       let event = Number(hp.HP_World_GetCollisionEvents(this.world)[1]);
@@ -333,8 +378,10 @@ class HavokEngine {
 /// Havok has a static friction, but applies it to what slides as well.
 const withoutStaticFriction = (scene) => ({
   ...scene,
-  substrate: scene.substrate.map((ground) => ({ ...ground, static_friction: ground.kinetic_friction })),
+  substrate: scene.substrate.map(withoutStatic),
+  on_surfaces: scene.on_surfaces?.map((each) => ({ ...each, lasting: withoutStatic(each.lasting) })),
 });
+const withoutStatic = (ground) => ({ ...ground, static_friction: ground.kinetic_friction });
 
 function done(hp, result) {
   if (result !== hp.Result.RESULT_OK) throw new Error('a call of Havok failed');

@@ -3,7 +3,7 @@
 
 import {
   FLOOR, LID, WALL, contactOf, dependsOnSpeed, frictionOf, groundOf, materialPairs, naiveBall,
-  naiveSurface, restitutionAt,
+  naiveSurface, onSurface, restitutionAt, surfaceNames, touchedSurface, whoseOn,
 } from '../kit/contacts.mjs';
 import { explainedImpulses } from '../kit/explained_impulses.mjs';
 import { Refused } from '../kit/faults.mjs';
@@ -12,6 +12,7 @@ import { lacks } from '../kit/lacks.mjs';
 import { surfaceMotion } from '../kit/motion.mjs';
 import { load, versionOf } from '../kit/packages.mjs';
 import { count, flag, number, word } from '../kit/settings.mjs';
+import { besideSurfaces, farthest, hasSubstrate, planeEnds } from '../kit/surfaces.mjs';
 import { rounded } from '../kit/text.mjs';
 import { Touches } from '../kit/touches.mjs';
 import { Units, gravityOf, unitSettings } from '../kit/units.mjs';
@@ -92,6 +93,7 @@ class JoltEngine {
     this.jolt = jolt;
     this.version = version;
     this.precision = 'single';
+    this.takes = ['surfaces'];
     const world = new jolt.PhysicsSettings();
     const body = new jolt.BodyCreationSettings();
     this.worldRows = rowsOf(WORLD_SETTINGS, world);
@@ -155,7 +157,7 @@ class JoltEngine {
     const now = this.#look();
     const factors = this.units.ofState;
     now.forEach((value, k) => (states[k] = value / factors[k % 9]));
-    const found = new Touches();
+    const found = new Touches(this.scene);
     for (const [i, j, impulse] of this.#impulses(now)) found.add(i, j, impulse);
     found.pushTo(touches, 1 / this.units.impulse);
     this.before = now;
@@ -221,33 +223,44 @@ class JoltEngine {
     const { jolt } = this;
     const a = this.indexOf.get(firstPointer);
     const b = this.indexOf.get(secondPointer);
-    const normal = jolt.wrapPointer(manifoldPointer, jolt.ContactManifold).mWorldSpaceNormal;
+    const manifold = jolt.wrapPointer(manifoldPointer, jolt.ContactManifold);
+    const normal = manifold.mWorldSpaceNormal;
     // From the first body to the second.
     const along = [normal.GetX(), normal.GetY(), normal.GetZ()];
     const isFirst = a >= 0;
     const [i, j] = isFirst ? [a, b] : [b, a];
     const towards = isFirst ? along.map((value) => -value) : along;
-    this.contacts.push({ i, j, normal: towards });
+    const gap = -manifold.mPenetrationDepth;
+    this.contacts.push({ i, j, normal: towards, gap });
     const settings = jolt.wrapPointer(settingsPointer, jolt.ContactSettings);
     if (!this.asTyped) {
       settings.mCombinedFriction = this.#friction(i, j);
       settings.mCombinedRestitution = this.#restitution(i, j, towards);
     }
-    if (j < 0 && this.slides) {
+    const slips = this.#slips(i, j, towards);
+    if (slips) {
       // Of the second body relative to the first.
-      const [x, y, z] = isFirst ? this.slides : this.slides.map((value) => -value);
-      this.surfaceSlip.Set(x, y, z);
+      this.surfaceSlip.Set(...(isFirst ? slips : slips.map((value) => -value)));
       settings.mRelativeLinearSurfaceVelocity = this.surfaceSlip;
     }
   }
 
+  /// How matter moves where a body touches it that passes by while its shape stays.
+  #slips(i, j, normal) {
+    if (j === FLOOR) return this.slides;
+    if (j >= 0 || this.scene.box) return undefined;
+    const { surface, slides } = this.beside[touchedSurface(j)];
+    if (!slides) return undefined;
+    return surface.turns ? this.#surfaceVelocity(i, j, normal) : slides;
+  }
+
   #friction(i, j) {
-    if (j < 0 && !this.scene.box) return groundOf(this.scene, i).kinetic_friction;
+    if (j < 0 && !this.scene.box) return onSurface(this.scene, i, j).friction;
     return frictionOf(contactOf(this.scene, i, j));
   }
 
   #restitution(i, j, normal) {
-    if (j < 0 && !this.scene.box) return groundOf(this.scene, i).restitution;
+    if (j === FLOOR && !this.scene.box) return groundOf(this.scene, i).restitution;
     const contact = contactOf(this.scene, i, j);
     if (!dependsOnSpeed(contact)) return contact.restitution;
     return restitutionAt(contact.restitution, Math.max(0, this.#approach(i, j, normal)));
@@ -263,11 +276,22 @@ class JoltEngine {
       const second = this.balls[j].GetLinearVelocity();
       other = [second.GetX(), second.GetY(), second.GetZ()];
     } else {
-      if (this.#isMoving(j)) other = this.velocityNow;
+      other = this.#surfaceVelocity(i, j, normal);
       const length = this.timeStep / this.chosen.collision_steps;
       gravityOf(this.scene).forEach((g, axis) => (v[axis] -= Math.min(0, g * normal[axis]) * length * normal[axis]));
     }
     return -v.reduce((sum, value, axis) => sum + (value - other[axis]) * normal[axis], 0);
+  }
+
+  /// Where a body touches it.
+  #surfaceVelocity(i, j, normal) {
+    if (this.#isMoving(j)) return this.velocityNow;
+    if (j === FLOOR || this.scene.box) return [0, 0, 0];
+    const { surface } = this.beside[touchedSurface(j)];
+    const at = this.balls[i].GetPosition();
+    const { radius } = this.scene.bodies[i];
+    const point = [at.GetX(), at.GetY(), at.GetZ()].map((x, axis) => x - radius * normal[axis]);
+    return surface.velocity(this.startTime + (this.steps + 1) * this.timeStep, point);
   }
 
   #isMoving(surface) {
@@ -318,7 +342,8 @@ class JoltEngine {
 
   #addSurfaces() {
     const { box } = this.scene;
-    this.#addSurface(FLOOR, [0, 0, 1], [0, 0, 0]);
+    if (hasSubstrate(this.scene)) this.#addSurface(FLOOR, [0, 0, 1], [0, 0, 0]);
+    this.beside = besideSurfaces(this.scene).map((surface) => this.#addBeside(surface));
     if (!box) return;
     this.#addSurface(WALL, [1, 0, 0], [0, 0, 0]);
     this.#addSurface(WALL, [-1, 0, 0], [box.width, 0, 0]);
@@ -352,6 +377,62 @@ class JoltEngine {
     return this.#creation(shape, centre, jolt.EMotionType_Kinematic);
   }
 
+  /// A plane or a box, a cylinder along y or a sphere, without a convex radius. A plane that moves
+  /// away is a thick box, as the floor of a box is.
+  #shapeOfSurface({ shape, extent, stays }) {
+    const { jolt } = this;
+    const box = (half) => this.#withVector(half, (vector) => new jolt.BoxShape(vector, 0));
+    switch (shape.kind) {
+      case 'plane': {
+        if (!stays) return box([this.#reach(), this.#reach(), this.#thickness()]);
+        const plane = this.#withVector([0, 0, 1], (n) => new jolt.Plane(n, 0));
+        const made = new jolt.PlaneShape(plane);
+        jolt.destroy(plane);
+        return made;
+      }
+      case 'rectangle': return box(extent);
+      case 'rod': return new jolt.CylinderShape(extent[2], shape.radius, 0);
+      default: return new jolt.SphereShape(shape.radius);
+    }
+  }
+
+  #addBeside(surface) {
+    const { jolt } = this;
+    const depth = surface.shape.kind === 'plane' && !surface.stays ? this.#thickness() : 0;
+    const motion = surface.stays ? jolt.EMotionType_Static : jolt.EMotionType_Kinematic;
+    const settings = this.#creation(this.#shapeOfSurface(surface), surface.behind(this.startTime, depth), motion);
+    const turn = new jolt.Quat(...surface.quaternion(this.startTime, 'y'));
+    settings.mRotation = turn;
+    jolt.destroy(turn);
+    if (this.asTyped) this.#setFields(settings, naiveSurface(this.scene, surface.touch));
+    return { surface, depth, id: this.#addBody(settings, surface.touch).GetID() };
+  }
+
+  /// Half the width of what stands in for a plane that moves away: Jolt finds the places where a wide
+  /// box is touched less well than those of a narrow one.
+  #reach() {
+    return 10 * farthest(this.scene, this.units.length);
+  }
+
+  #moveBeside(now) {
+    const { jolt, bodies, timeStep } = this;
+    const isMean = this.chosen.surface_velocity === 'this_step';
+    for (const each of this.beside) {
+      const { surface, depth, id } = each;
+      if (surface.isStill) continue;
+      const centre = surface.behind(now, depth);
+      const velocity = surface.stepVelocity(now, timeStep, centre, isMean);
+      if (surface.stays) {
+        each.slides = velocity;
+        continue;
+      }
+      const turn = new jolt.Quat(...surface.quaternion(now, 'y'));
+      this.#withVector(centre, (at) => bodies.SetPositionAndRotation(id, at, turn, jolt.EActivation_Activate), jolt.RVec3);
+      jolt.destroy(turn);
+      this.#withVector(velocity, (v) => this.#withVector(surface.rate, (w) => bodies.SetLinearAndAngularVelocity(id, v, w)));
+    }
+  }
+
   #thickness() {
     return 20 * this.scene.bodies.reduce((most, { radius }) => Math.max(most, radius), 0);
   }
@@ -364,8 +445,9 @@ class JoltEngine {
 
   #moveSurfaces() {
     this.slides = undefined;
-    if (this.motion.isStill) return;
     const now = this.startTime + this.steps * this.timeStep;
+    this.#moveBeside(now);
+    if (this.motion.isStill) return;
     const then = now + this.timeStep;
     const mean = this.motion.position(then).map((value, k) => (value - this.motion.position(now)[k]) / this.timeStep);
     this.velocityNow = this.chosen.surface_velocity === 'this_step' ? mean : this.motion.velocity(then);
@@ -392,10 +474,11 @@ class JoltEngine {
 
   /// Whether a contact can have acted in the step: the gap at its beginning is no larger than what the
   /// bodies' approach, before or after, closes in it. Jolt tells of contacts far ahead.
-  #acted({ i, j, normal }, now) {
+  #acted({ i, j, normal, gap: told }, now) {
     if (j < 0 && this.scene.box) return true;
     const { before } = this;
     const { bodies } = this.scene;
+    if (j < FLOOR) return this.#metBeside(i, j, normal, told, now);
     const other = (states, k) => (j < 0 ? 0 : states[9 * j + k]);
     const along = (states, first) => normal.reduce(
       (sum, n, axis) => sum + n * (states[9 * i + first + axis] - other(states, first + axis)), 0);
@@ -403,6 +486,15 @@ class JoltEngine {
     const fall = this.scene.gravity * this.timeStep; // of the one over the plane
     const approach = Math.max(-along(before, 3) + (j < 0 ? fall : 0), -along(now, 3));
     return approach * this.timeStep >= gap - 1e-4 * bodies[i].radius;
+  }
+
+  #metBeside(i, j, normal, gap, now) {
+    const surface = this.#surfaceVelocity(i, j, normal);
+    const approach = (states) => -normal.reduce(
+      (sum, n, axis) => sum + n * (states[9 * i + 3 + axis] - surface[axis]), 0);
+    const fall = Math.hypot(...gravityOf(this.scene)) * this.timeStep;
+    const fastest = Math.max(approach(this.before) + fall, approach(now));
+    return fastest * this.timeStep >= gap - 1e-4 * this.scene.bodies[i].radius;
   }
 
   /// A body as Jolt has it, which may not have the inertia that it was given.
@@ -453,6 +545,7 @@ class JoltEngine {
         text: `moments of inertia below ${rounded(inertia, 2)} kg m² (that of a sphere of 1 m is taken)`,
         kind: 'moments of inertia below … kg m²',
       });
+    own.push(...planeEnds(this.beside.map(({ surface }) => surface), this.#reach() / length));
     const limit = this.chosen.max_angular_velocity * time;
     const turns = scene.bodies.map(({ radius }, i) => {
       const [vx, vy, vz, wx, wy, wz] = scene.initial.subarray(9 * i + 3, 9 * i + 9);
@@ -471,9 +564,12 @@ class JoltEngine {
     if (!this.asTyped) {
       scene.bodies.forEach((_, i) => {
         if (scene.box) return;
-        const ground = groundOf(scene, i);
-        gathered.add('friction', i, ground.kinetic_friction);
-        gathered.add('substrate_restitution', i, ground.restitution);
+        for (const [surface, name] of surfaceNames(scene)) {
+          const { friction, restitution } = onSurface(scene, i, surface);
+          const isLaw = surface !== FLOOR && dependsOnSpeed(contactOf(scene, i, surface));
+          gathered.add(name === 'substrate' ? 'friction' : `${name}_friction`, whoseOn(name, i, surface), friction);
+          gathered.add(`${name}_restitution`, whoseOn(name, i, surface), isLaw ? 'by speed' : restitution);
+        }
       });
       for (const [i, j] of materialPairs(scene)) {
         const contact = contactOf(scene, i, j);

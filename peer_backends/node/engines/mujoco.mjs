@@ -1,12 +1,13 @@
 // MuJoCo, package @mujoco/mujoco: double precision, rolling and drilling friction, no coefficient of
 // restitution (mujoco/contact_terms.mjs).
 
-import { FLOOR, LID, WALL, groundOf, materialPairs } from '../kit/contacts.mjs';
+import { FLOOR, WALL, lastingOf, materialPairs, surfaceNames, touchedSurface, whoseOn } from '../kit/contacts.mjs';
 import { Refused } from '../kit/faults.mjs';
 import { Gathered } from '../kit/gathered.mjs';
 import { lacks } from '../kit/lacks.mjs';
 import { surfaceMotion } from '../kit/motion.mjs';
 import { load, versionOf } from '../kit/packages.mjs';
+import { besideSurfaces, planeEnds } from '../kit/surfaces.mjs';
 import { rounded } from '../kit/text.mjs';
 import { Touches } from '../kit/touches.mjs';
 import { Units } from '../kit/units.mjs';
@@ -23,14 +24,14 @@ export async function open(folder) {
   return new MujocoEngine(mujoco, versionOf(folder, PACKAGE));
 }
 
-const surfacesOf = ({ box }) => (!box ? [FLOOR] : box.lid ? [FLOOR, WALL, LID] : [FLOOR, WALL]);
+const surfacesOf = (scene) => surfaceNames(scene).map(([surface]) => surface);
 
 class MujocoEngine {
   constructor(mujoco, version) {
     this.mujoco = mujoco;
     this.version = version;
     this.precision = 'double';
-    this.takes = ['block', 'cylinder'];
+    this.takes = ['block', 'cylinder', 'surfaces'];
     this.settings = SETTINGS;
     this.force = new mujoco.DoubleBuffer(6);
   }
@@ -42,10 +43,16 @@ class MujocoEngine {
     this.scene = this.units.scene(scene);
     this.timeStep = timeStep * this.units.time;
     this.motion = surfaceMotion(this.scene);
+    this.beside = besideSurfaces(this.scene);
     this.#refuse();
     this.terms = new ContactTerms(this.scene, this.chosen, this.timeStep);
     const model = new ModelText(this.scene, this.chosen, this.timeStep, this.terms);
     this.bodyOfGeom = model.bodyOfGeom;
+    this.reach = model.reach;
+    this.driven = model.driven.map((surface) => ({ surface, depth: model.depthOf(surface) }));
+    this.sliding = model.staying
+      .filter((surface) => !surface.isStill)
+      .map((surface) => ({ surface, geom: model.bodyOfGeom.indexOf(surface.touch) }));
     this.model = this.mujoco.MjModel.from_xml_string(model.xml());
     this.data = new this.mujoco.MjData(this.model);
     this.bySpeed = model.isTyped ? [] : this.#pairsBySpeed();
@@ -73,14 +80,16 @@ class MujocoEngine {
         position.set([x, z, 0], this.#offset + 3 * i);
         velocity.set([vx, vz, wy], this.#offset + 3 * i);
       } else {
-        position.set([x, y, z, 1, 0, 0, 0], 7 * i);
-        velocity.set([vx, vy, vz, wx, wy, wz], 6 * i);
+        const joint = this.driven.length + i;
+        position.set([x, y, z, 1, 0, 0, 0], 7 * joint);
+        velocity.set([vx, vy, vz, wx, wy, wz], 6 * joint);
       }
     });
   }
 
   step() {
     if (!this.motion.isStill) this.#moveSurface();
+    this.#moveBeside();
     for (const pair of this.bySpeed) this.#setBySpeed(pair);
     this.mujoco.mj_step(this.model, this.data);
     ++this.steps;
@@ -95,7 +104,7 @@ class MujocoEngine {
     scene.bodies.forEach((_, i) => {
       const state = scene.box
         ? this.#stateInBox(position, velocity, i)
-        : stateInSpace(position, velocity, i);
+        : stateInSpace(position, velocity, this.driven.length + i);
       state.forEach((value, k) => {
         states[9 * i + k] = value / factors[k];
       });
@@ -129,9 +138,16 @@ class MujocoEngine {
         'mujoco: restitution one_step needs the elliptic cone, whose friction has a solref of its own, and an ' +
           'integrator that takes one force for a step, not RK4',
       );
-    if (!this.scene.box && !this.motion.isStill && !this.#hasSurfaceVelocity())
+    if (this.#hasSurfaceVelocity()) return;
+    if (!this.scene.box && !this.motion.isStill)
       throw new Refused(
         `mujoco: the substrate moves, and version ${this.version} has no surfacevel (from 3.11 on)`,
+      );
+    const belt = this.beside.find((surface) => surface.stays && !surface.isStill);
+    if (belt)
+      throw new Refused(
+        `mujoco: surface ${touchedSurface(belt.touch)} moves in itself, and version ${this.version} has no ` +
+          'surfacevel (from 3.11 on)',
       );
   }
 
@@ -178,7 +194,7 @@ class MujocoEngine {
       const ends = [first[pair], second[pair]].map((geom) => this.bodyOfGeom[geom]);
       const [i, j] = ends[0] >= 0 ? ends : [ends[1], ends[0]];
       const bounces = typeof terms.restitutionLaw(i, j) !== 'number';
-      const rolls = terms.isOnSubstrate(j) && groundOf(scene, i).rolling.length > 1;
+      const rolls = terms.isOnGround(j) && lastingOf(scene, i, j).rolling.length > 1;
       if (bounces || rolls) found.push({ pair, i, j, bounces, rolls });
     }
     return found;
@@ -195,8 +211,44 @@ class MujocoEngine {
       );
   }
 
+  /// What is driven begins each step where its surface is, with the velocity at the step's end; what
+  /// moves in itself has that as surfacevel, in its own frame.
+  #moveBeside() {
+    const now = this.startTime + this.steps * this.timeStep;
+    const then = now + this.timeStep;
+    const inOwn = (axes, v) => axes.map((axis) => axis.reduce((sum, a, k) => sum + a * v[k], 0));
+    this.driven.forEach(({ surface, depth }, k) => {
+      const centre = surface.behind(now, depth);
+      const [x, y, z, w] = surface.quaternion(now);
+      this.data.qpos.set([...centre, w, x, y, z], 7 * k);
+      const turn = inOwn(surface.axes(now), surface.rate);
+      this.data.qvel.set([...surface.velocity(then, centre), ...turn], 6 * k);
+    });
+    for (const { surface, geom } of this.sliding) {
+      const axes = surface.axes(0);
+      const velocity = inOwn(axes, surface.velocity(then, surface.centre(0)));
+      this.model.geom_surfacevel.set([...velocity, ...inOwn(axes, surface.rate)], 6 * geom);
+    }
+  }
+
+  /// Towards a surface beside the substrate, and along it.
+  #speedsBeside(i, j) {
+    const now = this.startTime + this.steps * this.timeStep;
+    const surface = this.beside[touchedSurface(j)];
+    const state = this.#stateOf(i);
+    const normal = surface.normalAt(now, state.slice(0, 3));
+    const { radius } = this.scene.bodies[i];
+    const point = normal.map((n, k) => state[k] - radius * n);
+    const own = surface.velocity(now, point);
+    const velocity = own.map((v, k) => state[3 + k] - v);
+    const towards = velocity.reduce((sum, v, k) => sum + v * normal[k], 0);
+    const along = Math.hypot(...velocity.map((v, k) => v - towards * normal[k]));
+    return { approach: Math.abs(towards), along };
+  }
+
   /// Along the line of centres or the plane's normal, and along the plane.
   #speeds(i, j) {
+    if (j < FLOOR && !this.scene.box) return this.#speedsBeside(i, j);
     const [a, b] = [i, j].map((body) => this.#stateOf(body));
     const velocity = [3, 4, 5].map((k) => a[k] - b[k]);
     const apart = j >= 0 ? [0, 1, 2].map((k) => a[k] - b[k]) : j === WALL ? [1, 0, 0] : [0, 0, 1];
@@ -209,7 +261,7 @@ class MujocoEngine {
     if (body >= 0)
       return scene.box
         ? this.#stateInBox(data.qpos, data.qvel, body)
-        : stateInSpace(data.qpos, data.qvel, body);
+        : stateInSpace(data.qpos, data.qvel, this.driven.length + body);
     const time = this.startTime + this.steps * this.timeStep;
     const moves = body === FLOOR || scene.box.moving_walls;
     return [0, 0, 0, ...(moves ? this.motion.velocity(time) : [0, 0, 0])];
@@ -226,12 +278,12 @@ class MujocoEngine {
   #findTouches(touches) {
     const { mujoco, model, data } = this;
     const contacts = data.contact;
-    const found = new Touches();
+    const found = new Touches(this.scene);
     for (let k = 0; k < data.ncon; ++k) {
       const contact = contacts.get(k);
       const ends = [contact.geom1, contact.geom2].map((geom) => this.bodyOfGeom[geom]);
       const [first, second] = ends[0] >= 0 ? ends : [ends[1], ends[0]];
-      if (contact.efc_address >= 0 && (second === FLOOR || second >= 0)) {
+      if (contact.efc_address >= 0 && (second >= FLOOR || !this.scene.box)) {
         mujoco.mj_contactForce(model, data, k, this.force);
         found.add(first, second, this.force.GetView()[0] * this.timeStep);
       }
@@ -296,7 +348,7 @@ class MujocoEngine {
       'MuJoCo raises them to it',
       `rolling and drilling lengths below ${least} m`,
     );
-    return missing;
+    return [...missing, ...planeEnds(this.beside, this.reach / this.units.length)];
   }
 
   /// Of each body on its surfaces, and of two bodies for each two materials.
@@ -343,10 +395,9 @@ class MujocoEngine {
       gathered.add(`${prefix}restitution`, whose, isLaw ? 'by speed' : restitution);
       gathered.add(`${prefix}solref`, whose, isLaw ? 'by speed' : text(solref));
     };
-    const names = { [FLOOR]: scene.box ? 'floor_' : 'substrate_', [WALL]: 'wall_', [LID]: 'lid_' };
     scene.bodies.forEach((_, i) => {
-      for (const surface of surfacesOf(scene))
-        add(names[surface], i, terms.of(i, surface), terms.restitutionLaw(i, surface));
+      for (const [surface, name] of surfaceNames(scene))
+        add(`${name}_`, whoseOn(name, i, surface), terms.of(i, surface), terms.restitutionLaw(i, surface));
     });
     for (const [i, j] of materialPairs(scene))
       add('pair_', `${i}-${j}`, terms.of(i, j), terms.restitutionLaw(i, j));

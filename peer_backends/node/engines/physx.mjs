@@ -12,6 +12,7 @@ import { surfaceMotion } from '../kit/motion.mjs';
 import { pairShapes, typedShapes } from '../kit/pair_shapes.mjs';
 import { count, flag, number, search, word } from '../kit/settings.mjs';
 import { halfOf, inertiaOf, isSphere, turnOf } from '../kit/solids.mjs';
+import { besideSurfaces, hasSubstrate, quaternionOf } from '../kit/surfaces.mjs';
 import { Touches } from '../kit/touches.mjs';
 import { Units, gravityOf, unitSettings } from '../kit/units.mjs';
 
@@ -127,7 +128,7 @@ class PhysxEngine {
     this.px = physx;
     this.version = version;
     this.precision = 'single';
-    this.takes = ['block'];
+    this.takes = ['block', 'surfaces'];
     this.settings = SETTINGS;
     this.top = physx.PxTopLevelFunctions.prototype;
     const foundation = this.top.CreateFoundation(
@@ -159,13 +160,16 @@ class PhysxEngine {
     this.start(scene.initial, 0);
     return {
       settings: this.#applied(scene, timeStep),
-      not_represented: lacks(scene, timeStep, {
-        staticFriction: !this.isTyped,
-        drilling: settings.solver === 'TGS' && !this.isTyped,
-        surfaceVelocity: settings.surface_velocity === 'step_end',
-        threshold: settings.bounce_threshold / this.units.speed,
-        sweeps: settings.ccd,
-      }),
+      not_represented: [
+        ...lacks(scene, timeStep, {
+          staticFriction: !this.isTyped,
+          drilling: settings.solver === 'TGS' && !this.isTyped,
+          surfaceVelocity: settings.surface_velocity === 'step_end',
+          threshold: settings.bounce_threshold / this.units.speed,
+          sweeps: settings.ccd,
+        }),
+        ...this.#ownLacks(),
+      ],
       left_out: [],
     };
   }
@@ -175,7 +179,7 @@ class PhysxEngine {
     const factors = this.units.ofState;
     this.startTime = time * this.units.time;
     this.steps = 0;
-    this.found = new Touches();
+    this.found = new Touches(this.scene);
     this.materials = [];
     this.bodyOf = new Map(); // by an actor's address: a body's index, or a surface
     this.world = this.#makeWorld();
@@ -192,7 +196,7 @@ class PhysxEngine {
 
   step() {
     this.#moveSurfaces();
-    this.found = new Touches();
+    this.found = new Touches(this.scene);
     this.world.simulate(this.timeStep);
     this.world.fetchResults(true);
     ++this.steps;
@@ -343,11 +347,18 @@ class PhysxEngine {
     );
   }
 
+  #ownLacks() {
+    const rods = this.beside.some(({ surface }) => surface.shape.kind === 'rod');
+    return rods ? [{ text: 'flat ends of cylinders (capsules, round ones)', kind: 'flat ends of cylinders' }] : [];
+  }
+
   #addSurfaces() {
     const { box } = this.scene;
     const moves = !this.motion.isStill;
+    this.beside = besideSurfaces(this.scene).map((surface) => this.#addBeside(surface));
     for (const { surface, normal, turn } of SURFACES) {
       if (surface !== FLOOR && !box) continue;
+      if (surface === FLOOR && !hasSubstrate(this.scene)) continue;
       if (surface === LID && !box.lid) continue;
       const place = [normal[0] < 0 ? box.width : 0, 0, surface === LID ? box.lid : 0];
       if (moves && (surface === FLOOR || box.moving_walls))
@@ -367,9 +378,9 @@ class PhysxEngine {
 
   /// A box, since a plane cannot move; so thin that single precision tells where its face is.
   #addMovingSurface(surface, normal, place) {
-    const { px, scene, units } = this;
-    const thick = 16 * scene.bodies.reduce((most, { radius }) => Math.max(most, radius), 0);
-    const half = normal.map((n) => (n === 0 ? 100 * units.length : thick));
+    const { px } = this;
+    const { wide, thick } = this.#plane();
+    const half = normal.map((n) => (n === 0 ? wide : thick));
     const middle = place.map((p, axis) => p - half[axis] * normal[axis]);
     const at = added(middle, this.motion.position(this.startTime));
     const actor = this.#withPose(at, [0, 0, 0, 1], (pose) => this.physics.createRigidDynamic(pose));
@@ -381,9 +392,60 @@ class PhysxEngine {
     this.#enter(actor, surface);
   }
 
+  /// Half sizes of a box in the place of a plane.
+  #plane() {
+    const thick = 16 * this.scene.bodies.reduce((most, { radius }) => Math.max(most, radius), 0);
+    return { wide: 100 * this.units.length, thick };
+  }
+
+  /// A plane, or where it moves a box as for the substrate; a box, a capsule along x, a sphere.
+  #addBeside(surface) {
+    const { px, physics } = this;
+    const { shape, extent, isStill } = surface;
+    const { wide, thick } = this.#plane();
+    const isPlane = shape.kind === 'plane';
+    const depth = isPlane && !isStill ? thick : 0;
+    const placed = {
+      surface,
+      centre: (t) => surface.behind(t, depth),
+      turn: (t) => (isPlane && isStill ? normalAlongX(surface.axes(t)) : surface.quaternion(t, 'x')),
+    };
+    const geometry = {
+      plane: () => (isStill ? new px.PxPlaneGeometry() : new px.PxBoxGeometry(wide, wide, thick)),
+      rectangle: () => new px.PxBoxGeometry(...extent),
+      rod: () => new px.PxCapsuleGeometry(shape.radius, extent[2]),
+      ball: () => new px.PxSphereGeometry(shape.radius),
+    }[shape.kind]();
+    placed.actor = this.#withPose(placed.centre(this.startTime), placed.turn(this.startTime), (pose) =>
+      (isStill ? physics.createRigidStatic(pose) : physics.createRigidDynamic(pose)),
+    );
+    if (!isStill) placed.actor.setRigidBodyFlag(px.PxRigidBodyFlagEnum.eKINEMATIC, true);
+    this.#attach(placed.actor, geometry, this.shapes.ofSurface(surface.touch));
+    px.destroy(geometry);
+    this.#enter(placed.actor, surface.touch);
+    return placed;
+  }
+
+  /// What stays, as a belt does, begins each step where it is and ends it elsewhere.
+  #moveBeside(now) {
+    const isMean = this.chosen.surface_velocity === 'this_step';
+    for (const { surface, actor, centre, turn } of this.beside) {
+      if (surface.isStill) continue;
+      const here = centre(now);
+      const velocity = surface.stepVelocity(now, this.timeStep, here, isMean);
+      this.#withPose(here, turn(now), (pose) => actor.setGlobalPose(pose));
+      this.#withPose(
+        added(here, velocity.map((v) => v * this.timeStep)),
+        turn(now + this.timeStep),
+        (pose) => actor.setKinematicTarget(pose),
+      );
+    }
+  }
+
   #moveSurfaces() {
     const now = this.startTime + this.steps * this.timeStep;
     const then = now + this.timeStep;
+    this.#moveBeside(now);
     for (const { actor, middle } of this.moving) {
       let target = added(middle, this.motion.position(then));
       if (this.chosen.surface_velocity === 'step_end') {
@@ -409,7 +471,7 @@ class PhysxEngine {
       const header = px.wrapPointer(headerAddress, px.PxContactPairHeader);
       const [a, b] = [0, 1].map((k) => this.bodyOf.get(px.getPointer(header.get_actors(k))));
       const [first, second] = a >= 0 ? [a, b] : [b, a];
-      if (second === WALL || second === LID) return;
+      if (this.scene.box && second < FLOOR) return;
       const list = px.wrapPointer(pairsAddress, px.PxContactPair);
       for (let k = 0; k < pairs; ++k)
         this.#addImpulses(helpers.getContactPairAt(list, k), first, second);
@@ -438,4 +500,6 @@ class PhysxEngine {
   }
 }
 
+/// A plane of PhysX's has its normal along x.
+const normalAlongX = ([x, y, z]) => quaternionOf([z, x, y]);
 const added = (a, b) => a.map((value, k) => value + b[k]);

@@ -5,7 +5,7 @@
 
 import {
   FLOOR, LID, WALL, contactOf, frictionOf, materialPairs, naiveBall, naiveSurface, onSurface,
-  pairRestitution, surfaceTouch, touchedSurface,
+  pairRestitution, surfaceNames, touchedSurface, whoseOn,
 } from '../kit/contacts.mjs';
 import { Refused } from '../kit/faults.mjs';
 import { Gathered } from '../kit/gathered.mjs';
@@ -111,8 +111,6 @@ function shortest(single) {
 
 const vector = ([x, y, z]) => ({ x, y, z });
 const turn = ([x, y, z, w]) => ({ x, y, z, w });
-/// Of a plate, of the shorter of its half sides.
-const THICKNESS = 1e-6;
 const NO_TURN = { x: 0, y: 0, z: 0, w: 1 };
 
 export async function open(folder) {
@@ -286,7 +284,7 @@ class RapierEngine {
     const { rapier } = this;
     switch (shape.kind) {
       case 'plane': return new rapier.HalfSpace(vector([0, 0, 1]));
-      case 'rectangle': return new rapier.Cuboid(extent[0], extent[1], THICKNESS * Math.min(extent[0], extent[1]));
+      case 'rectangle': return new rapier.Cuboid(...extent);
       case 'rod': return new rapier.Cylinder(extent[2], shape.radius);
       default: return new rapier.Ball(shape.radius);
     }
@@ -390,15 +388,6 @@ function asTyped(scene) {
   };
 }
 
-/// The surfaces of a scene, each with its name in the settings in force.
-function surfaceNames(scene) {
-  const { box, surfaces = [] } = scene;
-  const beside = surfaces.map((_, k) => [surfaceTouch(k), 'surface']);
-  if (!box) return hasSubstrate(scene) ? [[FLOOR, 'substrate'], ...beside] : beside;
-  const both = [[FLOOR, 'floor'], [WALL, 'wall']];
-  return box.lid ? [...both, [LID, 'lid']] : both;
-}
-
 const alike = (a, b) => a.friction === b.friction && a.restitution === b.restitution;
 
 /// The scene's coefficients exactly, from what colliders and their rules can do.
@@ -425,7 +414,7 @@ function byPair(scene) {
   for (const [surface, name] of surfaceNames(scene)) {
     for (const body of firstOf.filter((i) => i >= 0)) {
       const { friction, restitution } = onSurface(scene, body, surface);
-      const whose = name === 'surface' ? `${body}-${touchedSurface(surface)}` : body;
+      const whose = whoseOn(name, body, surface);
       applied.add(name === 'substrate' ? 'friction' : `${name}_friction`, whose, friction);
       applied.add(`${name}_restitution`, whose, restitution);
     }

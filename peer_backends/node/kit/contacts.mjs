@@ -8,6 +8,19 @@ export const LID = -3;
 export const surfaceTouch = (surface) => -2 - surface;
 export const touchedSurface = (touch) => -2 - touch;
 
+/// The surfaces of a scene, each with its name in the settings in force.
+export function surfaceNames(scene) {
+  const { box, surfaces = [] } = scene;
+  const beside = surfaces.map((_, k) => [surfaceTouch(k), 'surface']);
+  if (!box) return scene.has_substrate === false ? beside : [[FLOOR, 'substrate'], ...beside];
+  const both = [[FLOOR, 'floor'], [WALL, 'wall']];
+  return box.lid ? [...both, [LID, 'lid']] : both;
+}
+
+/// Whose coefficient is told under such a name: a body's, or of several surfaces a body's on one.
+export const whoseOn = (name, body, surface) =>
+  (name === 'surface' ? `${body}-${touchedSurface(surface)}` : body);
+
 /// A sphere's material on the substrate.
 export const groundOf = (scene, body) => scene.substrate[scene.bodies[body].material];
 

@@ -6,50 +6,19 @@
 // for each pair, and filters let those meet that belong together.
 
 import {
-  FLOOR,
-  LID,
-  WALL,
   contactOf,
   frictionOf,
-  groundOf,
   materialPairs,
   naiveBall,
   naiveSurface,
+  onSurface,
   pairRestitution,
-  surfaceRestitution,
+  surfaceNames,
+  touchedSurface,
+  whoseOn,
 } from './contacts.mjs';
 import { Refused } from './faults.mjs';
 import { Gathered } from './gathered.mjs';
-
-/// The surfaces of a scene, each with its name in the settings in force.
-export function surfaceNames({ box }) {
-  if (!box) return [[FLOOR, 'substrate']];
-  const both = [
-    [FLOOR, 'floor'],
-    [WALL, 'wall'],
-  ];
-  return box.lid ? [...both, [LID, 'lid']] : both;
-}
-
-/// What a body has on a surface.
-function onSurface(scene, body, surface) {
-  if (scene.box) {
-    const friction = frictionOf(contactOf(scene, body, surface));
-    return {
-      friction,
-      staticFriction: friction,
-      restitution: surfaceRestitution(scene, body, surface),
-      drilling: 0,
-    };
-  }
-  const { kinetic_friction, static_friction, restitution, drilling_length } = groundOf(scene, body);
-  return {
-    friction: kinetic_friction,
-    staticFriction: static_friction,
-    restitution,
-    drilling: drilling_length,
-  };
-}
 
 const NUMBERS = ['friction', 'staticFriction', 'restitution', 'drilling'];
 const alike = (a, b) => NUMBERS.every((key) => a[key] === b[key]);
@@ -71,8 +40,9 @@ export function typedShapes(scene) {
     applied.add('body_restitution', i, restitution);
   });
   for (const [surface, name] of surfaceNames(scene)) {
-    applied.add(`${name}_friction`, surface, naiveSurface(scene, surface).friction);
-    applied.add(`${name}_restitution`, surface, naiveSurface(scene, surface).restitution);
+    const whose = name === 'surface' ? touchedSurface(surface) : surface;
+    applied.add(`${name}_friction`, whose, naiveSurface(scene, surface).friction);
+    applied.add(`${name}_restitution`, whose, naiveSurface(scene, surface).restitution);
   }
   const all = { member: 1, filter: 1, rule: 'as shipped' };
   return {
@@ -106,11 +76,16 @@ export function pairShapes(scene, engine, filterBits) {
     ? alikeBalls(scene, pairs[0] ?? NO_CONTACT, bits)
     : ballsByPair(scene, pairs, bits);
   const surfaces = new Map();
-  for (const [surface] of surfaceNames(scene))
-    surfaces.set(
-      surface,
-      shapesOfSurface(present, (body) => onSurface(scene, body, surface), balls, bits),
-    );
+  const made = []; // surfaces that all materials meet alike have the same shapes and bits
+  for (const [surface] of surfaceNames(scene)) {
+    const contacts = present.map(({ body }) => onSurface(scene, body, surface));
+    let sort = made.find((each) => each.contacts.every((one, k) => alike(one, contacts[k])));
+    if (!sort) {
+      sort = { contacts, shapes: shapesOfSurface(present, contacts, balls, bits) };
+      made.push(sort);
+    }
+    surfaces.set(surface, sort.shapes);
+  }
   return {
     ofBall: (i) => balls[scene.bodies[i].material],
     ofSurface: (surface) => surfaces.get(surface),
@@ -169,10 +144,10 @@ function ruleFor(contact, ball) {
 
 /// Shapes of a surface, one for all materials that meet it alike. It meets a ball's first shape, or
 /// one of its own.
-function shapesOfSurface(present, contactWith, balls, bits) {
+function shapesOfSurface(present, contacts, balls, bits) {
   const shapes = [];
-  for (const { body, material } of present) {
-    const contact = contactWith(body);
+  for (const [k, { material }] of present.entries()) {
+    const contact = contacts[k];
     let ball = balls[material][0];
     let rule = ruleFor(contact, ball);
     if (!rule) {
@@ -207,10 +182,11 @@ function appliedOf(scene, pairs, present) {
   for (const [surface, name] of surfaceNames(scene)) {
     for (const { body } of present) {
       const { friction, staticFriction, restitution, drilling } = onSurface(scene, body, surface);
-      applied.add(name === 'substrate' ? 'friction' : `${name}_friction`, body, friction);
-      if (staticFriction !== friction) applied.add('static_friction', body, staticFriction);
-      if (drilling > 0) applied.add('drilling_length', body, drilling);
-      applied.add(`${name}_restitution`, body, restitution);
+      const whose = whoseOn(name, body, surface);
+      applied.add(name === 'substrate' ? 'friction' : `${name}_friction`, whose, friction);
+      if (staticFriction !== friction) applied.add('static_friction', whose, staticFriction);
+      if (drilling > 0) applied.add('drilling_length', whose, drilling);
+      applied.add(`${name}_restitution`, whose, restitution);
     }
   }
   return applied.settings();

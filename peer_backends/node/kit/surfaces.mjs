@@ -2,6 +2,7 @@
 
 import { surfaceTouch } from './contacts.mjs';
 import { substrateMotion } from './motion.mjs';
+import { rounded } from './text.mjs';
 
 const dot = (a, b) => a.reduce((sum, value, k) => sum + value * b[k], 0);
 const scaled = (a, factor) => a.map((value) => value * factor);
@@ -52,6 +53,11 @@ function frameAbout(centre, z) {
   return { centre, axes: [x, cross(z, x), z] };
 }
 
+/// Half of a plate's thickness, of the shorter of its half sides: engines have boxes, and plates none.
+const THICKNESS = 1e-6;
+/// A velocity along a plane is so to within this part of it.
+const ALONG = 1e-9;
+
 /// A course along two directions: way [m] and velocity [m/s] in space.
 function along({ course, first, second }) {
   const plane = substrateMotion(course);
@@ -64,11 +70,13 @@ function along({ course, first, second }) {
 ///   shape     as in the scene
 ///   moves     whether its shape goes anywhere; a belt's stays, and only its matter moves
 ///   isBelt, isStill, turns
+///   stays     whether each of its places is the surface's at all times, as a belt's, and those of a
+///             plane that moves or turns in itself
 ///   centre(t), axes(t), quaternion(t)   of the shape
 ///   way(t)                 of the matter, zero where it turns
 ///   velocity(t, at)        of the matter at a place
 ///   rate                   [rad/s]
-///   extent                 half sizes along the axes, of a plate and a rod
+///   extent                 half sizes along the axes, of a plate, which is as good as not thick, and a rod
 class BesideSurface {
   constructor({ shape, motion }, k) {
     this.touch = surfaceTouch(k);
@@ -90,10 +98,48 @@ class BesideSurface {
     };
     this.velocity = (t, at) =>
       (this.turns ? cross(this.rate, minus(at, motion.pivot)) : course.velocity(t));
-    if (shape.kind === 'rectangle')
-      this.extent = [Math.hypot(...shape.half_length), Math.hypot(...shape.half_width), 0];
+    this.stays = !this.moves || (shape.kind === 'plane' && this.#movesInItself(motion, axes[2]));
+    if (shape.kind === 'rectangle') {
+      const sides = [Math.hypot(...shape.half_length), Math.hypot(...shape.half_width)];
+      this.extent = [...sides, THICKNESS * Math.min(...sides)];
+    }
     if (shape.kind === 'rod')
       this.extent = [shape.radius, shape.radius, 0.5 * Math.hypot(...minus(shape.end, shape.begin))];
+  }
+
+  /// A plane turns about its normal alone.
+  #movesInItself({ course, first, second }, normal) {
+    if (this.turns) return true;
+    const most = (a) => a.reduce((sum, [x, y]) => [Math.max(sum[0], Math.abs(x)), Math.max(sum[1], Math.abs(y))], [0, 0]);
+    const [x, y] = most([course.velocity ?? course.amplitude ?? [0, 0], ...(course.points ?? []).map((p) => p.slice(1))]);
+    return Math.abs(x * dot(first, normal)) + Math.abs(y * dot(second, normal)) <= ALONG * (x + y);
+  }
+
+  /// So far behind the face of a plane, where the middle of a box is that stands in for it.
+  behind(t, depth) {
+    return minus(this.centre(t), scaled(this.axes(t)[2], depth));
+  }
+
+  /// From the nearest place of the surface to a point; of a plate's middle plane its own normal.
+  normalAt(t, point) {
+    const [x, y, z] = this.axes(t);
+    const { kind, radius } = this.shape;
+    if (kind === 'plane') return z;
+    const from = minus(point, this.centre(t));
+    const own = [x, y, z].map((axis) => dot(axis, from));
+    const clamped = (value, half) => Math.min(half, Math.max(-half, value));
+    let nearest = [0, 0, 0];
+    if (kind === 'rectangle') nearest = [clamped(own[0], this.extent[0]), clamped(own[1], this.extent[1]), 0];
+    if (kind === 'rod') {
+      const out = Math.hypot(own[0], own[1]);
+      const share = out > radius ? radius / out : 1;
+      nearest = [own[0] * share, own[1] * share, clamped(own[2], this.extent[2])];
+      if (share === 1 && nearest[2] === own[2]) nearest = [0, 0, own[2]]; // inside
+    }
+    const away = minus(own, nearest);
+    const length = Math.hypot(...away);
+    if (!(length > 0)) return z;
+    return [0, 1, 2].map((k) => (away[0] * x[k] + away[1] * y[k] + away[2] * z[k]) / length);
   }
 
   /// That of axes(), or for an engine whose cylinders stand along their second axis or lie along the
@@ -117,3 +163,19 @@ export const besideSurfaces = ({ surfaces = [] }) => surfaces.map((each, k) => n
 
 /// Whether there is a plane below, which a scene with surfaces may lack.
 export const hasSubstrate = ({ has_substrate }) => has_substrate !== false;
+
+/// How far bodies and surfaces lie from the origin at the start, at least `least`.
+export function farthest(scene, least) {
+  const places = scene.bodies.map((_, i) => scene.initial.subarray(9 * i, 9 * i + 3));
+  const edges = besideSurfaces(scene).map(({ centre, extent }) => Math.hypot(...centre(0)) + Math.hypot(...(extent ?? [0])));
+  return Math.max(least, ...places.map((place) => Math.hypot(...place)), ...edges);
+}
+
+/// What an engine lacks whose planes that move away are boxes of half this width [m].
+export function planeEnds(beside, half) {
+  if (!beside.some(({ shape, stays }) => shape.kind === 'plane' && !stays)) return [];
+  return [{
+    text: `planes without end that move away (boxes of ±${rounded(half, 3)} m)`,
+    kind: 'planes without end that move away',
+  }];
+}

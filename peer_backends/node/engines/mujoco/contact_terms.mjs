@@ -8,6 +8,7 @@ import {
   contactOf,
   frictionOf,
   groundOf,
+  lastingOf,
   pairRestitution,
   restitutionAt,
   rollingAt,
@@ -82,6 +83,11 @@ export class ContactTerms {
     return j === FLOOR && !this.scene.box;
   }
 
+  /// That or a surface beside it: where a body may lie.
+  isOnGround(j) {
+    return j < 0 && !this.scene.box;
+  }
+
   restitutionLaw(i, j) {
     return this.isOnSubstrate(j)
       ? groundOf(this.scene, i).restitution
@@ -104,10 +110,12 @@ export class ContactTerms {
     const atStart = () => (j < 0 ? surfaceRestitution(scene, i, j) : pairRestitution(scene, i, j));
     const restitution =
       approach === undefined ? atStart() : restitutionAt(contact.restitution, approach);
+    const lasting = this.isOnGround(j) ? lastingOf(scene, i, j) : undefined;
+    const isSmooth = frictionOf(contact) === 0 && contact.friction > 0;
     return {
-      friction: frictionOf(contact),
-      drilling: 0,
-      rolling: 0,
+      friction: lasting && !isSmooth ? lasting.kinetic_friction : frictionOf(contact),
+      drilling: lasting?.drilling_length ?? 0,
+      rolling: lasting ? rollingLength(scene.bodies[i], rollingAt(lasting.rolling, along)) : 0,
       restitution,
       beta0: contact.tangential_restitution,
     };

@@ -9,9 +9,11 @@ import {
   materialPairs,
   naiveBall,
   naiveSurface,
+  touchedSurface,
 } from '../../kit/contacts.mjs';
 import { Refused } from '../../kit/faults.mjs';
 import { surfaceMotion } from '../../kit/motion.mjs';
+import { besideSurfaces, farthest, hasSubstrate } from '../../kit/surfaces.mjs';
 import { halfOf, inertiaOf, isBlock, isSphere, turnFromZ, turnOf } from '../../kit/solids.mjs';
 import { gravityOf } from '../../kit/units.mjs';
 
@@ -28,11 +30,21 @@ export class ModelText {
     this.terms = terms;
     const motion = surfaceMotion(scene);
     this.isMoved = !motion.isStill;
+    const beside = besideSurfaces(scene);
+    /// Those that stay, geoms of the world, and those that are bodies of their own, in this order.
+    this.staying = beside.filter((surface) => surface.stays);
+    this.driven = beside.filter((surface) => !surface.stays);
+    /// Half the size of a box in the place of a plane that moves away.
+    this.reach = 100 * farthest(scene, scene.bodies.reduce((most, { radius }) => Math.max(most, radius), 0));
     this.isTyped = settings.coefficients === 'fields';
     this.isByGeom = this.isTyped || this.#isOneKind();
-    this.bodyOfGeom = [...this.#surfaces(false), ...this.#surfaces(true)]
-      .map(({ surface }) => surface)
-      .concat(scene.bodies.map((_, i) => i));
+    this.bodyOfGeom = [
+      ...this.#surfaces(false).map(({ surface }) => surface),
+      ...this.staying.map(({ touch }) => touch),
+      ...this.#surfaces(true).map(({ surface }) => surface),
+      ...this.driven.map(({ touch }) => touch),
+      ...scene.bodies.map((_, i) => i),
+    ];
   }
 
   xml() {
@@ -43,7 +55,9 @@ export class ModelText {
       ` iterations="${s.solver_iterations}" ls_iterations="${s.line_search_iterations}"` +
       ` noslip_iterations="${s.noslip_iterations}"><flag autoreset="disable"/></option>`;
     return (
-      `<mujoco>${option}${this.#statistic()}<worldbody>${this.#surfaceGeoms(false)}${this.#movingBody()}` +
+      `<mujoco>${option}${this.#statistic()}<worldbody>${this.#surfaceGeoms(false)}` +
+      `${this.staying.map((surface) => this.#stayingGeom(surface)).join('')}${this.#movingBody()}` +
+      `${this.driven.map((surface) => this.#drivenBody(surface)).join('')}` +
       `${this.scene.bodies.map((_, i) => this.#ball(i)).join('')}</worldbody><contact>${this.#pairs()}</contact></mujoco>`
     );
   }
@@ -51,7 +65,7 @@ export class ModelText {
   /// A moving floor is a body of such mass that nothing stops it; the solver's tolerance is to go
   /// on being measured by the balls.
   #statistic() {
-    if (!this.#hasMovingBody()) return '';
+    if (!this.#hasMovingBody() && this.driven.length === 0) return '';
     const inertias = this.scene.bodies.map(
       ({ mass, radius, shape_factor }) => (2 * mass + shape_factor * mass * radius ** 2) / 3,
     );
@@ -74,7 +88,7 @@ export class ModelText {
   #surfaces(moving) {
     const { box } = this.scene;
     const isMoving = (surface) => this.#hasMovingBody() && (surface === FLOOR || box.moving_walls);
-    const all = [{ surface: FLOOR, place: [0, 0, 0], normal: [0, 0, 1] }];
+    const all = hasSubstrate(this.scene) ? [{ surface: FLOOR, place: [0, 0, 0], normal: [0, 0, 1] }] : [];
     if (box) {
       all.push({ surface: WALL, place: [0, 0, 0], normal: [1, 0, 0] });
       all.push({ surface: WALL, place: [box.width, 0, 0], normal: [-1, 0, 0] });
@@ -94,7 +108,7 @@ export class ModelText {
       .map(({ surface, place, normal }, k) => {
         const name = `${moving ? 'moving' : 'still'}${k}`;
         const own = this.isTyped
-          ? this.#typed(naiveSurface(this.scene, surface))
+          ? `${this.#typed(naiveSurface(this.scene, surface))}${this.scene.box ? '' : ' conaffinity="0"'}`
           : 'contype="0" conaffinity="0"';
         if (moving) {
           const middle = place.map((p, axis) => p - half * normal[axis]);
@@ -104,6 +118,48 @@ export class ModelText {
         return `<geom name="${name}" type="plane" size="0 0 1" pos="${text(place)}" zaxis="${text(normal)}" ${own}${belt}/>`;
       })
       .join('');
+  }
+
+  /// A plane, a box, a cylinder along z or a sphere in the surface's own frame.
+  #geomOfSurface({ shape, extent, touch }) {
+    const wide = this.reach;
+    const geom = {
+      plane: () => `type="box" size="${wide} ${wide} ${wide}"`,
+      rectangle: () => `type="box" size="${text(extent)}"`,
+      rod: () => `type="cylinder" size="${shape.radius} ${extent[2]}"`,
+      ball: () => `type="sphere" size="${shape.radius}"`,
+    }[shape.kind]();
+    return `name="${besideName(touch)}" ${geom} ${this.#ofSurface(touch)}`;
+  }
+
+  /// Surfaces do not meet each other.
+  #ofSurface(touch) {
+    if (!this.isTyped) return 'contype="0" conaffinity="0"';
+    return `${this.#typed(naiveSurface(this.scene, touch))} conaffinity="0"`;
+  }
+
+  /// surfacevel is told step by step, but only a model that has some looks at it.
+  #stayingGeom(surface) {
+    const belt = surface.isStill ? '' : ' surfacevel="1 0 0 0 0 1"';
+    const { shape, touch } = surface;
+    const geom = shape.kind === 'plane'
+      ? `name="${besideName(touch)}" type="plane" size="0 0 1" ${this.#ofSurface(touch)}` : this.#geomOfSurface(surface);
+    return `<geom ${geom} pos="${text(surface.centre(0))}" ${quat(surface.quaternion(0))}${belt}/>`;
+  }
+
+  /// A body of such mass that nothing stops it; where it is and how it moves is told step by step.
+  #drivenBody(surface) {
+    const mass = 1e6 * this.scene.bodies.reduce((sum, body) => sum + body.mass, 0);
+    const inertia = mass * this.reach ** 2;
+    return (
+      `<body gravcomp="1"><freejoint/><inertial pos="0 0 0" mass="${mass}" ` +
+      `diaginertia="${inertia} ${inertia} ${inertia}"/><geom ${this.#geomOfSurface(surface)} mass="0"/></body>`
+    );
+  }
+
+  /// How far behind its face the middle of what is driven lies.
+  depthOf({ shape }) {
+    return shape.kind === 'plane' ? this.reach : 0;
   }
 
   #movingBody() {
@@ -163,6 +219,7 @@ export class ModelText {
     const names = [
       ...this.#surfaces(false).map((each, k) => ({ ...each, name: `still${k}` })),
       ...this.#surfaces(true).map((each, k) => ({ ...each, name: `moving${k}` })),
+      ...[...this.staying, ...this.driven].map(({ touch }) => ({ surface: touch, name: besideName(touch) })),
     ];
     this.scene.bodies.forEach((_, i) => {
       for (const { surface, name } of names)
@@ -185,11 +242,13 @@ export class ModelText {
   }
 }
 
+const besideName = (touch) => `beside${touchedSurface(touch)}`;
+const quat = ([x, y, z, w]) => `quat="${text([w, x, y, z])}"`;
+
 /// Turned in its body, whose axes are the world's at the start. MuJoCo's quaternions begin with w.
 function turned(body, turn) {
   if (isSphere(body)) return '';
-  const [x, y, z, w] = turn(body);
-  return `quat="${text([w, x, y, z])}" `;
+  return `${quat(turn(body))} `;
 }
 
 function geomOf(body) {

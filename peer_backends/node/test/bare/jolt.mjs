@@ -1,7 +1,7 @@
 // The three scenes in Jolt's own API, as somebody writes them who never saw the adapter.
 
-export async function run(start, { radius, mass, friction, restitution, pair, states }, step, count) {
-  const Jolt = await start();
+/// A world with gravity in which everything meets everything.
+function worldOf(Jolt) {
   const settings = new Jolt.JoltSettings();
   const filter = new Jolt.ObjectLayerPairFilterTable(1);
   filter.EnableCollision(0, 0);
@@ -11,8 +11,14 @@ export async function run(start, { radius, mass, friction, restitution, pair, st
   settings.mBroadPhaseLayerInterface = layers;
   settings.mObjectVsBroadPhaseLayerFilter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(layers, 1, filter, 1);
   const jolt = new Jolt.JoltInterface(settings);
+  jolt.GetPhysicsSystem().SetGravity(new Jolt.Vec3(0, 0, -9.81));
+  return jolt;
+}
+
+export async function run(start, { radius, mass, friction, restitution, pair, states }, step, count) {
+  const Jolt = await start();
+  const jolt = worldOf(Jolt);
   const system = jolt.GetPhysicsSystem();
-  system.SetGravity(new Jolt.Vec3(0, 0, -9.81));
   const bodies = system.GetBodyInterface();
   const add = (shape, [x, y, z], motion, change) => {
     const creation = new Jolt.BodyCreationSettings(shape, new Jolt.RVec3(x, y, z), new Jolt.Quat(0, 0, 0, 1), motion, 0);
@@ -59,4 +65,52 @@ function listen(Jolt, system, ground, friction, restitution) {
   listener.OnContactPersisted = meet;
   listener.OnContactRemoved = () => {};
   system.SetContactListener(listener);
+}
+
+/// A plate, a peg and a belt, whose surface alone moves.
+export async function runSurfaces(start, { radius, mass, friction, restitution, plate, peg, belt, state }, step, count) {
+  const Jolt = await start();
+  const jolt = worldOf(Jolt);
+  const system = jolt.GetPhysicsSystem();
+  const bodies = system.GetBodyInterface();
+  const add = (shape, [x, y, z], motion, change) => {
+    const creation = new Jolt.BodyCreationSettings(shape, new Jolt.RVec3(x, y, z), new Jolt.Quat(0, 0, 0, 1), motion, 0);
+    change(creation);
+    const body = bodies.CreateBody(creation);
+    bodies.AddBody(body.GetID(), Jolt.EActivation_Activate);
+    return body;
+  };
+  const isStill = () => {};
+  add(new Jolt.BoxShape(new Jolt.Vec3(...plate.half), 0), plate.centre, Jolt.EMotionType_Static, isStill);
+  add(new Jolt.SphereShape(peg.radius), peg.centre, Jolt.EMotionType_Static, isStill);
+  const plane = new Jolt.PlaneShape(new Jolt.Plane(new Jolt.Vec3(0, 0, 1), 0));
+  const conveyor = add(plane, [0, 0, belt.height], Jolt.EMotionType_Static, isStill);
+  const ball = add(new Jolt.SphereShape(radius), state.slice(0, 3), Jolt.EMotionType_Dynamic, (creation) => {
+    creation.mOverrideMassProperties = Jolt.EOverrideMassProperties_CalculateInertia;
+    creation.mMassPropertiesOverride.mMass = mass;
+    creation.mLinearVelocity = new Jolt.Vec3(...state.slice(3, 6));
+  });
+  const listener = new Jolt.ContactListenerJS();
+  const meet = (a, b, manifold, pointer) => {
+    const contact = Jolt.wrapPointer(pointer, Jolt.ContactSettings);
+    contact.mCombinedFriction = friction;
+    contact.mCombinedRestitution = restitution;
+    // Of the second body relative to the first, and the ball is the one that moves.
+    const side = a === Jolt.getPointer(conveyor) ? -1 : b === Jolt.getPointer(conveyor) ? 1 : 0;
+    if (side !== 0) contact.mRelativeLinearSurfaceVelocity = new Jolt.Vec3(side * belt.velocity, 0, 0);
+  };
+  listener.OnContactValidate = () => Jolt.ValidateResult_AcceptAllContactsForThisBodyPair;
+  listener.OnContactAdded = meet;
+  listener.OnContactPersisted = meet;
+  listener.OnContactRemoved = () => {};
+  system.SetContactListener(listener);
+  const seen = [];
+  for (let k = 0; k < count; ++k) {
+    jolt.Step(step, 1);
+    for (const part of ['GetPosition', 'GetLinearVelocity', 'GetAngularVelocity']) {
+      const v = ball[part]();
+      seen.push(v.GetX(), v.GetY(), v.GetZ());
+    }
+  }
+  return seen;
 }
