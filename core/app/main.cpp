@@ -18,6 +18,7 @@
 #include "report/rows/context.h"
 #include "scenario/fault.h"
 #include "scene/scene.h"
+#include "studies/sweep/sweep_store.h"
 
 namespace slipcheck {
 namespace {
@@ -67,10 +68,13 @@ int run_command_line(int argc, char** argv) {
   add_figures_command(app, exit_code);
   add_gas_command(app, exit_code);
   add_list_command(app, exit_code);
+  add_merge_command(app, exit_code);
   add_precision_command(app, exit_code);
+  add_query_command(app, exit_code);
   add_report_command(app, exit_code);
   add_schema_command(app, exit_code);
   add_stability_command(app, exit_code);
+  add_sweep_command(app, exit_code);
   add_tune_command(app, exit_code);
   add_versions_command(app, exit_code);
   try {
@@ -93,6 +97,9 @@ int run_command_line(int argc, char** argv) {
     say("{}\n", stopped.what());
     return kInterrupted;
   } catch (const BadOption& bad) {
+    say("slipcheck: {}\n", lines_of(bad.what()));
+    return kBadInput;
+  } catch (const BadStore& bad) {
     say("slipcheck: {}\n", lines_of(bad.what()));
     return kBadInput;
   } catch (const std::exception& error) {

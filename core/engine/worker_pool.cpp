@@ -69,26 +69,57 @@ std::vector<JobResult> WorkerPool::run_all(const std::vector<EngineJob>& jobs,
                                            const Progress& progress,
                                            const std::atomic<bool>* stop) const {
   std::vector<JobResult> results(jobs.size());
-  std::atomic<std::size_t> next = 0;
+  std::size_t next = 0, done = 0;
   std::mutex reporting;
-  std::size_t done = 0;
+  const auto offer = [&]() -> std::optional<OfferedJob> {
+    if (next == jobs.size()) return std::nullopt;
+    const std::size_t i = next++;
+    return OfferedJob{jobs[i], [&, i](const JobResult& result) {
+                        results[i] = result;
+                        const std::scoped_lock lock(reporting);
+                        ++done;
+                        if (progress) progress(done, jobs.size());
+                      }};
+  };
+  run_on(std::min(threads_, jobs.size()), offer, stop);
+  return results;
+}
 
+void WorkerPool::run_offered(const std::function<std::optional<OfferedJob>()>& offer,
+                             const std::atomic<bool>* stop) const {
+  const auto unless_stopped = [&]() -> std::optional<OfferedJob> {
+    if (stop != nullptr && *stop) return std::nullopt;
+    return offer();
+  };
+  run_on(threads_, unless_stopped, stop);
+}
+
+void WorkerPool::run_on(std::size_t count, const std::function<std::optional<OfferedJob>()>& offer,
+                        const std::atomic<bool>* stop) const {
+  std::mutex offering;
+  std::exception_ptr failure;
+  const auto next = [&]() -> std::optional<OfferedJob> {
+    const std::scoped_lock lock(offering);
+    if (failure) return std::nullopt;
+    return offer();
+  };
   // Workers die with the thread that started them, so each thread keeps its own.
   const auto loop = [&] {
     const StopScope scope(stop);
     Workers workers(limits_, stop);
-    for (std::size_t i = next++; i < jobs.size(); i = next++) {
-      results[i] = workers.run(jobs[i]);
-      const std::scoped_lock lock(reporting);
-      ++done;
-      if (progress) progress(done, jobs.size());
+    try {
+      while (const std::optional<OfferedJob> offered = next())
+        offered->done(workers.run(offered->job));
+    } catch (...) {
+      const std::scoped_lock lock(offering);
+      if (!failure) failure = std::current_exception();
     }
   };
   {
     std::vector<std::jthread> threads;
-    for (std::size_t k = 0; k < std::min(threads_, jobs.size()); ++k) threads.emplace_back(loop);
+    for (std::size_t k = 0; k < count; ++k) threads.emplace_back(loop);
   }
-  return results;
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace slipcheck

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <exception>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,12 @@ struct JobResult {
   std::exception_ptr error;  ///< what `work` threw, if anything
 };
 
+/// A job that is handed out when a thread has time for it.
+struct OfferedJob {
+  EngineJob job;
+  std::function<void(const JobResult&)> done;  ///< is told, on the thread that did it
+};
+
 /// Runs jobs on several threads, each with a worker process of its own for each command. A
 /// worker is reused from job to job and replaced after a failure, so that whatever one engine does,
 /// the other jobs go on.
@@ -47,9 +54,18 @@ class WorkerPool {
   std::vector<JobResult> run_all(const std::vector<EngineJob>& jobs, const Progress& progress = {},
                                  const std::atomic<bool>* stop = nullptr) const;
 
+  /// Runs what `offer` gives, by one thread at a time, until it has no more or `stop` is set; only
+  /// so many jobs are held as there are threads. What is at work then is interrupted, and its
+  /// `done` is told. Throws on what `offer` or a `done` throws, after which nothing more is begun.
+  void run_offered(const std::function<std::optional<OfferedJob>()>& offer,
+                   const std::atomic<bool>* stop = nullptr) const;
+
   std::size_t threads() const { return threads_; }
 
  private:
+  void run_on(std::size_t threads, const std::function<std::optional<OfferedJob>()>& offer,
+              const std::atomic<bool>* stop) const;
+
   std::size_t threads_;
   WorkerLimits limits_;
 };

@@ -44,9 +44,16 @@ json content_of(const YamlNode& node) {
 
 std::string content_digest(const Scenario& scenario) {
   if (scenario.text.empty()) return scenario.sha256;
-  json content = content_of(*parse_yaml(checked_text(scenario.text, scenario.file), scenario.file));
-  for (const char* words : {"title", "source"}) content.erase(words);
+  return content_digest(*parse_yaml(checked_text(scenario.text, scenario.file), scenario.file));
+}
+
+std::string content_digest(const YamlNode& root) {
+  json content = content_of(root);
+  if (content.is_object())
+    for (const char* words : {"title", "source"}) content.erase(words);
   return sha256_hex(content.dump());
 }
+
+std::string content_text(const YamlNode& node) { return content_of(node).dump(); }
 
 }  // namespace slipcheck

@@ -22,10 +22,11 @@ UnitSystem units_of(const YamlNode& root, const std::string& file) {
 
 }  // namespace
 
-Scenario parse_scenario(std::string_view text, const std::string& file) {
+Scenario scenario_of(const YamlPointer& tree, const std::string& file, ReadNumbers* numbers) {
   std::vector<UsedPreset> presets;
-  const YamlPointer root = with_presets(parse_yaml(checked_text(text, file), file), presets);
+  const YamlPointer root = with_presets(tree, presets);
   Reading reading(file, units_of(*root, file));
+  reading.note_numbers(numbers);
   WrittenScene written;
   if (is_mapping(*root)) {
     scene_rule().read(*root, reading, written);
@@ -37,9 +38,14 @@ Scenario parse_scenario(std::string_view text, const std::string& file) {
   reading.throw_faults();
   scenario.presets = std::move(presets);
   scenario.file = file;
+  scenario.locations = reading.locations();
+  return scenario;
+}
+
+Scenario parse_scenario(std::string_view text, const std::string& file) {
+  Scenario scenario = scenario_of(parse_yaml(checked_text(text, file), file), file);
   scenario.text = text;
   scenario.sha256 = sha256_hex(text);
-  scenario.locations = reading.locations();
   return scenario;
 }
 

@@ -95,6 +95,14 @@ void Reading::fault_at(const std::string& path, std::string rule) {
   }
 }
 
+void Reading::note_number(double value, const Dimension& dimension) {
+  if (numbers_ == nullptr) return;
+  const auto wanted = numbers_->find(path_);
+  if (wanted == numbers_->end()) return;
+  const bool is_angle = dimension.angle == 1 && dimension.time == 0;
+  wanted->second = ReadNumber{value, is_angle ? "rad" : dimension.si};
+}
+
 void Reading::throw_faults() const {
   if (!faults_.empty()) throw BadScenario(faults_);
 }

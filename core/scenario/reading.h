@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +13,14 @@
 #include "scenario/yaml_tree.h"
 
 namespace slipcheck {
+
+/// A number as it was read.
+struct ReadNumber {
+  double value = 0;       ///< SI, angles in radians
+  const char* unit = "";  ///< of it; "" of a pure number
+};
+/// Numbers by the path at which they stand; none where nothing was read.
+using ReadNumbers = std::map<std::string, std::optional<ReadNumber>, std::less<>>;
 
 /// What is carried along while the rules walk through a file: where they are, and what they found
 /// to be wrong so far.
@@ -53,6 +63,11 @@ class Reading {
   /// Notes a fault of what was read at the path, or of what encloses it where nothing was.
   void fault_at(const std::string& path, std::string rule);
 
+  /// Numbers that are read at these paths from now on are noted there; null: none.
+  void note_numbers(ReadNumbers* numbers) { numbers_ = numbers; }
+  /// Tells of the number at the present path, in SI.
+  void note_number(double value, const Dimension& dimension);
+
   /// Throws BadScenario if anything was found.
   void throw_faults() const;
 
@@ -66,6 +81,7 @@ class Reading {
     std::string shown;
   };
   std::map<std::string, Found> found_;
+  ReadNumbers* numbers_ = nullptr;
 };
 
 /// A text as it is shown in a message: at most some 60 characters, control characters escaped.

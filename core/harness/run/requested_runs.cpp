@@ -51,15 +51,6 @@ std::string without_headings(const Scenario& scenario) {
   return std::get<Substrate>(scenario.surroundings).periodic ? "a periodic plane" : "";
 }
 
-/// Notes in how many headings a record's phases are run.
-void choose_headings(const Scenario& scenario, EngineRecord& record) {
-  const std::string without = without_headings(scenario);
-  if (without.empty())
-    record.headings = scenario.compare.headings;
-  else if (scenario.compare.headings > 1)
-    record.warnings.push_back("headings are left out: " + without + " has directions of its own");
-}
-
 /// Finds, reads and checks the profiles of all scenes, each file and each engine once.
 class Profiles {
  public:
@@ -242,6 +233,14 @@ EngineRecord at_rate(EngineRecord record, double rate, double scale) {
 }
 
 }  // namespace
+
+void choose_headings(const Scenario& scenario, EngineRecord& record) {
+  const std::string without = without_headings(scenario);
+  if (without.empty())
+    record.headings = scenario.compare.headings;
+  else if (scenario.compare.headings > 1)
+    record.warnings.push_back("headings are left out: " + without + " has directions of its own");
+}
 
 std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario>& scenarios,
                                                       const WorkerLimits& limits,

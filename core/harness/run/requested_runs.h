@@ -23,4 +23,8 @@ std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario
                                                       const Settings& settings = {},
                                                       bool general = false);
 
+/// Notes in how many headings a record's phases are run, with a warning where the scene has
+/// directions of its own.
+void choose_headings(const Scenario& scenario, EngineRecord& record);
+
 }  // namespace slipcheck

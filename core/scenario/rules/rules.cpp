@@ -122,6 +122,7 @@ Rule<double> number(const Dimension& dimension, const Range& range) {
       return false;
     }
     target = si;
+    reading.note_number(si, dimension);
     return true;
   };
   const auto schema = [dimension, range] {
@@ -164,6 +165,7 @@ Rule<std::int64_t> integer(std::int64_t least, std::int64_t most) {
               return false;
             }
             target = static_cast<std::int64_t>(value);
+            reading.note_number(value, kPureNumber);
             return true;
           },
           [=] {
