@@ -5,7 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
-#include <optional>
+#include <utility>
 
 #include "engine/profile.h"
 #include "worker_run.h"
@@ -34,10 +34,13 @@ std::vector<Peer> peers() {
   return there;
 }
 
+/// LAMMPS's steps are parts of a collision, which need not be as short here.
 Settings physical(const std::string& engine) {
-  return load_profile(std::string(SLIPCHECK_SOURCE_DIR) + "/peer_backends/" + engine +
-                      "/profiles/physical.yaml")
-      .settings;
+  Settings settings = load_profile(std::string(SLIPCHECK_SOURCE_DIR) + "/peer_backends/" + engine +
+                                   "/profiles/physical.yaml")
+                          .settings;
+  if (engine == "lammps") settings["collision_time"] = 2e-4;
+  return settings;
 }
 
 /// One steel ball of 2 cm and surfaces that are alike.
@@ -64,9 +67,18 @@ SurfaceMotion constant(const Vector3& velocity, bool belt) {
 
 class PeerSurfaces : public ::testing::TestWithParam<Peer> {
  protected:
+  /// At the ends of steps, with all touches since the one before.
   std::vector<Frame> run(const Scene& scene, std::size_t steps) {
     RemoteEngine worker(peer_executable(GetParam().name));
-    return peer_run(worker, {scene}, physical(GetParam().name), kStep, steps);
+    std::vector<Frame> ends;
+    std::vector<Touch> since;
+    for (Frame& frame : peer_run(worker, {scene}, physical(GetParam().name), kStep, steps)) {
+      since.insert(since.end(), frame.touches.begin(), frame.touches.end());
+      if (frame.part < 1) continue;
+      frame.touches = std::exchange(since, {});
+      ends.push_back(std::move(frame));
+    }
+    return ends;
   }
   /// Why it does not take a scene; empty where it does.
   std::string refusal(const Scene& scene) {
@@ -114,7 +126,7 @@ TEST_P(PeerSurfaces, ABallLeavesTheEdgeOfAPlateAndFalls) {
   EXPECT_NEAR(late.z() - early.z(), -kGravityHere * 0.1, 1e-3 * kGravityHere * 0.1);
   EXPECT_NEAR(late.x(), early.x(), 1e-6);
   EXPECT_GT(early.x(), 0.3);
-  EXPECT_TRUE(frames[100].touches.size() == 1 || frames[101].touches.size() == 1);
+  EXPECT_FALSE(frames[100].touches.empty() && frames[101].touches.empty());
   EXPECT_TRUE(frames[350].touches.empty());
 }
 
