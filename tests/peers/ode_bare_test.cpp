@@ -12,6 +12,8 @@ struct BareOde {
   dWorldID world;
   dJointGroupID group;
   double mu_ground, bounce_ground, mu_balls, bounce_balls;
+  dGeomID belt = nullptr;  ///< along x
+  double belt_velocity = 0;
 };
 
 void near_callback(void* data, dGeomID o1, dGeomID o2) {
@@ -24,7 +26,26 @@ void near_callback(void* data, dGeomID o1, dGeomID o2) {
   contact.surface.mu = balls ? bare.mu_balls : bare.mu_ground;
   contact.surface.bounce = balls ? bare.bounce_balls : bare.bounce_ground;
   if (!dCollide(o1, o2, 1, &contact.geom, sizeof contact)) return;
+  if (bare.belt && (o1 == bare.belt || o2 == bare.belt)) {
+    dVector3 p, q;
+    dPlaneSpace(contact.geom.normal, p, q);
+    contact.surface.mode |= dContactFDir1 | dContactMotion1 | dContactMotion2 | dContactMotionN;
+    dCopyVector3(contact.fdir1, p);
+    // The second direction is normal × fdir1.
+    dCalcVectorCross3(q, contact.geom.normal, p);
+    contact.surface.motion1 = bare.belt_velocity * p[0];
+    contact.surface.motion2 = bare.belt_velocity * q[0];
+    contact.surface.motionN = bare.belt_velocity * contact.geom.normal[0];
+  }
   dJointAttach(dJointCreateContact(bare.world, bare.group, &contact), b1, b2);
+}
+
+/// The surfaces of plate_peg_and_belt().
+void add_surfaces(dSpaceID space, BareOde& bare) {
+  const dGeomID plate = dCreateBox(space, 0.2, 0.2, 2 * 1e-12 * 0.1);
+  dGeomSetPosition(plate, 0, 0, 0.1);
+  dGeomSetPosition(dCreateSphere(space, 0.05), 0.25, 0, -0.03);
+  bare.belt = dCreatePlane(space, 0, 0, 1, -0.1);
 }
 
 States run_bare_ode(const Scene& scene, BareOde bare, double rate, int steps) {
@@ -50,7 +71,10 @@ States run_bare_ode(const Scene& scene, BareOde bare, double rate, int steps) {
     dGeomSetBody(dCreateSphere(space, sphere.radius), ball);
     balls.push_back(ball);
   }
-  dCreatePlane(space, 0, 0, 1, 0);
+  if (scene.has_substrate)
+    dCreatePlane(space, 0, 0, 1, 0);
+  else
+    add_surfaces(space, bare);
   States states;
   for (int n = 0; n < steps; ++n) {
     dSpaceCollide(space, &bare, &near_callback);
@@ -82,6 +106,13 @@ TEST(OdeBare, BouncingBall) {
 TEST(OdeBare, TwoRollingBallsMeet) {
   const Scene scene = bundled_scene("symmetric-30cms");
   expect_as_bare("ode", scene, run_bare_ode(scene, {nullptr, nullptr, 0.1, 0, 0, 0.9}, 240, 240));
+}
+
+TEST(OdeBare, APlateAPegAndABelt) {
+  BareOde bare{nullptr, nullptr, 0.3, 0.5, 0, 0};
+  bare.belt_velocity = -0.5;
+  const Scene scene = plate_peg_and_belt(0.3, 0.5, bare.belt_velocity);
+  expect_as_bare("ode", scene, run_bare_ode(scene, bare, 240, 240));
 }
 
 }  // namespace

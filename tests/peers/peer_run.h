@@ -57,6 +57,33 @@ inline std::vector<Frame> run_peer(const std::string& engine, const Scene& scene
   return run(worker, scene, with(peer_profile(engine, profile), over), rate, steps);
 }
 
+/// A ball of 2 cm slides along a plate of 20 cm at z = 10 cm, over its edge, onto a peg of 5 cm
+/// around x = 25 cm, z = -3 cm, and onto a belt along x at z = -10 cm.
+inline Scene plate_peg_and_belt(double friction, double restitution, double belt_velocity) {
+  BodyState start;
+  start.position = Vector3(0, 0, 0.12);
+  start.velocity = Vector3(0.8, 0, 0);
+  Scene scene = scene_of(steel_ball(0.02), {start}, {});
+  scene.has_substrate = false;
+  RectangleShape plate;
+  plate.centre = Vector3(0, 0, 0.1);
+  plate.half_length = 0.1 * Vector3::UnitX();
+  plate.half_width = 0.1 * Vector3::UnitY();
+  const auto course = SubstrateMotion::constant({belt_velocity, 0});
+  scene.surfaces = {{plate, {}},
+                    {BallShape{{0.25, 0, -0.03}, 0.05}, {}},
+                    {PlaneShape{{0, 0, -0.1}, Vector3::UnitZ()},
+                     SurfaceMotion::belt(course, Vector3::UnitX(), Vector3::UnitY())}};
+  SurfaceContact contact;
+  contact.lasting.static_friction = contact.lasting.kinetic_friction = friction;
+  contact.lasting.restitution = restitution;
+  contact.impact.restitution = restitution;
+  contact.impact.friction = friction;
+  contact.impact.tangential_restitution = 0;
+  scene.on_surfaces.assign(scene.surfaces.size(), contact);
+  return scene;
+}
+
 /// A steel ball of 1 cm that slides along x on the plane.
 inline BodyState sliding_ball(double speed) {
   BodyState state;
