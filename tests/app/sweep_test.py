@@ -18,6 +18,9 @@ import time
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from sweep_store import contents, runs_in  # noqa: E402
+
 SLIPCHECK, SOURCE = sys.argv[1], Path(sys.argv[2])
 SLOW = "sanitized" in sys.argv[3:]
 
@@ -32,32 +35,6 @@ BLOCK = """sweep:
     phases: [4, 16]
 """
 RUNS = 80
-
-# What two sweeps that say the same may differ in.
-TIMES = {"cpu_seconds", "seconds"}
-
-
-def contents(path):
-    """All that a store says but times and the numbers of names."""
-    store = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
-    store.row_factory = sqlite3.Row
-    assert store.execute("PRAGMA integrity_check").fetchone()[0] == "ok"
-    names = dict(store.execute("SELECT id, name FROM names"))
-
-    def rows(table):
-        out = []
-        for row in store.execute(f"SELECT * FROM {table}"):
-            row = {key: row[key] for key in row.keys() if key not in TIMES}
-            if "observable" in row:
-                row["observable"] = names[row["observable"]]
-            out.append(tuple(sorted(row.items(), key=lambda item: item[0])))
-        return sorted(out, key=repr)
-
-    result = {table: rows(table)
-              for table in ("sweep", "parameters", "scenes", "reference", "runs", "observables")}
-    store.close()
-    return result
-
 
 class Sweeping(unittest.TestCase):
     maxDiff = 2000
@@ -85,10 +62,7 @@ class Sweeping(unittest.TestCase):
                            code=code, **options)
 
     def count(self, store):
-        connection = sqlite3.connect(f"file:{self.path / store}?mode=ro", uri=True)
-        count = connection.execute("SELECT count(*) FROM runs").fetchone()[0]
-        connection.close()
-        return count
+        return runs_in(self.path / store)
 
     def files(self):
         return sorted(each.name for each in self.path.iterdir())
@@ -142,7 +116,7 @@ class Sweeping(unittest.TestCase):
         file = self.written("long.yaml", text)
         process = subprocess.Popen([SLIPCHECK, "sweep", file, "-o", self.path / "s.db"],
                                    stderr=subprocess.PIPE, text=True)
-        while not (self.path / "s.db").exists() or self.started("s.db") == 0:
+        while not (self.path / "s.db").exists() or runs_in(self.path / "s.db") == 0:
             self.assertIsNone(process.poll())
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
@@ -156,12 +130,6 @@ class Sweeping(unittest.TestCase):
         self.assertEqual(connection.execute("SELECT DISTINCT status FROM runs").fetchall(),
                          [("ok",)])
         connection.close()
-
-    def started(self, store):
-        try:
-            return self.count(store)
-        except sqlite3.Error:
-            return 0
 
     def test_a_full_disk_loses_no_run(self):
         self.sweep("whole.db")
