@@ -202,6 +202,7 @@ void SweepPlan::add_requests(const Scenario& scenario) {
     reading.throw_faults();
     return;
   }
+  requests_.clear();
   for (const EngineRequest& request : requests_of(scenario)) {
     SweepChoice choice;
     choice.engine = request.engine;

@@ -102,7 +102,7 @@ class SweepPlan {
   std::vector<std::vector<std::uint64_t>> scene_keys_;       ///< of each part's rows; of none empty
   std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< of parameters: part, name
   /// What compare.engines asks for where the sweep names no engine; the slowest but the scene.
-  std::vector<SweepChoice> requests_;
+  std::vector<SweepChoice> requests_ = {{}};
   std::uint64_t runs_ = 1, scenes_ = 1;
   bool reference_alone_ = false;
 };
