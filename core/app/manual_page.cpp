@@ -86,6 +86,7 @@ std::string notes_of(const CommandWords& command, const char* heading) {
     else
       prose += line.empty() ? ".PP\n" : roff(line) + "\n";
   }
+  while (prose.ends_with(".PP\n")) prose.resize(prose.size() - 4);
   std::string text;
   if (!prose.empty()) text += ".PP\n" + prose;
   if (!examples.empty()) text += fmt::format("{} EXAMPLES\n.nf\n{}.fi\n", heading, examples);
