@@ -1,3 +1,6 @@
+# Where the installed program looks for workers, from its own folder (engine_registry.h).
+set(SLIPCHECK_WORKER_DIR libexec/slipcheck)
+
 # slipcheck_worker(<engine> <precision> SOURCES <file>... LIBRARIES <library>...)
 # The executable that the harness starts for an engine, and beside it, in profiles/<engine>, the
 # profiles of the calling folder.
@@ -10,6 +13,18 @@ function(slipcheck_worker engine precision)
     slipcheck_profiles(${engine})
   endif()
   add_dependencies(${worker} ${engine}_profiles)
+  slipcheck_component(${engine} component)
+  # What was not built, as the quick start builds no other engine, is not installed.
+  install(TARGETS ${worker} RUNTIME DESTINATION ${SLIPCHECK_WORKER_DIR} COMPONENT ${component} OPTIONAL)
+endfunction()
+
+# The component of the installation that an engine belongs to: Bullet comes with the program.
+function(slipcheck_component engine result)
+  set(component engine_${engine})
+  if(engine STREQUAL bullet)
+    set(component program)
+  endif()
+  set(${result} ${component} PARENT_SCOPE)
 endfunction()
 
 # The target <engine>_profiles: the files profiles/*.yaml of the calling folder, copied to where
@@ -25,4 +40,6 @@ function(slipcheck_profiles engine)
     list(APPEND copies ${copy})
   endforeach()
   add_custom_target(${engine}_profiles DEPENDS ${copies})
+  slipcheck_component(${engine} component)
+  install(FILES ${copies} DESTINATION ${SLIPCHECK_WORKER_DIR}/profiles/${engine} COMPONENT ${component} OPTIONAL)
 endfunction()

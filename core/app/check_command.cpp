@@ -233,10 +233,9 @@ void add_check_command(CLI::App& app, int& exit_code) {
   arguments->baselines = (*beside.begin() == ".." ? bundled_baselines() : beside).string();
   arguments->options.phases = 16;
   command->add_option("FILE", arguments->files, "Scenario files; else all bundled scenes");
-  command
-      ->add_option("--baselines", arguments->baselines,
-                   "Folder of the baselines, a file for each scene")
-      ->capture_default_str();
+  command->add_option(
+      "--baselines", arguments->baselines,
+      "Folder of the baselines, a file for each scene; else that of the bundled scenes");
   command->add_flag("--update", arguments->update,
                     "Propose new baselines: write those that changed, and a line in --changes");
   command->add_option("--why", arguments->why, "With --update: the reason, for that line");

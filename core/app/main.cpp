@@ -62,12 +62,14 @@ int run_command_line(int argc, char** argv) {
   add_run_command(app, exit_code);
   add_check_command(app, exit_code);
   add_engines_command(app, exit_code);
+  add_completion_command(app, exit_code);
   add_conformance_command(app, exit_code);
   add_convert_command(app, exit_code);
   add_explain_command(app, exit_code);
   add_figures_command(app, exit_code);
   add_gas_command(app, exit_code);
   add_list_command(app, exit_code);
+  add_manual_command(app, exit_code);
   add_merge_command(app, exit_code);
   add_precision_command(app, exit_code);
   add_query_command(app, exit_code);
