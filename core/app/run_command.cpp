@@ -206,6 +206,12 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command
+      ->add_option("--threads", arguments->options.threads,
+                   "Threads that share the reference of one scene of many soft contacts, with the "
+                   "same results; 0: one for each core")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command
       ->add_option("--time-limit", arguments->options.time_limit,
                    "Wall-clock seconds for one run of an engine, and for a scene's reference")
       ->check(positive_number())

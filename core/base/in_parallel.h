@@ -1,15 +1,11 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
-#include <exception>
 #include <functional>
-#include <mutex>
 #include <thread>
-#include <vector>
 
-#include "base/stop_scope.h"
+#include "base/thread_team.h"
 
 namespace slipcheck {
 
@@ -19,30 +15,7 @@ namespace slipcheck {
 inline void in_parallel(std::size_t count, std::size_t threads,
                         const std::function<void(std::size_t)>& work) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  std::atomic<std::size_t> next = 0;
-  std::exception_ptr failure;
-  std::size_t failed = count;
-  std::mutex failing;
-  const auto take_turns = [&] {
-    for (std::size_t k = next++; k < count; k = next++) try {
-        work(k);
-      } catch (...) {
-        const std::scoped_lock lock(failing);
-        if (k >= failed) continue;
-        failed = k;
-        failure = std::current_exception();
-      }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t t = 1; t < std::min(threads, count); ++t)
-      others.emplace_back([&, terms = StopScope::terms()] {
-        const StopScope scope(terms);
-        take_turns();
-      });
-    take_turns();
-  }
-  if (failure) std::rethrow_exception(failure);
+  ThreadTeam(std::clamp(threads, std::size_t{1}, std::max(count, std::size_t{1}))).run(count, work);
 }
 
 }  // namespace slipcheck

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "scenario/scenario.h"
 
 namespace slipcheck {
@@ -12,12 +14,16 @@ struct ReferenceSettings {
   /// Takes the loops that leave out nothing of what a scene may have: they give the same, to the
   /// last bit or to rounding.
   bool general = false;
+  /// That share each step of one scene of many soft contacts; 0: one for each core. The results are
+  /// the same bits.
+  std::size_t threads = 1;
 };
 
 /// What a scene asks for.
-inline ReferenceSettings reference_settings(const Scenario& scenario, bool general = false) {
+inline ReferenceSettings reference_settings(const Scenario& scenario, bool general = false,
+                                            std::size_t threads = 1) {
   return {scenario.compare.reference, scenario.run.most_events, scenario.compare.steps_per_contact,
-          general};
+          general, threads};
 }
 
 }  // namespace slipcheck

@@ -75,8 +75,9 @@ bool needs_piles(const ContactScene& scene, bool automatic) {
 /// Steps in the shortest contact of a scene in which none was asked for: hard contacts that last
 /// have an error of their own, soft ones are what is to be solved.
 constexpr double kStepsPerHard = 40, kStepsPerSoft = 200;
-/// Between two frames of a scene with hard contacts alone.
-constexpr std::size_t kStepsPerFrame = 8;
+/// Between two frames of a scene with hard contacts alone, and of one of many bodies, which cost as
+/// much to be looked at as to be stepped.
+constexpr std::size_t kStepsPerFrame = 8, kStepsPerFrameOfMany = 40;
 
 /// Bodies go straight on from collision to collision, and the rule for collapse is the one that
 /// PlanarSolver and EventSolver share.
@@ -192,6 +193,12 @@ void ReferenceSolver::choose_piles() {
   if (!laws.has_hard()) collision_time_ = 0;
 }
 
+bool ReferenceSolver::shares_steps() const {
+  const std::size_t bodies = scene_->hard.bodies.size();
+  return is_piled() ? bodies >= PileSettings{}.ordered_from
+                    : is_stepped() && bodies >= StepSettings{}.shared_from;
+}
+
 std::vector<std::string> ReferenceSolver::loop() const {
   return at_start(scene(), {}, {})->features();
 }
@@ -217,18 +224,21 @@ std::unique_ptr<Solver> ReferenceSolver::at_start(const ContactScene& scene,
     PileSettings settings;
     settings.collision_time = accuracy.softness * collision_time_;
     settings.general = settings_.general;
+    settings.threads = settings_.threads;
     const double per_contact = is_stepped()      ? settings_.steps_per_contact
                                : scene.is_hard() ? kStepsPerHard
                                                  : kStepsPerSoft;
     if (scene.is_hard()) settings.steps_per_frame = kStepsPerFrame;
+    if (shares_steps()) settings.steps_per_frame = kStepsPerFrameOfMany;
     const PileLaws laws(scene, settings.collision_time > 0 ? settings.collision_time : 1);
     settings.step = ends_on(end, accuracy.step * laws.shortest_contact() / per_contact);
     return std::make_unique<PileSolver>(scene, initial, settings);
   }
   if (is_stepped())
-    return std::make_unique<StepSolver>(
-        scene, initial,
-        StepSettings{.step = ends_on(end, accuracy.step * step_), .general = settings_.general});
+    return std::make_unique<StepSolver>(scene, initial,
+                                        StepSettings{.step = ends_on(end, accuracy.step * step_),
+                                                     .general = settings_.general,
+                                                     .threads = settings_.threads});
   if (scene.hard.box && resolved_) return std::make_unique<SoftBoxSolver>(scene, initial);
   if (scene.hard.box || straight_)
     return std::make_unique<PlanarSolver>(scene.hard, initial,

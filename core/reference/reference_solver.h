@@ -49,6 +49,8 @@ class ReferenceSolver {
   /// In steps of fixed length with contacts that remember; is_stepped() only where that was asked.
   bool is_piled() const { return piled_; }
   double step() const { return step_; }  ///< of `steps` [s], else 0
+  /// ReferenceSettings::threads would have something to share: many bodies in steps.
+  bool shares_steps() const;
   const ReferenceSettings& settings() const { return settings_; }
   /// What the loop that runs the scene was made for, in a few words each.
   std::vector<std::string> loop() const;

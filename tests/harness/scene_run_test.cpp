@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -217,6 +218,18 @@ TEST(SceneRun, WhatIsNotThereIsSkippedWithAReason) {
   EXPECT_EQ(scenes[0].runs[0].status, EngineRecord::Status::skipped);
   EXPECT_EQ(scenes[0].runs[0].reason, "faulty (single) is not installed");
   EXPECT_EQ(scenes[0].verdict(), Verdict::undecided);
+}
+
+TEST(SceneRun, SaysWhereThreadsHaveNothingToShare) {
+  const auto told = [](std::size_t threads) {
+    const auto scenes =
+        prepare_scenes({parse_scenario(pair_scene(""), "scene.yaml")}, false, 1, 60, threads);
+    return std::ranges::count_if(scenes[0].reference.warnings, [](const std::string& warning) {
+      return warning.starts_with("one thread: only scenes of many bodies");
+    });
+  };
+  EXPECT_EQ(told(1), 0);
+  EXPECT_EQ(told(2), 1);
 }
 
 TEST(SceneRun, APreparedSceneServesAnySettings) {

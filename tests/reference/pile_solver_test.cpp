@@ -8,31 +8,11 @@
 
 #include "../scenes.h"
 #include "physics/contact/linear_contact.h"
-#include "reference/piles/pile_neighbours.h"
 #include "reference/reference_solver.h"
 #include "sphere_piles.h"
 
 namespace slipcheck {
 namespace {
-
-TEST(PileNeighbours, AreAllThatAreNear) {
-  std::mt19937 dice(7);
-  std::uniform_real_distribution<double> place(-1, 1), size(0.02, 0.06);
-  std::vector<PileBody> bodies(400);
-  for (PileBody& body : bodies) {
-    body.radius = size(dice);
-    body.position = {place(dice), place(dice), 0.5 * place(dice)};
-  }
-  const double skin = 0.01;
-  std::vector<PilePair> expected;
-  for (std::uint32_t i = 0; i < bodies.size(); ++i)
-    for (std::uint32_t j = i + 1; j < bodies.size(); ++j)
-      if ((bodies[i].position - bodies[j].position).norm() <=
-          bodies[i].radius + bodies[j].radius + skin)
-        expected.push_back({i, j});
-  EXPECT_GT(expected.size(), 50u);
-  EXPECT_EQ(near_pairs(bodies, skin), expected);
-}
 
 struct Frames final : FrameSink {
   void take(double time, const Frame& frame) override {
@@ -85,9 +65,6 @@ TEST(PileSolver, SaysWhatItHasNot) {
   };
   const ContactScene good = with_hard_contacts(test::pile(2, 0.5, 0.5));
   ContactScene scene = good;
-  scene.hard.periodic = {1, 1};
-  refuses(scene, "periodic");
-  scene = good;
   scene.hard.confined = true;
   refuses(scene, "confined");
   scene = good;

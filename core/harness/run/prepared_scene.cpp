@@ -51,12 +51,13 @@ ReferenceResult guarded_reference(PreparedScene& scene, double time_limit) {
 }  // namespace
 
 std::vector<PreparedScene> prepare_scenes(std::vector<Scenario> scenarios, bool general,
-                                          std::size_t threads, double time_limit) {
+                                          std::size_t threads, double time_limit,
+                                          std::size_t in_scene) {
   std::vector<PreparedScene> scenes;
   scenes.reserve(scenarios.size());
   for (Scenario& scenario : scenarios) {
     auto contact = std::make_unique<const ContactScene>(make_contact_scene(scenario));
-    const ReferenceSolver solver(*contact, reference_settings(scenario, general));
+    const ReferenceSolver solver(*contact, reference_settings(scenario, general, in_scene));
     scenes.push_back({std::move(scenario), std::move(contact), solver, {}});
   }
   in_parallel(scenes.size(), threads, [&](std::size_t k) {

@@ -22,11 +22,12 @@ struct PreparedScene {
 /// Solves these scenes, as many at once as there are threads (0: one for each core); how many
 /// changes no bit. Throws Unsupported where no solver knows a model, before any is run. general: as
 /// of ReferenceSettings. time_limit: of wall time for each scene's reference, all its runs [s].
+/// in_scene: threads that share one scene, as of ReferenceSettings.
 ///
 /// A reference that throws, is interrupted or runs out of time has failed, with the reason in its
 /// run; it shows nothing, and the other scenes go on.
 std::vector<PreparedScene> prepare_scenes(
     std::vector<Scenario> scenarios, bool general = false, std::size_t threads = 1,
-    double time_limit = std::numeric_limits<double>::infinity());
+    double time_limit = std::numeric_limits<double>::infinity(), std::size_t in_scene = 1);
 
 }  // namespace slipcheck

@@ -198,6 +198,9 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
         "event takes soft contacts as instants, in the limit of stiff ones with the same law; "
         "contact "
         "resolves them as they are");
+  if (solver.settings().threads != 1 && !solver.shares_steps())
+    result.warnings.emplace_back(
+        "one thread: only scenes of many bodies in soft contacts are shared between several");
   for (const std::string& warning : solver.scene().warnings) result.warnings.push_back(warning);
   if (!result.run.reached) result.warnings.push_back("the run did not end: " + result.run.reason);
   if (result.run.collapses > 0)

@@ -21,6 +21,7 @@ struct RunOptions {
   /// than kMostRecordedBodies.
   bool record_motion = false;
   std::size_t workers = 0;  ///< at once; 0: one for each core
+  std::size_t threads = 1;  ///< that share one scene's reference, as of ReferenceSettings
   /// Of wall time for one phase of an engine, and for the reference of a scene [s], > 0.
   double time_limit = 60;
   WorkerLimits limits;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "physics/contact/capped_spring.h"
 #include "reference/piles/pile_law.h"
@@ -39,16 +40,26 @@ struct PileForce {
   }
 };
 
-/// Two that are near each other, and what they remember while they touch.
-struct PileContact {
-  std::uint32_t first = 0;
-  int second = kSubstrate;  ///< as of Touch
+/// What resists rolling and drilling.
+struct PileTurning {
+  SpringMemory<Vector3> rolling{Vector3::Zero()};
+  SpringMemory<double> drilling{0};
+  Vector3 rolling_dashpot = Vector3::Zero();  ///< [N m]
+  double drilling_dashpot = 0;                ///< [N m]
+};
+struct NoPileTurning {};
+
+/// Two that touch, and what they remember of each other. kTurns: rolling or drilling is resisted.
+template <bool kTurns>
+struct PileContact : std::conditional_t<kTurns, PileTurning, NoPileTurning> {
+  std::uint32_t first = 0;  ///< as of PileNear
+  int second = kSubstrate;
   bool touching = false;
   double impulse = 0;  ///< normal, since it was shown [N s]
   /// What a hard contact's normal spring is longer by than the bodies overlap, since it was
   /// prepared, until it opens [m].
   double offset = 0;
-  PileLaw law;
+  const PileLaw* law = nullptr;
 
   // As of the instant before.
   double overlap = 0;  ///< with the offset
@@ -58,10 +69,7 @@ struct PileContact {
   double normal_dashpot = 0;                  ///< the part of it that the overlap's rate makes [N]
   double stiffness = 0;                       ///< k_t [N/m]
   Vector3 sliding_dashpot = Vector3::Zero();  ///< the tangential force without the spring's [N]
-  Vector3 rolling_dashpot = Vector3::Zero();  ///< [N m]
-  double drilling_dashpot = 0;                ///< [N m]
-  SpringMemory<Vector3> sliding{Vector3::Zero()}, rolling{Vector3::Zero()};
-  SpringMemory<double> drilling{0};
+  SpringMemory<Vector3> sliding{Vector3::Zero()};
 };
 
 }  // namespace slipcheck

@@ -36,8 +36,6 @@ PileLaws::PileLaws(const ContactScene& scene, double collision_time)
     : scene_(&scene), collision_time_(collision_time) {
   const Scene& of = scene.hard;
   if (of.box) throw Unsupported("piles in a box of two dimensions: compare.reference may be event");
-  if (!of.periodic.isZero(0))
-    throw Unsupported("contacts with memory know no images across a periodic plane's edges");
   if (of.confined)
     throw Unsupported("contacts with memory have no plane that bodies never leave (confined)");
   const std::size_t materials = of.substrate.size(), surfaces = of.surfaces.size();
@@ -150,30 +148,32 @@ PileLaw PileLaws::of(std::size_t body, int second) const {
         soft ? of_soft(*soft)
              : of_hard(*pairs_[m * materials + scene.material[other]], scene.between(body, other),
                        effective_mass(sphere, partner), tangential_mass_ratio(sphere, partner));
-    law.most_overlap = (soft ? 1 : kDeepest) * std::min(sphere.radius, partner.radius);
+    law.deepest = soft ? 1 : kDeepest;
+    law.most_overlap = law.deepest * std::min(sphere.radius, partner.radius);
     return law;
   }
   PileLaw law;
-  law.most_overlap = kDeepest * sphere.radius;
   const double kappa = kappa_on_surface(sphere);
+  const auto no_deeper_than = [&](double deepest) {
+    law.deepest = deepest;
+    law.most_overlap = deepest * sphere.radius;
+  };
   if (second == kSubstrate) {
     const SubstrateContact& contact = scene.substrate[m];
-    const double most = law.most_overlap;
     law = of_hard(on_substrate_[m], as_pair(contact), sphere.mass, kappa);
-    law.most_overlap = most;
+    no_deeper_than(kDeepest);
     resist(contact, sphere, law);
     return law;
   }
   const std::size_t k = touched_surface(second), at = m * scene.surfaces.size() + k;
   if (!scene_->soft_surfaces.empty() && scene_->soft_surfaces[at]) {
     law = of_soft(*scene_->soft_surfaces[at]);
-    law.most_overlap = sphere.radius;
+    no_deeper_than(1);
     return law;
   }
   const SurfaceContact& contact = scene.on_surfaces[at];
-  const double most = law.most_overlap;
   law = of_hard(*on_surfaces_[at], contact.impact, sphere.mass, kappa);
-  law.most_overlap = most;
+  no_deeper_than(kDeepest);
   resist(contact.lasting, sphere, law);
   return law;
 }

@@ -19,6 +19,7 @@ struct PileLaw {
   bool clamped = true;      ///< ContactEnd::zero_force
   bool hard = false;        ///< stands for a hard contact; the normal force is linear
   double most_overlap = 0;  ///< beyond which nothing is meant to overlap [m], > 0
+  double deepest = 1;       ///< the same over the smaller radius [-], > 0
   SpringFriction sliding;
   SpringTorque rolling, drilling;
   /// Over the speed of the centre, of `rolling.length` [m] in place of a constant; null: none.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/thread_team.h"
 #include "physics/frame.h"
 #include "reference/piles/pile_body.h"
 #include "reference/piles/pile_law.h"
@@ -22,15 +23,27 @@ struct PileWorld {
   Vector3 gravity = Vector3::Zero();  ///< [m/s²]
   double drag = 0;                    ///< rate at which all motion dies out [1/s], >= 0
   bool dilates = false;               ///< hard contacts that slide press themselves open, below
+  /// Somebody asks for touches: what has ended is kept until then.
+  bool watched = false;
+  ThreadTeam* team = nullptr;  ///< null: this thread alone
+  /// In an order of the loop's own, in which neighbours are near in memory; and of each scene's
+  /// body its place among them. add() keeps both.
   std::vector<PileBody> bodies;
+  std::vector<std::uint32_t> place;
   PileLedger ledger;
   std::size_t collisions = 0;  ///< contacts of two bodies that have begun
   bool slid = false;           ///< a contact slid, since somebody looked
 
   double time() const { return static_cast<double>(n) * step; }
+  PileBody& add() {
+    place.push_back(static_cast<std::uint32_t>(bodies.size()));
+    return bodies.emplace_back();
+  }
+  PileBody& body(std::size_t i) { return bodies[place[i]]; }
+  const PileBody& body(std::size_t i) const { return bodies[place[i]]; }
   /// A body at the time of the positions, once its forces are known.
   BodyState state(std::size_t i) const {
-    const PileBody& b = bodies[i];
+    const PileBody& b = body(i);
     const double half = started ? 0.5 * step : 0;
     return {b.position, b.velocity + half * (b.force / b.mass + b.load * gravity),
             b.angular_velocity + half / b.inertia * b.torque};
@@ -49,6 +62,9 @@ struct PileWorld {
 /// which a pile under growing weights comes to an equilibrium whenever there is one (the limit
 /// theorems of plasticity; Drucker, Q. Appl. Math. 11, 381 (1954), on why Coulomb's law itself need
 /// not). What it then remembers is within the caps of Coulomb's law, which holds it from there on.
+///
+/// Many bodies are kept in the order of where they are, and what is near each other is shared out
+/// into slabs (PileSlabs), which several threads take: the same bits on any number of them.
 ///
 /// The ledger counts for each contact what its dashpots, its sliding springs and the springs that
 /// it drops take, each as force times way by the trapezoidal rule.
@@ -70,7 +86,9 @@ class PileLoop {
   virtual std::vector<std::string> features() const = 0;
 };
 
-/// The loop without what the scene lacks; `general`: with all there is.
-std::unique_ptr<PileLoop> make_pile_loop(const PileLaws& laws, bool general);
+/// The loop without what the scene lacks; `general`: with all there is. Both must outlive it.
+/// ordered_from: as of PileSlabs.
+std::unique_ptr<PileLoop> make_pile_loop(const PileLaws& laws, const ContactScene& scene,
+                                         bool general, std::size_t ordered_from);
 
 }  // namespace slipcheck

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "base/thread_team.h"
 #include "physics/numbers.h"
 #include "reference/events/event_solver.h"
+#include "reference/near_pairs.h"
 #include "reference/piles/pile_law.h"
 #include "reference/piles/pile_loop.h"
-#include "reference/piles/pile_neighbours.h"
 #include "reference/steps/step_solver.h"
 
 namespace slipcheck {
@@ -67,9 +69,12 @@ std::vector<bool> carried_bodies(const Scene& scene, std::span<const PileBody> b
   std::vector<bool> carried(bodies.size());
   double largest = 0;
   for (const PileBody& b : bodies) largest = std::max(largest, b.radius);
-  for (const auto& [i, j] : near_pairs(bodies, 2 * kTypedGap * largest)) {
+  std::vector<NearSphere> spheres;
+  for (const PileBody& b : bodies) spheres.push_back({b.position, b.radius});
+  for (const auto& [i, j] : near_pairs(spheres, 2 * kTypedGap * largest, scene.periodic)) {
     const double reach = bodies[i].radius + bodies[j].radius;
-    if ((bodies[i].position - bodies[j].position).norm() <= (1 + kTypedGap) * reach)
+    if (scene.to_nearest_image(bodies[i].position - bodies[j].position).norm() <=
+        (1 + kTypedGap) * reach)
       carried[i] = carried[j] = true;
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -91,7 +96,10 @@ class PileSolver::Impl {
         settings_(settings),
         laws_(scene,
               settings.collision_time > 0 ? settings.collision_time : pile_collision_time(scene)),
-        loop_(make_pile_loop(laws_, settings.general)) {
+        loop_(make_pile_loop(laws_, scene, settings.general, settings.ordered_from)) {
+    const std::size_t n = initial.size();
+    if (settings.threads != 1 && n >= settings.ordered_from)
+      world_.team = &team_.emplace(settings.threads);
     world_.scene = &scene;
     world_.laws = &laws_;
     world_.gravity = scene.hard.gravity_vector();
@@ -103,9 +111,10 @@ class PileSolver::Impl {
     else
       throw Unsupported(
           "steps of fixed length need a contact to be measured by, and nothing moves");
-    for (std::size_t i = 0; i < initial.size(); ++i) {
+    world_.bodies.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
       const Sphere& sphere = scene.hard.bodies[i];
-      PileBody& body = world_.bodies.emplace_back();
+      PileBody& body = world_.add();
       body.radius = sphere.radius;
       body.mass = sphere.mass;
       body.inertia = sphere.moment_of_inertia();
@@ -178,8 +187,8 @@ class PileSolver::Impl {
     double energy = 0;
     for (std::size_t i = 0; i < world_.bodies.size(); ++i) {
       const BodyState s = world_.state(i);
-      energy += 0.5 * world_.bodies[i].mass * s.velocity.squaredNorm() +
-                0.5 * world_.bodies[i].inertia * s.angular_velocity.squaredNorm();
+      energy += 0.5 * world_.body(i).mass * s.velocity.squaredNorm() +
+                0.5 * world_.body(i).inertia * s.angular_velocity.squaredNorm();
     }
     return energy;
   }
@@ -189,7 +198,8 @@ class PileSolver::Impl {
     const double kinetic = kinetic_energy();
     largest_kinetic_ = std::max(largest_kinetic_, kinetic);
     double energy = kinetic + loop_->elastic_energy();
-    for (const PileBody& b : world_.bodies) energy -= b.mass * world_.gravity.dot(b.position);
+    for (std::size_t i = 0; i < world_.bodies.size(); ++i)
+      energy -= world_.body(i).mass * world_.gravity.dot(world_.body(i).position);
     return energy;
   }
 
@@ -212,7 +222,7 @@ class PileSolver::Impl {
 
   bool has_moved(std::span<const Vector3> from) const {
     for (std::size_t i = 0; i < from.size(); ++i)
-      if ((world_.bodies[i].position - from[i]).norm() > kMostMoved * world_.bodies[i].radius)
+      if ((world_.body(i).position - from[i]).norm() > kMostMoved * world_.body(i).radius)
         return true;
     return false;
   }
@@ -225,8 +235,8 @@ class PileSolver::Impl {
     is_prepared_ = true;
     std::vector<Vector3> from;
     for (std::size_t i = 0; i < carried.size(); ++i) {
-      world_.bodies[i].load = carried[i] ? 1 : 0;
-      from.push_back(world_.bodies[i].position);
+      world_.body(i).load = carried[i] ? 1 : 0;
+      from.push_back(world_.body(i).position);
     }
     const Vector3 gravity = world_.gravity;
     const double unit =
@@ -270,6 +280,7 @@ class PileSolver::Impl {
 
   /// Goes on to the end; whether it came there before the limit.
   bool has_ended(const RunEnd& end, FrameSink* sink) {
+    world_.watched = sink != nullptr;
     loop_->find_forces(world_);
     if (!initial_energy_) {
       world_.ledger = {};  // what touches from the start came with its energy
@@ -331,7 +342,7 @@ class PileSolver::Impl {
       return false;
     std::vector<BodyState> ahead = states();
     for (std::size_t i = 0; i < ahead.size(); ++i) {
-      ahead[i].position.z() = world_.bodies[i].radius;
+      ahead[i].position.z() = world_.body(i).radius;
       ahead[i].velocity.z() = 0;
     }
     const double meeting = EventSolver(hard, ahead).next_collision(limit - world_.time(), 0);
@@ -343,6 +354,7 @@ class PileSolver::Impl {
   PileSettings settings_;
   PileLaws laws_;
   std::unique_ptr<PileLoop> loop_;
+  std::optional<ThreadTeam> team_;
   PileWorld world_;
   Frame frame_;
   std::string failure_;

@@ -22,6 +22,10 @@ struct PileSettings {
   bool prepare = true;
   bool skip_rest = true;  ///< the rest of a run in which nothing changes any more
   bool general = false;   ///< takes the loop that leaves out nothing
+  /// That share each step of many bodies; 0: one for each core. The results are the same bits.
+  std::size_t threads = 1;
+  /// So many bodies are many: they are sorted by where they are (PileSlabs).
+  std::size_t ordered_from = 2000;
 };
 
 /// Spheres that touch each other, the substrate and surfaces, any number at once, in contacts that

@@ -10,7 +10,7 @@ void GrainLoop::find_forces(StepWorld& world) {
     states.reserve(world.bodies.size());
     for (const StepBody& body : world.bodies)
       states.push_back({body.position, body.velocity, body.angular_velocity});
-    solver_.emplace(*scene_, states, world.step);
+    solver_.emplace(*scene_, states, world.step, threads_);
   }
   world.touching = solver_->touching();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@ namespace slipcheck {
 class GrainLoop final : public StepKernel {
  public:
   /// The scene must outlive this and have no grain_refusal().
-  explicit GrainLoop(const ContactScene& scene) : scene_(&scene) {}
+  GrainLoop(const ContactScene& scene, std::size_t threads) : scene_(&scene), threads_(threads) {}
 
   void find_forces(StepWorld& world) override;
   void advance(StepWorld& world, std::size_t steps, StepStop stop) override;
@@ -23,6 +24,7 @@ class GrainLoop final : public StepKernel {
 
  private:
   const ContactScene* scene_;
+  std::size_t threads_;
   std::optional<GrainSolver> solver_;  ///< from the bodies of the first StepWorld seen
 };
 

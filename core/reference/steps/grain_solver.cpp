@@ -4,10 +4,12 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 
 #include "base/stop_scope.h"
+#include "base/thread_team.h"
 #include "physics/numbers.h"
 #include "reference/steps/grain_islands.h"
 #include "reference/steps/grain_kernels.h"
@@ -41,8 +43,12 @@ double folded(double x, double length, std::int64_t& image) {
 
 class GrainSolver::Impl {
  public:
-  Impl(const ContactScene& scene, std::span<const BodyState> initial, double step)
-      : scene_(&scene), step_(step), kernels_(grain_kernels(scene, initial, grains_.kind)) {
+  Impl(const ContactScene& scene, std::span<const BodyState> initial, double step,
+       std::size_t threads)
+      : scene_(&scene),
+        step_(step),
+        kernels_(grain_kernels(scene, initial, grains_.kind)),
+        team_(threads) {
     assert(step > 0 && initial.size() == scene.hard.bodies.size());
     const std::size_t n = initial.size();
     std::vector<std::uint32_t> kind = std::move(grains_.kind);
@@ -255,13 +261,14 @@ class GrainSolver::Impl {
 
   /// So many steps, or none where a grain got faster than foreseen.
   bool run_block(std::size_t length) {
-    near_.clear();
-    kernels_.find_near(grains_, neighbours_.first(), neighbours_.second(), margin(length), near_);
+    find_near(margin(length));
     islands_.find(grains_.size(), neighbours_.first(), neighbours_.second(), near_);
     const std::vector<std::uint32_t>& active = islands_.grains();
     batch_.resize(active.size());
-    for (std::size_t k = 0; k < active.size(); ++k)
-      batch_.take(k, grains_, active[k], kernels_.kinds());
+    share(active.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k)
+        batch_.take(k, grains_, active[k], kernels_.kinds());
+    });
     const std::vector<GrainPair> pairs = pairs_of(near_);
     batch_.pairs.resize(pairs.size());
     for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -269,10 +276,14 @@ class GrainSolver::Impl {
       pair.a = islands_.place(pair.a);
       pair.b = islands_.place(pair.b);
     }
-    std::size_t begun = 0;
-    for (const GrainGroup& group : islands_.groups())
-      begun +=
-          kernels_.run(batch_, group, {step_, n_ == 0 ? 0.5 * step_ : step_, length, true, n_ > 0});
+    // Groups share no grain: whoever takes them, each does the same.
+    const std::vector<GrainGroup>& groups = islands_.groups();
+    begun_.assign(groups.size(), 0);
+    team_.run(groups.size(), [&](std::size_t k) {
+      begun_[k] = kernels_.run(batch_, groups[k],
+                               {step_, n_ == 0 ? 0.5 * step_ : step_, length, true, n_ > 0});
+    });
+    const std::size_t begun = std::accumulate(begun_.begin(), begun_.end(), std::size_t{0});
     double fastest2 = 0;
     for (const double each : batch_.fastest) fastest2 = std::max(fastest2, each);
     if (std::sqrt(fastest2) > bound(length)) {
@@ -283,7 +294,9 @@ class GrainSolver::Impl {
     // Grains at rest stay; the first kick is half as long, and without friction there is none.
     const double still2 =
         n_ == 0 && features().on_plane ? begin_gliding() : kernels_.glide(grains_, step_, length);
-    for (std::size_t k = 0; k < active.size(); ++k) grains_.take(active[k], batch_.grains, k);
+    share(active.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) grains_.take(active[k], batch_.grains, k);
+    });
     keep_contacts(pairs.size());
     collisions_ += begun;
     fastest_ = std::sqrt(std::max(fastest2, still2));
@@ -292,6 +305,33 @@ class GrainSolver::Impl {
                static_cast<double>(length);
     last_length_ = length;
     return true;
+  }
+
+  /// Calls work(first, last) for shares of 0 … count − 1.
+  template <class Work>
+  void share(std::size_t count, const Work& work) {
+    constexpr std::size_t kShare = 4096;
+    team_.run((count + kShare - 1) / kShare,
+              [&](std::size_t k) { work(k * kShare, std::min(count, (k + 1) * kShare)); });
+  }
+
+  void find_near(double margin) {
+    const std::vector<std::uint32_t>&first = neighbours_.first(), &second = neighbours_.second();
+    near_.clear();
+    if (team_.size() == 1) {
+      kernels_.find_near(grains_, first, second, margin, near_);
+      return;
+    }
+    constexpr std::size_t kShare = 16384;
+    found_.resize((first.size() + kShare - 1) / kShare);
+    team_.run(found_.size(), [&](std::size_t k) {
+      const std::size_t from = k * kShare, count = std::min(kShare, first.size() - from);
+      found_[k].clear();
+      kernels_.find_near(grains_, std::span(first).subspan(from, count),
+                         std::span(second).subspan(from, count), margin, found_[k]);
+      for (std::uint32_t& each : found_[k]) each += static_cast<std::uint32_t>(from);
+    });
+    for (const auto& found : found_) near_.insert(near_.end(), found.begin(), found.end());
   }
 
   /// The first step with its half kick.
@@ -330,12 +370,16 @@ class GrainSolver::Impl {
   GrainNeighbours neighbours_;
   GrainIslands islands_;
   std::vector<std::uint32_t> near_, place_of_;
+  std::vector<std::vector<std::uint32_t>> found_;  ///< near ones, by share of the list
+  std::vector<std::size_t> begun_;                 ///< contacts, by group
+  ThreadTeam team_;
   GrainBatch batch_;
   std::vector<Contact> touching_;  ///< in the order of the list
 };
 
-GrainSolver::GrainSolver(const ContactScene& scene, std::span<const BodyState> initial, double step)
-    : impl_(std::make_unique<Impl>(scene, initial, step)) {}
+GrainSolver::GrainSolver(const ContactScene& scene, std::span<const BodyState> initial, double step,
+                         std::size_t threads)
+    : impl_(std::make_unique<Impl>(scene, initial, step, threads)) {}
 GrainSolver::~GrainSolver() = default;
 GrainSolver::GrainSolver(GrainSolver&&) noexcept = default;
 

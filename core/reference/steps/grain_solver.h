@@ -22,8 +22,10 @@ class GrainSolver {
   /// The machine's that the loop is compiled for: "AVX3".
   static std::string instruction_set();
 
-  /// The scene must outlive the solver and have no grain_refusal(). step: h [s], > 0.
-  GrainSolver(const ContactScene& scene, std::span<const BodyState> initial, double step);
+  /// The scene must outlive the solver and have no grain_refusal(). step: h [s], > 0; threads: that
+  /// share its islands, 0: one for each core; any number gives the same bits.
+  GrainSolver(const ContactScene& scene, std::span<const BodyState> initial, double step,
+              std::size_t threads = 1);
   ~GrainSolver();
   GrainSolver(GrainSolver&&) noexcept;
 

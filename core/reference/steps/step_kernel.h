@@ -51,10 +51,12 @@ class StepKernel {
   virtual std::vector<std::string> features() const = 0;
 };
 
-/// The loop that leaves out what the scene lacks; `general`: the one that has everything, between
-/// all pairs. Throws Unsupported where bodies could meet whose contact is hard, and for a periodic
-/// plane where the loop cannot be GrainLoop.
+struct StepSettings;
+
+/// The loop that leaves out what the scene lacks; StepSettings::general: the one that has
+/// everything. Throws Unsupported where bodies could meet whose contact is hard.
 std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
-                                             std::span<const BodyState> initial, bool general);
+                                             std::span<const BodyState> initial,
+                                             const StepSettings& settings);
 
 }  // namespace slipcheck

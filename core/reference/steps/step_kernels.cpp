@@ -9,6 +9,7 @@
 #include "reference/steps/grain_scene.h"
 #include "reference/steps/step_kernel.h"
 #include "reference/steps/step_loop.h"
+#include "reference/steps/step_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -79,20 +80,26 @@ const char* name_of(const Tangential& law) {
   return kNames[law.index()];
 }
 
-/// More are GrainLoop's.
-constexpr std::size_t kMostInAllPairs = 24;
+std::size_t threads_for(const Scene& scene, const StepSettings& settings) {
+  return scene.bodies.size() >= settings.shared_from ? settings.threads : 1;
+}
 
 template <class Normal, class Tangential_>
 std::unique_ptr<StepKernel> make(std::vector<StepLaw<Normal, Tangential_>> laws,
                                  const ContactScene& contacts, std::span<const BodyState> initial,
-                                 bool general, std::vector<std::string> features) {
+                                 const StepSettings& settings, std::vector<std::string> features) {
   const Scene& scene = contacts.hard;
+  std::unique_ptr<StepNeighbours> neighbours;
+  if (scene.bodies.size() > settings.most_in_all_pairs || !scene.periodic.isZero(0))
+    neighbours = std::make_unique<StepNeighbours>(scene.periodic, threads_for(scene, settings));
   const auto loop = [&](auto substrate, const char* name) -> std::unique_ptr<StepKernel> {
     features.emplace_back(name);
+    if (neighbours) features.emplace_back("many bodies: neighbours in cells by radius");
     return std::make_unique<StepLoop<Normal, Tangential_, decltype(substrate)>>(
-        std::move(laws), scene.material, scene.substrate.size(), std::move(features));
+        std::move(laws), scene.material, scene.substrate.size(), std::move(neighbours),
+        std::move(features));
   };
-  if (general) return loop(FullSubstrate{}, "any substrate");
+  if (settings.general) return loop(FullSubstrate{}, "any substrate");
   if (is_bare(contacts, initial))
     return loop(BareSubstrate{}, "level, still substrate without friction or lift-off");
   if (is_plain(scene))
@@ -103,8 +110,10 @@ std::unique_ptr<StepKernel> make(std::vector<StepLaw<Normal, Tangential_>> laws,
 }  // namespace
 
 std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
-                                             std::span<const BodyState> initial, bool general) {
+                                             std::span<const BodyState> initial,
+                                             const StepSettings& settings) {
   const Scene& hard = scene.hard;
+  const bool general = settings.general;
   const std::size_t materials = hard.substrate.size();
   const SoftContact* some = nullptr;
   bool mixed = false;
@@ -129,11 +138,9 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
     }
   const std::string not_grains = grain_refusal(scene, initial);
   const bool periodic = !hard.periodic.isZero(0);
-  if (not_grains.empty() && !general && (periodic || hard.bodies.size() > kMostInAllPairs))
-    return std::make_unique<GrainLoop>(scene);
-  if (periodic)
-    throw Unsupported("a periodic plane has no steps of fixed length" +
-                      (general ? std::string(" in the general loop") : ": " + not_grains));
+  if (not_grains.empty() && !general &&
+      (periodic || hard.bodies.size() > settings.most_in_all_pairs))
+    return std::make_unique<GrainLoop>(scene, threads_for(hard, settings));
   // One body alone: any law will do.
   const SoftContact none{LinearForce{}, ContactEnd::zero_overlap, NoTangentialForce{}};
   if (!some) some = &none;
@@ -154,7 +161,7 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
                      [](const SoftContact& contact) {
                        return Law{{contact.normal}, {tangential_of(contact)}, false};
                      }),
-                scene, initial, general, {"any normal force", "any tangential force"});
+                scene, initial, settings, {"any normal force", "any tangential force"});
   }
   return std::visit(
       [&](const auto& normal, const auto& tangential) {
@@ -166,7 +173,8 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
                            return Law{std::get<Normal>(contact.normal),
                                       std::get<Rubbing>(tangential_of(contact)), false};
                          }),
-                    scene, initial, false, {name_of(some->normal), name_of(tangential_of(*some))});
+                    scene, initial, settings,
+                    {name_of(some->normal), name_of(tangential_of(*some))});
       },
       some->normal, tangential_of(*some));
 }

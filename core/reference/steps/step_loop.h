@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "base/stop_scope.h"
+#include "physics/numbers.h"
 #include "reference/steps/step_kernel.h"
+#include "reference/steps/step_neighbours.h"
 #include "reference/steps/step_pair.h"
 
 namespace slipcheck {
@@ -28,22 +31,26 @@ struct StepLaw {
 /// A contact that begins or ends within a step gets the impulse of the part of the step that it
 /// had, by the trapezoidal rule; a force that starts or ends with a jump would else leave an error
 /// of first order.
+///
+/// A few bodies go over all pairs; more of them, and those on a periodic plane, over StepNeighbours
+/// in the same order: what is far apart adds nothing, so that both give the same bits.
 template <class Normal, class Tangential, class Substrate>
 class StepLoop final : public StepKernel {
  public:
   using Law = StepLaw<Normal, Tangential>;
 
-  /// laws: by material × material; material: of each body.
+  /// laws: by material × material; material: of each body; neighbours: null: all pairs.
   StepLoop(std::vector<Law> laws, std::vector<std::size_t> material, std::size_t materials,
-           std::vector<std::string> features)
+           std::unique_ptr<StepNeighbours> neighbours, std::vector<std::string> features)
       : features_(std::move(features)),
         laws_(std::move(laws)),
         material_(std::move(material)),
         materials_(materials),
-        pairs_(material_.size() * (material_.size() - 1) / 2) {}
+        neighbours_(std::move(neighbours)),
+        pairs_(neighbours_ ? 0 : material_.size() * (material_.size() - 1) / 2) {}
 
   void find_forces(StepWorld& world) override {
-    if (!world.forces_known) forces(world);
+    if (!world.forces_known) neighbours_ ? forces_of_neighbours(world) : forces(world);
     world.forces_known = true;
   }
 
@@ -119,6 +126,11 @@ class StepLoop final : public StepKernel {
   template <class Visit>
   void for_each_pair(const StepWorld& world, const Visit& visit) const {
     std::size_t k = 0;
+    if (neighbours_) {
+      for (const StepNeighbour& near : neighbours_->all())
+        visit(near.first, near.second, pairs_[k++]);
+      return;
+    }
     for (std::size_t j = 1; j < world.bodies.size(); ++j)
       for (std::size_t i = 0; i < j; ++i) visit(i, j, pairs_[k++]);
   }
@@ -130,12 +142,41 @@ class StepLoop final : public StepKernel {
       return Vector2::Zero();
   }
 
-  void forces(StepWorld& world) {
+  static void begin_forces(StepWorld& world) {
     world.touching = 0;
     for (StepBody& b : world.bodies) {
       b.force.setZero();
       b.torque.setZero();
     }
+  }
+
+  [[gnu::noinline]] void forces_of_neighbours(StepWorld& world) {
+    if (!neighbours_->cover())
+      neighbours_->find(world, pairs_, [](const Pair& pair) { return pair.touching; });
+    begin_forces(world);
+    std::size_t k = 0;
+    for (const StepNeighbour& near : neighbours_->all()) {
+      StepBody &a = world.bodies[near.first], &b = world.bodies[near.second];
+      Pair& pair = pairs_[k++];
+      const double reach = a.radius + b.radius;
+      Vector3 between = a.position - b.position;
+      between.head<2>() -= near.shift;
+      const double distance2 = between.squaredNorm();
+      if (distance2 <= reach * reach)
+        meet(world, a, b, pair, law_of(near.first, near.second), between, reach,
+             std::sqrt(distance2));
+      else if (pair.touching)
+        part(world, a, b, pair, law_of(near.first, near.second), between, reach,
+             std::sqrt(distance2));
+    }
+  }
+
+  const Law& law_of(std::size_t i, std::size_t j) const {
+    return laws_[material_[i] * materials_ + material_[j]];
+  }
+
+  void forces(StepWorld& world) {
+    begin_forces(world);
     std::size_t k = 0;
     for (std::size_t j = 1; j < world.bodies.size(); ++j) {
       StepBody& b = world.bodies[j];
@@ -145,11 +186,9 @@ class StepLoop final : public StepKernel {
         const Vector3 between = a.position - b.position;
         const double distance2 = between.squaredNorm();
         if (distance2 <= reach * reach)
-          meet(world, a, b, pairs_[k], laws_[material_[i] * materials_ + material_[j]], between,
-               reach, std::sqrt(distance2));
+          meet(world, a, b, pairs_[k], law_of(i, j), between, reach, std::sqrt(distance2));
         else if (pairs_[k].touching)
-          part(world, a, b, pairs_[k], laws_[material_[i] * materials_ + material_[j]], between,
-               reach, std::sqrt(distance2));
+          part(world, a, b, pairs_[k], law_of(i, j), between, reach, std::sqrt(distance2));
       }
     }
   }
@@ -276,20 +315,33 @@ class StepLoop final : public StepKernel {
       s.velocity_before = s.velocity;
       s.velocity = velocity_of_substrate(world, world.time() + 0.5 * h);
     }
-    for (StepBody& b : world.bodies) {
+    const auto go_on = [&](StepBody& b) {
       kick<Substrate>(b, s, dt);
       b.position += h * b.velocity;
-      if constexpr (std::is_same_v<Substrate, BareSubstrate>) continue;
+      if constexpr (std::is_same_v<Substrate, BareSubstrate>) return;
       if (!b.supported && b.position.z() < b.radius && b.velocity.z() < 0) [[unlikely]]
         land_after_drift(b, s, world.slowest_rebound);
+    };
+    if (!neighbours_) {
+      for (StepBody& b : world.bodies) go_on(b);
+      return;
     }
+    double longest2 = 0;
+    for (StepBody& b : world.bodies) {
+      const Vector3 before = b.position;
+      go_on(b);
+      const double way2 = (b.position - before).squaredNorm();
+      longest2 = way2 <= longest2 ? longest2 : std::isnan(way2) ? kNever : way2;
+    }
+    neighbours_->move(std::sqrt(longest2), world);
   }
 
   std::vector<std::string> features_;
   std::vector<Law> laws_;
   std::vector<std::size_t> material_;
   std::size_t materials_;
-  std::vector<Pair> pairs_;
+  std::unique_ptr<StepNeighbours> neighbours_;  ///< null: a few bodies, all pairs
+  std::vector<Pair> pairs_;                     ///< by neighbours, or by (j, i) with i < j
 };
 
 }  // namespace slipcheck

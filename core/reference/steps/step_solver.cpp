@@ -8,6 +8,7 @@
 #include "physics/numbers.h"
 #include "reference/events/event_solver.h"
 #include "reference/events/path_collision.h"
+#include "reference/near_pairs.h"
 #include "reference/steps/step_kernel.h"
 
 namespace slipcheck {
@@ -54,7 +55,7 @@ StepBody make_body(const Scene& scene, std::size_t i, const BodyState& state,
 class StepSolver::Impl {
  public:
   Impl(const ContactScene& scene, std::span<const BodyState> initial, const StepSettings& settings)
-      : scene_(&scene), kernel_(make_step_kernel(scene, initial, settings.general)) {
+      : scene_(&scene), kernel_(make_step_kernel(scene, initial, settings)) {
     assert(settings.step > 0 && initial.size() == scene.hard.bodies.size());
     const Scene& hard = scene.hard;
     world_.step = settings.step;
@@ -98,22 +99,24 @@ class StepSolver::Impl {
   double energy() {
     const Scene& hard = scene_->hard;
     const std::vector<BodyState> all = states();
+    std::vector<NearSphere> spheres;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      spheres.push_back({all[i].position, hard.bodies[i].radius});
     double energy = 0;
-    for (std::size_t j = 0; j < all.size(); ++j) {
-      const BodyState& s = all[j];
-      const Sphere& sphere = hard.bodies[j];
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const BodyState& s = all[i];
+      const Sphere& sphere = hard.bodies[i];
       energy +=
           0.5 * sphere.mass * s.velocity.squaredNorm() +
           0.5 * sphere.moment_of_inertia() * s.angular_velocity.squaredNorm() +
           sphere.mass * (hard.gravity * s.position.z() - hard.downhill.dot(s.position.head<2>()));
-      for (std::size_t i = 0; i < j; ++i) {
-        const double overlap =
-            hard.bodies[i].radius + sphere.radius - (all[i].position - s.position).norm();
-        const std::optional<SoftContact>& contact = scene_->between(i, j);
-        if (overlap > 0 && contact)
-          energy +=
-              std::visit([&](const auto& law) { return law.energy(overlap); }, contact->normal);
-      }
+    }
+    for (const auto& [i, j] : near_pairs(spheres, 0, hard.periodic)) {
+      const double apart = hard.to_nearest_image(all[i].position - all[j].position).norm();
+      const double overlap = hard.bodies[i].radius + hard.bodies[j].radius - apart;
+      const std::optional<SoftContact>& contact = scene_->between(i, j);
+      if (overlap > 0 && contact)
+        energy += std::visit([&](const auto& law) { return law.energy(overlap); }, contact->normal);
     }
     return energy;
   }
@@ -160,12 +163,24 @@ class StepSolver::Impl {
     double first = kNever;
     for (std::size_t j = 1; j < all.size(); ++j)
       for (std::size_t i = 0; i < j; ++i) {
-        const Vector3 dx = all[i].position - all[j].position;
+        const Vector3 dx = hard.to_nearest_image(all[i].position - all[j].position);
         const Vector3 dv = all[i].velocity - all[j].velocity;
         const double reach = hard.bodies[i].radius + hard.bodies[j].radius;
-        const double t = time_to_touch(dx, dv, Vector3::Zero(), reach, limit);
+        const double t = std::min(time_to_touch(dx, dv, Vector3::Zero(), reach, limit),
+                                  time_to_other_image(dx, dv));
         if (t <= limit) first = std::min(first, 0.5 * t);
       }
+    return first;
+  }
+
+  /// In what time another image than the nearest may be reached, on a periodic plane.
+  double time_to_other_image(const Vector3& dx, const Vector3& dv) const {
+    double first = kNever;
+    for (int k = 0; k < 2; ++k) {
+      const double period = scene_->hard.periodic[k], speed = std::abs(dv[k]);
+      if (period > 0 && speed > 0)
+        first = std::min(first, std::max(0.0, 0.5 * period - std::abs(dx[k])) / speed);
+    }
     return first;
   }
 

@@ -18,9 +18,14 @@ struct StepSettings {
   /// A landing that would rebound slower than this fraction of the scene's speed does not; nor does
   /// one slower than what gravity adds in a step.
   double landing_fraction = 1e-10;
-  /// Takes the loop that leaves out nothing. Between all pairs the results are the same to the last
-  /// bit; GrainLoop adds in another order.
+  /// Takes the loop that leaves out nothing. The results are the same to the last bit but where
+  /// GrainLoop adds in another order.
   bool general = false;
+  /// More bodies are GrainLoop's, or have their neighbours looked for.
+  std::size_t most_in_all_pairs = 24;
+  /// That share each step of many bodies; 0: one for each core. The results are the same bits.
+  std::size_t threads = 1;
+  std::size_t shared_from = 1000;  ///< so many bodies are many
 };
 
 /// The steps are too long for what the bodies do.
@@ -43,7 +48,7 @@ class StepTooLong : public std::runtime_error {
 class StepSolver final : public Solver {
  public:
   /// The scene must outlive the solver. Throws Unsupported where bodies could meet whose contact is
-  /// hard, or on a periodic plane with what GrainLoop has not.
+  /// hard.
   StepSolver(const ContactScene& scene, std::span<const BodyState> initial,
              const StepSettings& settings);
   ~StepSolver() override;

@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Runs LAMMPS (Debian's package lammps) and PileSolver on the same spheres that settle in a container,
+one after the other and several times in turn, and prints both rates and their ratio.
+
+usage: beds.py BUILD_FOLDER [--quick] [--ranks N]
+
+Rates are millions of particle-steps a second of CPU time, the best of the turns; with --ranks of wall
+time, LAMMPS on N ranks beside as many threads. `height` is how far the mean heights in the end are
+apart.
+"""
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).parent
+TURNS = 3
+SKIN = 0.002  # of the peer [m], the fastest of 0.001, 0.002, 0.003
+
+
+def ours(build, n, ratio, warm, steps, threads, data):
+    out = subprocess.run([build / "beds", *map(str, (n, ratio, warm, steps, threads)), data],
+                         capture_output=True, text=True, check=True).stdout.split()
+    rate, height, _, cpu, *constants = map(float, out)
+    if threads == 1:
+        rate = n * steps / cpu
+    return rate / 1e6, height, constants
+
+
+def peer(n, warm, steps, ranks, constants, data, folder):
+    log = folder / "log"
+    step, kn, gamma, side = constants
+    start = ["mpirun", "--oversubscribe", "--allow-run-as-root", "-n", str(ranks)] if ranks > 1 else []
+    values = {"data": data, "skin": SKIN, "warm": warm, "steps": steps, "kn": repr(kn),
+              "gamma": repr(gamma), "side": repr(side), "step": repr(step)}
+    subprocess.run([*start, "lmp", "-in", HERE / "bed.lmp", "-log", log, "-screen", "none",
+                    *(word for key, value in values.items() for word in ("-var", key, str(value)))],
+                   env=dict(os.environ, OMP_NUM_THREADS="1"), check=True)
+    text = log.read_text()
+    seconds = float(re.findall(r"Loop time of (\S+)", text)[-1])
+    if ranks == 1:
+        seconds *= float(re.findall(r"([\d.]+)% CPU use", text)[-1]) / 100
+    height = float(re.findall(rf"^\s*{warm + steps}\s+(\S+)", text, re.M)[-1])
+    return n * steps / seconds / 1e6, height
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("build", type=Path)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--ranks", type=int, default=1)
+    arguments = parser.parse_args()
+    if not shutil.which("lmp"):
+        sys.exit("beds.py: LAMMPS is not installed (apt-get install lammps)")
+    sizes = [(1000, 2000, 10000), (10000, 2000, 2000), (100000, 1000, 400)]
+    if arguments.quick:
+        sizes = [(1000, 1000, 3000), (10000, 1000, 1000)]
+    print(f"{'spheres':>10} {'LAMMPS':>8} {'ours':>8} {'ratio':>6} {'height':>9}")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for n, warm, steps in sizes:
+            best, theirs = (0, 0, None), (0, 0)
+            for _ in range(TURNS):
+                best = max(best, ours(arguments.build, n, 1, warm, steps, arguments.ranks,
+                                      folder / "data"))
+                theirs = max(theirs, peer(n, warm, steps, arguments.ranks, best[2],
+                                          folder / "data", folder))
+            print(f"{n:>10} {theirs[0]:>8.2f} {best[0]:>8.2f} {best[0] / theirs[0]:>6.2f} "
+                  f"{best[1] / theirs[1] - 1:>+9.2%}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+#include "base/stop_scope.h"
+
+namespace slipcheck {
+
+/// Threads that wait for work, so that giving them some costs microseconds: loops that come again
+/// in every step share one team. One thread gives work; while it waits for the others it takes a
+/// part of it.
+class ThreadTeam {
+ public:
+  /// `threads`: with the one that gives the work, >= 1; 0: one for each core.
+  explicit ThreadTeam(std::size_t threads);
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  std::size_t size() const { return others_.size() + 1; }
+
+  /// Calls `work` with 0 … count − 1, each once, and returns when all have returned. What one of
+  /// them throws is thrown on then, of several that of the lowest number. What stops the calling
+  /// thread stops them all. Nothing that `work` does may give work to the same team.
+  template <class Work>
+  void run(std::size_t count, Work&& work) {
+    using Function = std::remove_reference_t<Work>;
+    share(
+        count, [](void* each, std::size_t k) { (*static_cast<Function*>(each))(k); },
+        const_cast<void*>(static_cast<const void*>(&work)));
+  }
+
+ private:
+  using Call = void (*)(void*, std::size_t);
+
+  void share(std::size_t count, Call call, void* work);
+  void take_turns();
+  void wait_for_work();
+
+  Call call_ = nullptr;
+  void* work_ = nullptr;
+  std::size_t count_ = 0;
+  StopScope::Terms terms_;
+  std::exception_ptr failure_;
+  std::size_t failed_ = 0;
+  std::mutex failing_;
+  bool ends_ = false;
+
+  alignas(64) std::atomic<std::uint32_t> round_ = 0;  ///< of work, told to the others
+  alignas(64) std::atomic<std::size_t> next_ = 0;
+  alignas(64) std::atomic<std::uint32_t> busy_ = 0;  ///< others that are not done with the round
+  std::vector<std::jthread> others_;
+};
+
+}  // namespace slipcheck

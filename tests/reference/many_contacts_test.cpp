@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../../bench/soft_bed.h"
+#include "physics/numbers.h"
+#include "reference/piles/pile_solver.h"
+
+namespace slipcheck {
+namespace {
+
+using bench::soft_bed;
+using bench::SoftBed;
+
+/// Of hard contacts with a plane [s], about as short as the lightest spheres' own.
+constexpr double kOnPlane = 2e-4;
+constexpr std::size_t kAlwaysOneList = ~std::size_t{0};
+
+struct Impulses final : FrameSink {
+  void take(double, const Frame& frame) override {
+    for (const Touch& touch : frame.touches) sum += touch.normal_impulse;
+    EXPECT_TRUE(std::ranges::is_sorted(
+        frame.touches, {}, [](const Touch& t) { return std::pair(t.first, t.second); }));
+  }
+  double sum = 0;
+};
+
+struct Ended {
+  std::vector<BodyState> states;
+  EnergyBalance balance;
+  std::size_t collisions = 0;
+  double impulse = 0;
+};
+
+Ended run(const ContactScene& scene, std::size_t steps, const PileSettings& settings) {
+  PileSolver solver(scene, scene.hard.initial, settings);
+  Impulses sink;
+  const SolvedRun run = solver.run(until_time(static_cast<double>(steps) * solver.step()), &sink);
+  EXPECT_TRUE(run.reached) << run.reason;
+  return {solver.states(), *run.balance, run.collisions, sink.sum};
+}
+
+/// In slabs only the order of sums differs from one list in the scene's order: 1e-16 of a force,
+/// which collisions make some 1e5 times as large in so many steps.
+TEST(ManyContacts, InSlabsAreThoseOfOneList) {
+  for (const bool walls : {true, false}) {
+    const ContactScene scene = soft_bed({.count = 1500, .ratio = 3, .walls = walls});
+    const auto end = [&](std::size_t ordered_from) {
+      return run(scene, 1200,
+                 {.steps_per_contact = 20,
+                  .collision_time = kOnPlane,
+                  .steps_per_frame = 100,
+                  .ordered_from = ordered_from});
+    };
+    const Ended slabs = end(1), list = end(kAlwaysOneList);
+    EXPECT_GT(list.collisions, 100u);
+    EXPECT_EQ(slabs.collisions, list.collisions);
+    EXPECT_NEAR(slabs.impulse, list.impulse, 1e-9 * list.impulse);
+    EXPECT_NEAR(slabs.balance.dissipated, list.balance.dissipated, 1e-9 * list.balance.dissipated);
+    for (std::size_t i = 0; i < list.states.size(); ++i)
+      ASSERT_NEAR((slabs.states[i].position - list.states[i].position).norm(), 0, 1e-11) << i;
+  }
+}
+
+/// The ledger's error is of the second order of the step.
+TEST(ManyContacts, KeepTheirLedger) {
+  const ContactScene scene = soft_bed({.count = 1200, .ratio = 3});
+  double before = kNever;
+  for (const double per_contact : {20.0, 40.0}) {
+    PileSolver solver(
+        scene, scene.hard.initial,
+        {.steps_per_contact = per_contact, .collision_time = kOnPlane, .ordered_from = 1});
+    const SolvedRun run = solver.run(until_time(0.03), nullptr);
+    ASSERT_TRUE(run.reached) << run.reason;
+    EXPECT_GT(run.balance->dissipated, 0.02 * run.balance->scale);
+    const double error = std::abs(run.balance->error());
+    EXPECT_LT(error, 2e-4);
+    EXPECT_LT(error, 0.6 * before);
+    before = error;
+  }
+}
+
+/// Without gravity or a wall nothing takes momentum: in a periodic plane it stays to rounding.
+TEST(ManyContacts, KeepTheirMomentum) {
+  ContactScene scene = soft_bed({.count = 1200, .ratio = 3, .walls = false});
+  scene.hard.gravity = 0;
+  for (BodyState& state : scene.hard.initial) state.position.z() += 1;  // above the plane
+  PileSolver solver(scene, scene.hard.initial,
+                    {.steps_per_contact = 20, .collision_time = kOnPlane, .ordered_from = 1});
+  const SolvedRun run = solver.run(until_time(0.03), nullptr);
+  ASSERT_TRUE(run.reached) << run.reason;
+  EXPECT_GT(run.collisions, 500u);
+  const auto momentum = [&](const std::vector<BodyState>& states) {
+    Vector3 sum = Vector3::Zero();
+    for (std::size_t i = 0; i < states.size(); ++i)
+      sum += scene.hard.bodies[i].mass * states[i].velocity;
+    return sum;
+  };
+  const Vector3 first = momentum(scene.hard.initial), last = momentum(solver.states());
+  EXPECT_LT((last - first).norm(), 1e-12 * first.norm());
+}
+
+/// Where the edges of the period lie is nothing that bodies see: but for what rounds otherwise.
+TEST(ManyContacts, SeeNoEdgeOfAPeriodicPlane) {
+  const ContactScene scene = soft_bed({.count = 900, .ratio = 2, .walls = false});
+  ContactScene moved = scene;
+  const Vector3 shift(0.37 * scene.hard.periodic.x(), -2.71 * scene.hard.periodic.y(), 0);
+  for (BodyState& state : moved.hard.initial) state.position += shift;
+  const PileSettings settings{
+      .steps_per_contact = 20, .collision_time = kOnPlane, .steps_per_frame = 100};
+  const Ended here = run(scene, 1000, settings), there = run(moved, 1000, settings);
+  EXPECT_GT(here.collisions, 80u);
+  EXPECT_EQ(here.collisions, there.collisions);
+  for (std::size_t i = 0; i < here.states.size(); ++i)
+    ASSERT_NEAR((here.states[i].position + shift - there.states[i].position).norm(), 0, 1e-10) << i;
+}
+
+}  // namespace
+}  // namespace slipcheck

@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "../../bench/grain_gas.h"
+#include "../../bench/soft_bed.h"
+#include "reference/piles/pile_solver.h"
+#include "reference/steps/grain_solver.h"
+
+namespace slipcheck {
+namespace {
+
+std::uint64_t hash_of(const std::vector<BodyState>& states) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (const BodyState& state : states)
+    for (const Vector3* v : {&state.position, &state.velocity, &state.angular_velocity})
+      for (int k = 0; k < 3; ++k)
+        hash = (hash ^ std::bit_cast<std::uint64_t>((*v)[k])) * 1099511628211u;
+  return hash;
+}
+
+/// Steps of one scene on several threads give the bits of one: among the first collisions of many
+/// spheres with memory, at walls or on a plane with its own hard contact.
+TEST(ManyThreads, GiveTheBitsOfOneToContactsThatRemember) {
+  for (const bool walls : {true, false}) {
+    const ContactScene scene = bench::soft_bed({.count = 2500, .ratio = 3, .walls = walls});
+    const auto hash = [&](std::size_t threads) {
+      PileSolver solver(scene, scene.hard.initial,
+                        {.steps_per_contact = 20,
+                         .collision_time = 2e-4,
+                         .threads = threads,
+                         .ordered_from = 1000});
+      const SolvedRun run = solver.run(until_time(800 * solver.step()), nullptr);
+      EXPECT_TRUE(run.reached) << run.reason;
+      EXPECT_GT(run.collisions, 150u);
+      return std::pair(hash_of(solver.states()),
+                       std::bit_cast<std::uint64_t>(run.balance->dissipated));
+    };
+    const auto alone = hash(1);
+    for (const std::size_t threads : {2, 3, 8}) EXPECT_EQ(hash(threads), alone) << threads;
+  }
+}
+
+TEST(ManyThreads, GiveTheBitsOfOneToGrainsInIslands) {
+  for (const bool on_plane : {true, false}) {
+    const ContactScene scene = bench::grain_gas(3000, 0.6, on_plane);
+    const auto hash = [&](std::size_t threads) {
+      GrainSolver solver(scene, scene.hard.initial, bench::kStep, threads);
+      solver.advance(1500);
+      EXPECT_GT(solver.collisions(), 150u);
+      Frame frame;
+      solver.show(frame);
+      return hash_of(frame.bodies);
+    };
+    const std::uint64_t alone = hash(1);
+    for (const std::size_t threads : {2, 3, 8}) EXPECT_EQ(hash(threads), alone) << threads;
+  }
+}
+
+}  // namespace
+}  // namespace slipcheck

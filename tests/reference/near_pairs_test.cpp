@@ -1,0 +1,84 @@
+#include "reference/near_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace slipcheck {
+namespace {
+
+/// By looking at all.
+std::vector<NearPair> all_near(const std::vector<NearSphere>& spheres, double skin,
+                               const Vector2& periodic) {
+  std::vector<NearPair> found;
+  for (std::uint32_t i = 0; i < spheres.size(); ++i)
+    for (std::uint32_t j = i + 1; j < spheres.size(); ++j) {
+      Vector3 apart = spheres[i].position - spheres[j].position;
+      for (int k = 0; k < 2; ++k)
+        if (periodic[k] > 0) apart[k] -= periodic[k] * std::round(apart[k] / periodic[k]);
+      if (apart.norm() <= spheres[i].radius + spheres[j].radius + skin) found.push_back({i, j});
+    }
+  return found;
+}
+
+/// Radii from 1/ratio to 1, as many of each size on a logarithmic scale, in a box of these lengths.
+std::vector<NearSphere> random_spheres(std::size_t n, double ratio, const Vector3& lengths,
+                                       unsigned seed) {
+  std::mt19937 dice(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<NearSphere> spheres(n);
+  for (NearSphere& sphere : spheres) {
+    sphere.radius = std::pow(ratio, -unit(dice));
+    for (int k = 0; k < 3; ++k) sphere.position[k] = lengths[k] * unit(dice);
+  }
+  return spheres;
+}
+
+TEST(NearPairs, AreThoseOfAllPairsForUnlikeRadii) {
+  for (const double ratio : {1.0, 3.0, 100.0})
+    for (const double skin : {0.0, 0.3}) {
+      const auto spheres = random_spheres(700, ratio, {24, 20, 16}, 7);
+      const auto expected = all_near(spheres, skin, Vector2::Zero());
+      ASSERT_GT(expected.size(), 20u) << ratio;
+      EXPECT_EQ(near_pairs(spheres, skin), expected) << ratio << ' ' << skin;
+    }
+}
+
+TEST(NearPairs, SeeAcrossTheEdgesOfAPeriodicPlane) {
+  for (const double ratio : {1.0, 3.0})
+    for (const Vector2& periodic : {Vector2(24, 20), Vector2(8, 0), Vector2(0, 9.7)}) {
+      auto spheres = random_spheres(600, ratio, {24, 20, 6}, 3);
+      // Positions are not folded into the cell.
+      for (std::size_t i = 0; i < spheres.size(); i += 5)
+        for (int k = 0; k < 2; ++k)
+          spheres[i].position[k] += periodic[k] * (static_cast<double>(i % 7) - 3);
+      const auto expected = all_near(spheres, 0.4, periodic);
+      ASSERT_GT(expected.size(), 100u);
+      EXPECT_EQ(near_pairs(spheres, 0.4, periodic), expected)
+          << ratio << ' ' << periodic.transpose();
+    }
+}
+
+TEST(NearPairs, AreFoundWhereverBodiesLie) {
+  // Two of a heap that have flown far away, and all in a row.
+  auto spheres = random_spheres(300, 2, {10, 10, 10}, 5);
+  spheres[10].position = {1e9, -3e7, 2};
+  spheres[200].position = {1e9 + 1, -3e7, 2};
+  EXPECT_EQ(near_pairs(spheres, 0.1), all_near(spheres, 0.1, Vector2::Zero()));
+  EXPECT_EQ(near_pairs(std::vector<NearSphere>(1), 0.1), std::vector<NearPair>{});
+  const auto row = random_spheres(400, 3, {500, 0, 0}, 6);
+  EXPECT_EQ(near_pairs(row, 0.1), all_near(row, 0.1, Vector2::Zero()));
+}
+
+TEST(NearPairs, AreTheSameOnAnyNumberOfThreads) {
+  const auto spheres = random_spheres(9000, 3, {40, 40, 40}, 9);
+  const auto alone = near_pairs(spheres, 0.2);
+  for (const std::size_t threads : {2, 3, 8}) {
+    ThreadTeam team(threads);
+    EXPECT_EQ(near_pairs(spheres, 0.2, Vector2::Zero(), &team), alone) << threads;
+  }
+}
+
+}  // namespace
+}  // namespace slipcheck
