@@ -9,6 +9,7 @@
 #include "explain/explain_engines.h"
 #include "explain/explain_scene.h"
 #include "harness/run/requested_runs.h"
+#include "report/rows/quantity.h"
 #include "report/terminal/text.h"
 
 namespace slipcheck {
@@ -24,7 +25,38 @@ std::string in_columns(const ExplainSection& section, const std::vector<std::str
   return text;
 }
 
-void print(const ExplainSections& sections) {
+constexpr std::size_t kMostRows = 6, kMostEngines = 2;  // without --all
+
+bool is_engine(const ExplainSection& section) { return section.title.starts_with("Engine "); }
+
+/// What fits a screen: of each section the first rows, of an engine what it cannot represent; of
+/// many engines the first. What the scene needs and warnings stay.
+ExplainSections shortened(ExplainSections sections) {
+  std::size_t engines = 0, left_out = 0;
+  std::erase_if(sections, [&](const ExplainSection& section) {
+    const bool goes = is_engine(section) && ++engines > kMostEngines;
+    left_out += goes ? 1 : 0;
+    return goes;
+  });
+  for (ExplainSection& section : sections) {
+    if (section.title == "Needs" || section.title == "Warnings") continue;
+    const std::size_t count = section.rows.size();
+    if (is_engine(section))
+      std::erase_if(section.rows, [](const ExplainRow& row) {
+        return !row.label.empty() || row.remark.starts_with("left out: ");
+      });
+    if (section.rows.size() > kMostRows) section.rows.resize(kMostRows);
+    if (section.rows.size() < count)
+      section.add(fmt::format("… {} more: --all", count - section.rows.size()));
+  }
+  if (left_out > 0 && !sections.empty())
+    sections.back().add(fmt::format("… and {} more: --all", counted(left_out, "engine section")));
+  return sections;
+}
+
+void print(ExplainSections all_sections, bool all) {
+  const ExplainSections sections =
+      all ? std::move(all_sections) : shortened(std::move(all_sections));
   for (const ExplainSection& section : sections) {
     std::vector<std::string> heads;
     for (const ExplainColumn& column : section.columns) heads.push_back(column.head);
@@ -49,15 +81,16 @@ void print(const ExplainSections& sections) {
   }
 }
 
-void explain(const Scenario& scenario, const std::vector<EngineRecord>& runs, bool general) {
+void explain(const Scenario& scenario, const std::vector<EngineRecord>& runs, bool general,
+             bool all) {
   fmt::print("{}  {}\n", scenario.name, scenario.title);
   if (!scenario.source.empty()) fmt::print("  source: {}\n", scenario.source);
   try {
     const ContactScene scene = make_contact_scene(scenario);
     const Explanation explanation = explain_scene(scenario, scene, general);
     fmt::print("  solver: {}\n", explanation.solver);
-    print(explanation.sections);
-    print(explain_engines(scenario, EngineScene(scene), runs, &interrupted()));
+    print(explanation.sections, all);
+    print(explain_engines(scenario, EngineScene(scene), runs, &interrupted()), all);
   } catch (const Unsupported& unsupported) {
     fmt::print("\n  No solver for this scene:\n{}\n", unsupported.what());
   }
@@ -72,13 +105,16 @@ void add_explain_command(CLI::App& app, int& exit_code) {
   command->add_option("FILE", *files, "Scenario files")->required();
   auto general = std::make_shared<bool>(false);
   add_general_option(*command, *general);
+  auto all = std::make_shared<bool>(false);
+  command->add_flag("--all", *all, "Every row, where else it is what fits a screen");
   accept_quiet(*command);
   command->footer("Example:\n  slipcheck explain scenarios/symmetric-30cms.yaml");
-  command->callback([files, general, &exit_code] {
+  command->callback([files, general, all, &exit_code] {
     watch_for_interrupts();
     const std::vector<Scenario> scenarios = load_files(*files);
     const auto runs = requested_runs(scenarios, {}, &interrupted(), {}, *general);
-    for (std::size_t s = 0; s < scenarios.size(); ++s) explain(scenarios[s], runs[s], *general);
+    for (std::size_t s = 0; s < scenarios.size(); ++s)
+      explain(scenarios[s], runs[s], *general, *all);
     exit_code = kWithinTolerance;
   });
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/interrupt.h"
@@ -17,6 +18,7 @@
 #include "base/text.h"
 #include "report/rows/context.h"
 #include "scenario/fault.h"
+#include "scenario/rules/rules.h"
 #include "scene/scene.h"
 #include "studies/sweep/sweep_store.h"
 
@@ -44,6 +46,30 @@ std::string lines_of(std::string_view text) {
     lines += '\n';
     text.remove_prefix(end + 1);
   }
+}
+
+/// The words that could stand where `written` does: commands, or the options of the command that
+/// was given.
+std::vector<std::string> words_like(const CLI::App& app, const std::string& written) {
+  const auto given = app.get_subcommands();
+  const CLI::App& command = given.empty() ? app : *given.back();
+  std::vector<std::string> words;
+  if (written.starts_with("-"))
+    for (const CLI::Option* option : command.get_options())
+      for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
+  else
+    for (const CLI::App* each : command.get_subcommands({})) words.push_back(each->get_name());
+  return words;
+}
+
+/// "Did you mean run?" for the first argument that no command knows; empty where nothing is near.
+std::string meant_word(const CLI::App& app) {
+  for (const std::string& extra : app.remaining(true)) {
+    const std::string written = extra.substr(0, extra.find('='));
+    if (const std::string near = nearest(written, words_like(app, written)); !near.empty())
+      return fmt::format("Did you mean {}?\n", near);
+  }
+  return {};
 }
 
 int run_command_line(int argc, char** argv) {
@@ -88,6 +114,7 @@ int run_command_line(int argc, char** argv) {
     const bool well = app.exit(error, out, trouble) == 0;
     std::fputs(out.str().c_str(), stdout);
     say("{}", trouble.str());
+    if (!well) say("{}", meant_word(app));
     return well ? kWithinTolerance : kBadInput;
   } catch (const BadScenario& bad) {
     say("{}\n", lines_of(bad.what()));

@@ -4,6 +4,9 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
 #include <system_error>
 
 #include "app/commands.h"
@@ -45,6 +48,18 @@ void check_file(const std::string& option, const fs::path& path) {
         fmt::format("{}: its directory must be writable, got {}: {}", option, path.string(), why));
 }
 
+/// What COLUMNS says; 0 where it says nothing sensible.
+int columns_wanted() {
+  const char* text = std::getenv("COLUMNS");
+  if (text == nullptr) return 0;
+  const std::string_view written = text;
+  int columns = 0;
+  const auto [end, error] =
+      std::from_chars(written.data(), written.data() + written.size(), columns);
+  const bool is_number = error == std::errc() && end == written.data() + written.size();
+  return is_number && columns >= 20 && columns <= 10000 ? columns : 0;
+}
+
 }  // namespace
 
 void check_output(const std::string& option, const fs::path& path, bool is_directory) {
@@ -74,7 +89,9 @@ TableStyle table_style(bool all) {
   style.colour = is_plain_terminal(STDOUT_FILENO);
   winsize size{};
   const bool is_terminal = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  style.width = is_terminal ? size.ws_col : 100;
+  const int columns = columns_wanted();
+  style.width = columns > 0 ? columns : is_terminal ? size.ws_col : 100;
+  style.is_bound = columns > 0 || is_terminal;
   style.all_observables = all;
   return style;
 }

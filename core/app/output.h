@@ -22,8 +22,8 @@ void write_json(const std::string& path, const std::function<std::string()>& tex
 ChartDrawings write_charts_if_drawn(const std::filesystem::path& folder,
                                     const std::vector<Chart>& charts);
 
-/// How tables look on stdout, 100 columns wide where it is no terminal. `all`: with what is else
-/// left out.
+/// How tables look on stdout: as wide as COLUMNS says, else as the terminal is; where it is none
+/// they have all columns, and text is 100 wide. `all`: with what is else left out.
 TableStyle table_style(bool all = false);
 
 }  // namespace slipcheck

@@ -17,6 +17,19 @@ bool is_plain_terminal(int file_descriptor) {
   return isatty(file_descriptor) == 1 && (!no_colour || *no_colour == '\0');
 }
 
+namespace {
+
+/// ", about 4 min left", as if the rest went on as what is done did; empty before there is anything
+/// to go by.
+std::string left_text(double seconds, std::size_t done, std::size_t total) {
+  if (done == 0 || done >= total || seconds < 3) return {};
+  const double left = seconds * static_cast<double>(total - done) / static_cast<double>(done);
+  return left < 90 ? fmt::format(", about {:.0f} s left", left)
+                   : fmt::format(", about {:.0f} min left", left / 60);
+}
+
+}  // namespace
+
 ProgressBar::ProgressBar(std::string label, bool shown) : label_(std::move(label)) {
   if (!shown) return;
   ticker_ = std::jthread([this](const std::stop_token& stop) {
@@ -48,8 +61,8 @@ void ProgressBar::draw(double seconds) const {
   constexpr std::size_t width = 30;
   const std::size_t total = total_, done = done_;
   const std::size_t filled = total > 0 ? width * done / total : 0;
-  say("\r\x1b[K{} [{:█<{}}{:·<{}}] {}/{}  {:.0f} s", label_, "", filled, "", width - filled, done,
-      total, seconds);
+  say("\r\x1b[K{} [{:█<{}}{:·<{}}] {}/{}  {:.0f} s{}", label_, "", filled, "", width - filled, done,
+      total, seconds, left_text(seconds, done, total));
   std::fflush(stderr);
 }
 

@@ -18,6 +18,7 @@
 #include "report/files/result_csv.h"
 #include "report/files/vtk_files.h"
 #include "report/html/report_page.h"
+#include "report/rows/summary.h"
 
 namespace slipcheck {
 namespace {
@@ -76,13 +77,14 @@ constexpr Writer kWriters[] = {
      &ResultOutputs::phases_csv,
      [](const auto& content, const auto&) { return phases_csv(content.scenes); }},
     {"--markdown", "Write a summary that fits a pull request's comment", &ResultOutputs::markdown,
-     [](const auto& content, const auto&) { return markdown_of(content.scenes); }},
+     [](const auto& content, const auto&) { return markdown_of(content.scenes, content.moved); }},
     {"--engines-markdown", "Write scenes by engines, with a score for each",
      &ResultOutputs::engines,
      [](const auto& content, const auto&) { return engines_markdown(content.scenes); }},
     {"--junit", "Write JUnit XML: a test for each run", &ResultOutputs::junit,
      [](const auto& content, const auto& outputs) {
-       return junit_xml(test_outcomes(content.scenes, outputs.allow_undecided));
+       return junit_xml(test_outcomes(content.scenes, outputs.allow_undecided),
+                        "slipcheck: " + summarize(content.scenes).heading);
      }},
     {"--xyz", "Write a folder of trajectories as extended XYZ, for OVITO", &ResultOutputs::xyz,
      nullptr,

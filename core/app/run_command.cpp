@@ -151,6 +151,8 @@ int run(RunArguments& arguments) {
       fmt::print("{}", summary_of(scenes, style));
     }
     print_warnings(scenes);
+    if (!arguments.directory.empty())
+      say("{}\n", (fs::path(arguments.directory) / "report.html").string());
     if (interrupted()) say("interrupted: what had finished is kept\n");
   }
   return exit_code_of(scenes, arguments.outputs.allow_undecided);

@@ -255,7 +255,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(mine["settings"]["coefficients"], "fields")
         for key in ("settings", "observables", "applied"):
             self.assertEqual(mine[key], naive[key])
-        self.assertIn("the profile sets coefficients", run("explain", file).stdout)
+        self.assertIn("the profile sets coefficients", run("explain", file, "--all").stdout)
 
         profile.write_text(profile.read_text().replace("coefficients:", "coeficients:"))
         out = self.path / "out.json"
@@ -344,12 +344,12 @@ class CommandLine(unittest.TestCase):
         special, general = (json.loads(self.result_of(pair, *option))["runs"][0]["observables"]
                             for option in ((), ("--general",)))
         self.assertEqual(special, general)
-        self.assertIn("Loop\n    phases on a level, still plane\n", run("explain", pair).stdout)
-        text = run("explain", pair, "--general").stdout
+        self.assertIn("Loop\n    phases on a level, still plane\n", run("explain", pair, "--all").stdout)
+        text = run("explain", pair, "--general", "--all").stdout
         self.assertIn("Loop\n    phases on any plane\n", text)
         # Bullet itself makes no rows for friction that is not there.
         self.assertIn("left out: rolling rows", text)
-        self.assertGreater(run("explain", pair).stdout.count("left out: "),
+        self.assertGreater(run("explain", pair, "--all").stdout.count("left out: "),
                            text.count("left out: "))
 
     def test_result_folder_and_same_inputs_same_bytes(self):
@@ -429,7 +429,7 @@ class CommandLine(unittest.TestCase):
         self.assertIn("bullet", run("list", "engines").stdout)
 
     def test_explain_runs_nothing_and_says_what_is_left_out(self):
-        result = run("explain", SCENES / "symmetric-30cms.yaml")
+        result = run("explain", SCENES / "symmetric-30cms.yaml", "--all")
         self.assertEqual(result.returncode, 0, result.stderr)
         left_out = result.stdout.split("Left out")[1].split("Bodies")[0]
         self.assertIn("rolling friction", left_out)
@@ -447,13 +447,73 @@ class CommandLine(unittest.TestCase):
         for old, new in self.UNSUPPORTED:
             text = text.replace(old, new)
         file.write_text(text)
-        result = run("explain", file)
+        result = run("explain", file, "--all")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("No solver for this scene", result.stdout)
         self.assertIn("contacts[0].normal.restitution", result.stdout)
 
+    def test_explain_fits_a_screen_and_keeps_warnings(self):
+        short = run("explain", SCENES / "symmetric-30cms.yaml").stdout
+        whole = run("explain", SCENES / "symmetric-30cms.yaml", "--all").stdout
+        self.assertLessEqual(len(short.splitlines()), 60)
+        self.assertGreater(len(whole.splitlines()), 100)
+        for part in ("Needs", "Expected", "not represented", ": --all"):
+            self.assertIn(part, short)
+        self.assertNotIn(": --all", whole)
+
+    def test_what_is_misspelt_gets_the_nearest_word(self):
+        for arguments, near in ((["rnu", "x.yaml"], "run"), (["list", "--jsno"], "--json"),
+                                (["explian", "x.yaml"], "explain")):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(f"Did you mean {near}?", result.stderr)
+        file = self.path / "typo.yaml"
+        file.write_text(scene_text("", until="roling"))
+        self.assertIn("did you mean rolling?", run("explain", file).stderr)
+
+    def test_a_new_scene_runs_and_has_its_schema(self):
+        result = run("new", "my-scene", cwd=self.path)
+        self.assertEqual((result.returncode, result.stdout), (0, "my-scene.yaml\n"))
+        text = (self.path / "my-scene.yaml").read_text()
+        self.assertTrue(text.startswith("# yaml-language-server: $schema=slipcheck.schema.json\n"))
+        self.assertEqual(json.loads((self.path / "slipcheck.schema.json").read_text()),
+                         json.loads(run("schema").stdout))
+        done = run("run", "my-scene.yaml", "--phases", "2", "--json", "out.json", cwd=self.path)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        # Decelerates by mu g: it rolls after 2 v / (7 mu g).
+        seen = json.loads((self.path / "out.json").read_text())["reference"]["observables"]
+        self.assertAlmostEqual(seen["ball.sliding_time"]["value"], 2 * 0.5 / (7 * 0.2 * 9.80665),
+                               delta=1e-9)
+        again = run("new", "my-scene", cwd=self.path)
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("my-scene.yaml is there already", again.stderr)
+        self.assertEqual(run("new", "../x", cwd=self.path).returncode, 2)
+        self.assertEqual((self.path / "my-scene.yaml").read_text(), text)
+
+    def test_the_schema_of_profiles_takes_the_shipped_ones(self):
+        schema = json.loads(run("schema", "--profile").stdout)
+        for file in (SOURCE / "bullet_backend/profiles").glob("*.yaml"):
+            keys = re.findall(r"^([a-z-]+):", file.read_text(), re.MULTILINE)
+            self.assertLessEqual(set(keys), set(schema["properties"]), file)
+            self.assertLessEqual(set(schema["required"]), set(keys), file)
+
+    def test_tables_in_a_pipe_have_all_columns_and_follow_COLUMNS(self):
+        file = self.scene("{engine: bullet, precision: double, rate: 240}")
+        heads = [line for line in run("run", file, "--phases", "2").stdout.splitlines()
+                 if "max error" in line]
+        for column in ("reference", "median", "min … max", "tolerance", "verdict"):
+            self.assertTrue(heads and column in heads[0], (column, heads))
+        narrow = run("run", file, "--phases", "2", env={"COLUMNS": "60"}).stdout
+        self.assertLessEqual(max(map(len, narrow.splitlines())), 60)
+        self.assertIn("no room for", narrow)
+
+    def test_a_result_folder_names_its_page(self):
+        out = self.path / "results"
+        result = run("run", self.scene(""), "--out", out)
+        self.assertIn(f"{out / 'report.html'}\n", result.stderr)
+
     def test_explain_prints_columns(self):
-        text = run("explain", SCENES / "rubbing-capped.yaml").stdout
+        text = run("explain", SCENES / "rubbing-capped.yaml", "--all").stdout
         for line in (
                 "    sliding friction on the substrate    straight slip, parabolic paths",
                 "                            R           m                   I   A = mR²/I"

@@ -68,6 +68,38 @@ class Report(unittest.TestCase):
         self.assertEqual(left_out.sub("", page.read_text()),
                          left_out.sub("", (self.runs / "report.html").read_text()))
 
+    def test_what_has_moved_since_older_results_stands_first(self):
+        older = self.path / "older"
+        older.mkdir()
+        for file in self.runs.glob("*.json"):
+            (older / file.name).write_text(file.read_text())
+        page, summary = self.path / "page.html", self.path / "summary.md"
+        same = run("report", self.runs, "--against", older, "-o", page, "--markdown", summary)
+        self.assertEqual(same.returncode, 0, same.stderr)
+        self.assertRegex(page.read_text(), r'<section id="moved">[^§]*: 0 of \d+ values in')
+
+        # One value of one run is moved by three tolerances of 0.5 %, 0.015, in all phases.
+        file = older / "symmetric-30cms.json"
+        result = json.loads(file.read_text())
+        [run_of] = [r for r in result["runs"] if r["profile"] == "tuned" and r["rate"] == 240]
+        value = run_of["observables"]["i-j.effective_restitution"]
+        for key in ("median", "min", "max"):
+            value[key] += 0.015
+        value["values"] = [one + 0.015 for one in value["values"]]
+        file.write_text(json.dumps(result))
+        moved = run("report", self.runs, "--against", older, "-o", page, "--markdown", summary)
+        self.assertEqual(moved.returncode, 0, moved.stderr)
+        text = page.read_text()
+        section = text[text.index('<section id="moved">'):]
+        section = section[:section.index("</section>")]
+        self.assertRegex(section, r": 1 of \d+ values in")
+        self.assertIn("bullet double tuned 240 Hz", section)
+        self.assertIn('data-value="3"', section)
+        self.assertLess(text.index('<section id="moved">'), text.index('id="index"'))
+        self.assertIn("### What has moved", summary.read_text())
+        missing = run("report", self.runs, "--against", self.path / "nowhere", "-o", page)
+        self.assertEqual(missing.returncode, 2)
+
     def test_without_its_script_the_page_has_its_tables(self):
         page = self.path / "page.html"
         run("report", self.runs, "-o", page, "--without-script")

@@ -5,6 +5,7 @@ import { createHash } from 'node:crypto';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { deflateSync } from 'node:zlib';
 import { pathToFileURL } from 'node:url';
+import { kSymbols, scene_verdict, summarize, verdict_name } from '../../core/report/html/page/src/summary.js';
 
 const kSteps = 4000;  // of a channel's range
 
@@ -64,11 +65,16 @@ function slope_motion(run, role, factor) {
     energy: channel(time.map((t) => 0.7 * 0.03 * (a * t) ** 2)), touches: [] };
 }
 
+// [profile, precision, rate, verdict, the worst phase's error in tolerances]
 const runs = [
-  ['default', 'double', 240, 'deviates'], ['default', 'single', 240, 'deviates'],
-  ['tuned', 'double', 240, 'within'], ['tuned', 'double', 1000, 'undecided'],
-].map(([profile, precision, rate, verdict]) => ({ label: `bullet ${precision} ${profile} ${rate} Hz`, engine: 'bullet',
-  precision, profile, rate, verdict, look: { ink: profile === 'tuned' ? 'vermilion' : 'blue', line: 'dashed', marker: rate > 240 ? 'square' : 'circle' } }));
+  ['default', 'double', 240, 'deviates', 14], ['default', 'single', 240, 'deviates', 12.5], ['default', 'double', 1000, 'deviates', 9],
+  ['tuned', 'double', 240, 'within', 0.4], ['tuned', 'double', 1000, 'undecided', null], ['default', 'double', 4000, 'deviates', 8],
+  ['naive', 'double', 240, 'deviates', 300],
+].map(([profile, precision, rate, verdict, error]) => ({ label: `bullet ${precision} ${profile} ${rate} Hz`, engine: 'bullet', version: '3.24',
+  precision, profile, rate, verdict, error, naive: profile === 'naive', expected: false, skipped: false,
+  ...(verdict === 'deviates' && { worst: { text: `i.sliding_time off by up to ${error} %, tolerance 1 %`, severity: error } }),
+  look: { ink: profile === 'tuned' ? 'vermilion' : 'blue', line: 'dashed', marker: rate > 240 ? 'square' : 'circle' } }));
+const methods = runs.map(({ engine, version, precision, profile, rate }) => ({ engine, version, precision, profile, rate }));
 
 const axis = (label, low, high, log = false) => ({ label, low, high, log });
 const panel_of = (x, y, more) => ({ title: '', x, y, curves: [], bands: [], looks: [], cells: [], ...more });
@@ -97,12 +103,12 @@ function phases_chart(observable, reference, tolerance, spread) {
 
 function pair_scene() {
   return {
-    id: 'scene-1', name: 'symmetric-30cms', runs,
+    id: 'scene-symmetric-30cms', name: 'symmetric-30cms', topic: 'Collisions', reached: true, runs,
     charts: [phases_chart('i-j.effective_restitution', 0.357143, 0.01, 0.13),
       phases_chart('i.sliding_time [ms]', 27.7, 0.3, 2), phases_chart('j.sliding_distance [mm]', 4, 0.04, 0.6)],
     motion: { bodies: [{ name: 'i', radius: 0.002 }, { name: 'j', radius: 0.002 }], tilt: 0, substrate: true, periodic: null, gravity: 9.81,
       runs: [pair_motion(-1, 'reference', 0, 1),
-        ...[0, 1, 2, 3].flatMap((run) => ['nearest', 'median', 'worst'].map((role, n) => pair_motion(run, role,
+        ...runs.map((_, run) => run).flatMap((run) => ['nearest', 'median', 'worst'].map((role, n) => pair_motion(run, role,
           0.0007 * (n + 1), run > 1 ? 1 + 0.01 * n : 1.02 + 0.14 * n)))] },
   };
 }
@@ -113,13 +119,13 @@ function box_scene() {
     title: label, bands: [{ label: 'its 95 % interval', x: [3, 8], y: [mean - 0.1 * amplitude, mean + 0.1 * amplitude] }],
     curves: [curve_of('averaged', 'blue', 'solid', null, channel(time), channel(time.map((t, k) => mean * (1 - Math.exp(-t)) + amplitude * noise(k)))),
       curve_of('mean', 'black', 'solid', null, [3, 8], [mean, mean])] });
-  return { id: 'scene-2', name: 'box-rough', runs: [runs[0], { ...runs[2], verdict: 'failed' }], motion: null,
+  return { id: 'scene-box-rough', name: 'box-rough', topic: 'Many grains', reached: true, runs: [runs[0], { ...runs[3], verdict: 'failed', error: 'infinite' }], motion: null,
     charts: [{ title: 'box-rough over time', caption: 'mean 12 mm', columns: 1, height: 110,
       panels: [strip('H [mm]', 12, 2, ''), strip('K [µJ]', 3, 0.8, 'time [s]')] }] };
 }
 
 function slope_scene() {
-  return { id: 'scene-3', name: 'slope-rolls <&>', runs: runs.slice(2), charts: [],
+  return { id: 'scene-slope-rolls', name: 'slope-rolls <&>', topic: 'Slopes', reached: true, runs: runs.slice(3, 5), charts: [],
     motion: { bodies: [{ name: 'ball', radius: 0.01 }], tilt: 5, substrate: true, periodic: null, gravity: 9.81,
       runs: [slope_motion(-1, 'reference', 1), slope_motion(0, 'median', 0.99), slope_motion(1, 'median', 1.002)] } };
 }
@@ -154,40 +160,67 @@ const palette = Object.fromEntries([['black', '#1b1b1b', '#e8e8e6'], ['blue', '#
   .map(([ink, light, dark]) => [ink, [light, dark]]));
 
 export function fixture_data() {
-  return { schema: 'slipcheck-page/2', palette, scenes: [pair_scene(), box_scene(), slope_scene(),
-    { id: 'scene-4', name: 'reference-only', runs: [], charts: [], motion: null }],
+  const scenes = [pair_scene(), box_scene(), slope_scene(),
+    { id: 'scene-reference-only', name: 'reference-only', topic: 'Slopes', reached: true, runs: [], charts: [], motion: null }];
+  for (const scene of scenes) scene.html = scene.runs.map(run_html).join('\n');
+  return { schema: 'slipcheck-page/3', palette, methods, scenes,
   precision: [precision_scene()], stability: stability() };
 }
 
 const escaped = (text) => text.replace(/[&<>]/g, (letter) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;' })[letter]);
-const verdict_of = ({ runs: all }) => ['failed', 'deviates', 'undecided'].find((one) => all.some(({ verdict }) => verdict === one)) ?? 'within';
+const run_html = (run, r) => `<section class="run" data-run="${r}" data-engine="${run.engine}" data-precision="${run.precision}" data-profile="${run.profile}" data-rate="${run.rate}" data-verdict="${run.verdict}">
+<details${run.verdict === 'within' ? '' : ' open=""'}><summary><h5>${run.label} <span class="${run.verdict === 'within' ? 'good' : 'bad'}">${run.verdict}</span></h5></summary>
+<div class="table" tabindex="0"><table><thead><tr><th scope="col">observable</th><th scope="col">reference</th><th scope="col">median</th></tr></thead>
+<tbody><tr><th scope="row">i.sliding_time</th><td data-value="0.0277">27.7 ms</td><td data-value="9.3e-06">9.3 µs</td></tr><tr><th scope="row">j.sliding_time</th><td data-value="2.1">2.1 s</td><td data-value="0.028">28 ms</td></tr>
+<tr><th scope="row">i-j.effective_restitution</th><td data-value="0.357">0.357</td><td>–</td></tr></tbody></table></div></details></section>`;
+
+function label_html(scene) {
+  const verdict = scene_verdict(scene, scene.runs);
+  return `<span class="verdict ${verdict}">${kSymbols[verdict]} ${verdict_name(scene, scene.runs)}</span>`;
+}
 
 function scene_html(scene, k) {
-  const verdict = verdict_of(scene);
-  const run_html = (run, r) => `<section class="run" data-run="${r}" data-engine="${run.engine}" data-precision="${run.precision}" data-profile="${run.profile}" data-rate="${run.rate}" data-verdict="${run.verdict}">
-<h4>${run.label} <span class="${run.verdict === 'within' ? 'good' : 'bad'}">${run.verdict}</span></h4>
-<div class="table" tabindex="0"><table><thead><tr><th>observable</th><th>reference</th><th>median</th></tr></thead>
-<tbody><tr><th>i.sliding_time</th><td data-value="0.0277">27.7 ms</td><td data-value="9.3e-06">9.3 µs</td></tr><tr><th>j.sliding_time</th><td data-value="2.1">2.1 s</td><td data-value="0.028">28 ms</td></tr>
-<tr><th>i-j.effective_restitution</th><td data-value="0.357">0.357</td><td>–</td></tr></tbody></table></div></section>`;
+  const verdict = scene_verdict(scene, scene.runs);
   return `<section class="scene ${verdict}" id="${scene.id}" data-scene="${k}" data-name="${escaped(scene.name)}" data-verdict="${verdict}">
-<h2>${escaped(scene.name)} <span class="verdict ${verdict}">${verdict}</span></h2><p>What happens here.</p>
-<div class="plots" data-scene="${k}"></div>${scene.runs.map(run_html).join('\n')}</section>`;
+<details><summary><h3>${escaped(scene.name)}</h3> ${label_html(scene)} <span class="title">A title</span> <span class="says">What was found.</span></summary>
+<div class="plots" data-scene="${k}"></div><div class="runs" data-runs="${k}"><noscript><table><tbody><tr><td>runs</td></tr></tbody></table></noscript></div></details></section>`;
 }
+
+const topics_of = (scenes) => [...new Set(scenes.map(({ topic }) => topic))].map((topic, n) => ({ topic, id: `topic-${n + 1}`,
+  scenes: scenes.map((scene, k) => [scene, k]).filter(([scene]) => scene.topic === topic) }));
+
+function index_html(scenes) {
+  const cell = (scene, method, k) => {
+    const run = scene.runs.find((one) => Object.keys(method).every((field) => one[field] === method[field]));
+    const text = !run ? '' : run.error === 'infinite' ? '✗' : run.error === null ? '·' : `${run.error}`;
+    return `<td data-method="${k}"${run ? ' class="m2"' : ''}${run && run.error !== null ? ` data-value="${run.error === 'infinite' ? 1e300 : run.error}"` : ''}>${text}</td>`;
+  };
+  const row = ([scene, k]) => {
+    const within = scene.runs.filter(({ verdict }) => verdict === 'within').length;
+    return `<tr class="scene ${scene_verdict(scene, scene.runs)}" data-scene="${k}"><th scope="row"><a href="#${scene.id}">${escaped(scene.name)}</a></th><td class="of-scene" data-value="1">${label_html(scene)}</td><td class="share">${scene.runs.length ? `${within}/${scene.runs.length}` : ''}</td>${methods.map((method, n) => cell(scene, method, n)).join('')}</tr>`;
+  };
+  return `<section id="index"><h2>Scenes by engines</h2><fieldset class="filter"><legend>Show scenes</legend>${['all', 'deviates', 'undecided', 'failed', 'within'].map((choice) => `<span><input type="radio" name="show" id="show-${choice}"${choice === 'all' ? ' checked' : ''}><label for="show-${choice}">${choice}</label></span>`).join('')}</fieldset>
+<div class="table matrix" tabindex="0" role="region" aria-label="Scenes by engines"><table><caption>Errors</caption><thead><tr><th scope="col">scene</th><th scope="col">verdict</th><th scope="col">within</th>${methods.map((method, k) => `<th scope="col" data-method="${k}"><span>${method.engine} ${method.version} ${method.precision}</span> <span>${method.profile}</span> <span>${method.rate} Hz</span></th>`).join('')}</tr></thead>
+${topics_of(scenes).map(({ topic, id, scenes: here }) => `<tbody><tr class="topic"><th scope="rowgroup" colspan="${3 + methods.length}"><a href="#${id}">${topic}</a> <span class="faint"></span></th></tr>${here.map(row).join('')}</tbody>`).join('')}</table></div></section>`;
+}
+
+const summary_html = (scenes) => {
+  const summary = summarize(scenes.map((scene) => ({ scene, runs: scene.runs })));
+  return `<p class="finding" id="finding">${escaped(summary.finding)}</p><p class="counts" id="counts"></p><ol class="scores" id="scores"></ol>`;
+};
 
 /** The whole page. */
 export function fixture_page(script, css) {
   const data = fixture_data();
   const hash = createHash('sha256').update(script).digest('base64');
-  const choices = ['all', 'deviates', 'undecided', 'failed', 'within'].map((choice) => `<span><input type="radio" name="show" id="show-${choice}"${choice === 'all' ? ' checked' : ''}><label for="show-${choice}">${choice}</label></span>`);
   return `<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-${hash}'; img-src data: blob:">
 <meta name="viewport" content="width=device-width, initial-scale=1"><meta name="color-scheme" content="light dark">
 <title>Slipcheck report</title><style>${css}</style></head><body>
-<header><h1>Slipcheck</h1><div id="toolbar" class="toolbar"></div></header><main><h2>Scenes</h2>
-<fieldset class="filter"><legend>Show scenes</legend>${choices.join('')}</fieldset>
-<nav aria-label="Scenes"><ul class="contents">${data.scenes.map((scene, k) => `<li class="scene ${verdict_of(scene)}" data-scene="${k}"><span class="verdict ${verdict_of(scene)}">${verdict_of(scene)}</span> <a href="#${scene.id}">${escaped(scene.name)}</a></li>`).join('')}</ul></nav>
-${data.scenes.map(scene_html).join('\n')}
+<a class="skip" href="#scenes">Skip to the scenes</a><header><h1>Slipcheck</h1>${summary_html(data.scenes)}</header><main><div id="toolbar"></div>
+${index_html(data.scenes)}<section id="worst"><h2>Worst deviations</h2><ol class="worst"></ol></section>
+<div id="scenes" tabindex="-1">${topics_of(data.scenes).map(({ topic, id, scenes }) => `<section class="topic" id="${id}"><h2>${topic} <span class="faint"></span></h2>${scenes.map(([scene, k]) => scene_html(scene, k)).join('\n')}</section>`).join('\n')}</div>
 <h2>Error against run time</h2><section class="precision" id="precision-1" data-precision="0"><h3>symmetric-30cms</h3><div class="plots" data-precision="0"></div></section>
 <h2>Where it gets stiff</h2><div class="plots" data-map="0"></div><div class="plots" data-limits="0"></div></main>
 <script type="application/octet-stream" id="slipcheck-data">${deflateSync(JSON.stringify(data)).toString('base64')}</script>

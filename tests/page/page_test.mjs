@@ -6,6 +6,8 @@ import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { inflateSync } from 'node:zlib';
+import { kRunFields } from '../../core/report/html/page/src/filter.js';
+import { scene_verdict, summarize, told_counts, verdict_name } from '../../core/report/html/page/src/summary.js';
 
 const [modules, file, folder] = process.argv.slice(2);
 const { chromium } = createRequire(join(resolve(modules), 'x'))('playwright-core');
@@ -18,14 +20,14 @@ const url = pathToFileURL(resolve(file)).href;
 const packed = /<script[^>]*id="slipcheck-data"[^>]*>([^<]*)</.exec(readFileSync(file, 'utf8'));
 assert(packed, `${file} has no data`);
 const data = JSON.parse(inflateSync(Buffer.from(packed[1], 'base64')));
-assert.equal(data.schema, 'slipcheck-page/2');
+assert.equal(data.schema, 'slipcheck-page/3');
 const moving = data.scenes.findIndex((scene) =>
   scene.motion?.runs.some((run) => run.run < 0) && scene.motion.runs.some((run) => run.run >= 0));
 
 const browser = await chromium.launch({ executablePath,
   args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
 
-const checks = { loads, charts, filters, sorts, themes, replays, keyboard, without_script, narrow };
+const checks = { loads, same_words, folds, charts, filters, addresses, sorts, themes, replays, keyboard, accessible, on_paper, without_script, narrow };
 try {
   for (const [name, check] of Object.entries(checks)) {
     const begin = performance.now();
@@ -59,14 +61,89 @@ async function visit(use, options = {}) {
   await context.close();
 }
 
+function open_all(page) {
+  return page.locator('.fold button').first().click();
+}
+
+function address(page) {
+  return page.evaluate(() => window.location.hash);
+}
+
+function texts(locator) {
+  return locator.evaluateAll((all) => all.map((one) => one.textContent.replaceAll(/\s+/g, ' ').trim()));
+}
+
 async function loads() {
   await visit(async (page, begin) => {
+    const ready = performance.now() - begin;
+    const paint = await page.evaluate(() => new Promise((tell) => {
+      new PerformanceObserver((list) => tell(list.getEntries()[0].startTime)).observe({ type: 'paint', buffered: true });
+      setTimeout(() => tell(null), 2000);
+    }));
+    console.log(`     first paint after ${paint?.toFixed(0)} ms, ready after ${ready.toFixed(0)} ms`);
+    await open_all(page);
     const figure = page.locator('figure.chart').first();
     await figure.scrollIntoViewIfNeeded();
     await page.waitForSelector('figure.chart[data-drawn]');
     const seconds = (performance.now() - begin) / 1000;
-    console.log(`     first chart after ${seconds.toFixed(2)} s`);
     assert(seconds < 20, `the first chart took ${seconds} s`);
+  });
+}
+
+/** What the script tells of everything is, to the letter, what the program wrote; a filter tells what its runs say. */
+async function same_words() {
+  const all = summarize(data.scenes.map((scene) => ({ scene, runs: scene.runs })));
+  await visit(async (page) => {
+    const first = async () => ({ finding: await page.locator('#finding').textContent(), counts: await texts(page.locator('#counts .verdict')),
+      scores: await texts(page.locator('#scores > li')), worst: await texts(page.locator('#worst li')),
+      cells: await texts(page.locator('.matrix tr.scene > :nth-child(-n+3)')), topics: await texts(page.locator('section.topic > h2')) });
+    const written = await first();
+    assert.equal(written.finding, all.finding);
+    const search = page.locator('#toolbar input[type=search]');
+    await search.fill('no scene has this name');
+    assert.notEqual(await page.locator('#finding').textContent(), written.finding);
+    await search.fill('');
+    const told = await first();
+    if (written.counts.length) assert.deepEqual(told, written);
+    assert.deepEqual(told.counts.map((text) => text.replace(/^\S+ /, '')), told_counts(all).map(([, text]) => text));
+
+    const profiles = page.locator('#toolbar select[name=profile] option');
+    for (const profile of (await profiles.evaluateAll((some) => some.map(({ value }) => value))).filter(Boolean)) {
+      await page.locator('#toolbar select[name=profile]').selectOption(profile);
+      const shown = data.scenes.map((scene) => ({ scene, runs: scene.runs.filter((run) => run.profile === profile) })).filter(({ runs }) => runs.length);
+      const expected = summarize(shown);
+      assert.equal(await page.locator('#finding').textContent(), expected.finding, profile);
+      assert.equal((await texts(page.locator('#worst li'))).length, expected.worst.length, `worst of ${profile}`);
+      const heads = await texts(page.locator('.matrix thead th[data-method]:visible span:nth-child(2)'));
+      assert(heads.length && heads.every((text) => text === profile), `columns of ${profile}: ${heads}`);
+      for (const { scene, runs } of shown) {
+        const label = await page.locator(`.matrix tr[data-scene="${data.scenes.indexOf(scene)}"] .verdict`).textContent();
+        assert(label.endsWith(verdict_name(scene, runs)), `${scene.name} under ${profile}: ${label}`);
+      }
+    }
+  });
+}
+
+/** Scenes are folded, by topic and the worst first; a cell or a name of the index opens them, and what they show is made then. */
+async function folds() {
+  await visit(async (page) => {
+    assert.equal(await page.locator('section.scene > details[open]').count(), 0);
+    assert.equal(await page.locator('section.scene .run').count(), 0, 'runs are there before anybody looks');
+    const order = ['not-judged', 'within', 'undecided', 'deviates', 'failed'];
+    for (const topic of await page.locator('section.topic').all()) {
+      const verdicts = (await topic.locator('section.scene').evaluateAll((all) => all.map((one) => one.dataset.verdict))).map((one) => order.indexOf(one));
+      if (file.includes('fixture')) break;  // made by hand
+      assert.deepEqual(verdicts, [...verdicts].sort((a, b) => b - a));
+    }
+    const k = data.scenes.findIndex((scene) => scene.runs.length);
+    await page.locator(`.matrix tr[data-scene="${k}"] th a`).click();
+    const section = page.locator(`section.scene[data-scene="${k}"]`);
+    assert(await section.locator('> details').evaluate((one) => one.open));
+    assert.equal(await section.locator('.run').count(), data.scenes[k].runs.length);
+    assert((await address(page)).includes(`scene=${data.scenes[k].name}`), await address(page));
+    const top = await section.evaluate((one) => one.getBoundingClientRect().top);
+    assert(top >= -1 && top < 500, `the scene is at ${top}`);
+    assert.equal(await page.locator('section.scene > details[open]').count(), 1);
   });
 }
 
@@ -77,7 +154,9 @@ async function charts() {
   }
   assert(expected > 0, 'nothing to draw');
   await visit(async (page) => {
+    await open_all(page);
     const figures = page.locator('.plots figure.chart');
+    await page.waitForFunction((count) => document.querySelectorAll('.plots figure.chart').length >= count, expected);
     assert.equal(await figures.count(), expected);
     for (let k = 0; k < expected; ++k) {
       const figure = figures.nth(k);
@@ -94,13 +173,22 @@ async function charts() {
     const has_phases = ({ panels: [{ y }] }) => y.runs;
     const k = data.scenes.findIndex((scene) => scene.charts.some(has_phases));
     if (k < 0) return;
-    const { charts: all, motion } = data.scenes[k];
+    const { charts: all } = data.scenes[k];
     const phases = all.find(has_phases);
     const points = phases.panels[0].curves.flatMap(({ notes }) => notes ?? []).length;
-    const nth = all.indexOf(phases) + (motion?.runs.length ? 1 : 0);
-    const figure = page.locator(`.plots[data-scene="${k}"] figure.chart`).nth(nth);
+    const figure = page.locator(`.plots[data-scene="${k}"] figure.chart`).nth(all.indexOf(phases));
     await figure.scrollIntoViewIfNeeded();
     await figure.locator('svg').waitFor();
+    // At most five runs, and no naive one, until more are asked for.
+    const rows = phases.panels[0].y.names, runs = phases.panels[0].y.runs.map((r) => data.scenes[k].runs[r]);
+    const named = async () => (await texts(figure.locator('svg text'))).filter((text) => rows.some((row) => row.startsWith(text.replace(/…$/, '')) && text.length > 8));
+    const others = runs.filter((run) => !run.naive).length || runs.length;
+    assert.equal((await named()).length, Math.min(5, others));
+    if (Math.min(5, others) < rows.length) {
+      assert((await named()).every((text) => !text.includes('naive') || others === runs.length), 'a naive run is shown');
+      await figure.locator('button.show-lines').click();
+      assert.equal((await named()).length, rows.length);
+    }
     const drawn = await figure.locator('svg path').count();
     assert(drawn >= points && drawn < points + 80, `${drawn} paths for ${points} points`);
     // A point says its run, its phase and its value; a name in the legend takes its points away.
@@ -120,8 +208,8 @@ async function filters() {
       const expected = data.scenes.map((scene, k) => (passes(scene) ? k : -1)).filter((k) => k >= 0);
       const shown = await page.locator('section.scene[data-scene]').evaluateAll((all) =>
         all.filter((one) => one.getClientRects().length).map((one) => Number(one.dataset.scene)));
-      assert.deepEqual(shown, expected, what);
-      const listed = await page.locator('nav .scene[data-scene]').evaluateAll((all) => all.filter((one) => one.getClientRects().length).length);
+      assert.deepEqual(shown.sort((a, b) => a - b), expected, what);
+      const listed = await page.locator('.matrix .scene[data-scene]').evaluateAll((all) => all.filter((one) => one.getClientRects().length).length);
       assert.equal(listed, expected.length, `${what}, in the list`);
       assert.equal((await toolbar.locator('[aria-live]').innerText()).trim(), `${expected.length} of ${total} scene${total === 1 ? '' : 's'}`);
     };
@@ -136,43 +224,74 @@ async function filters() {
     await toolbar.locator('button.show-all').click();
     await shows('after a reset', () => true);
 
-    const boxes = await toolbar.locator('input[type=checkbox]').all();
-    for (const box of boxes) {
+    for (const box of await toolbar.locator('input[type=checkbox]').all()) {
       const verdict = await box.inputValue();
       await box.uncheck();
-      await shows(`without ${verdict}`, (scene) => scene.runs.some((run) => run.verdict !== verdict));
-      const hidden = await page.locator(`.run[data-verdict="${verdict}"]`).evaluateAll((all) => all.every((one) => !one.getClientRects().length));
-      assert(hidden, `runs ${verdict} are shown`);
+      await shows(`without ${verdict}`, (scene) => scene_verdict(scene, scene.runs) !== verdict);
       await box.check();
     }
+    await open_all(page);
     for (const select of await toolbar.locator('select').all()) {
-      const field = (await select.evaluate((one) => one.parentElement.firstChild.textContent)).trim().toLowerCase();
+      const field = await select.getAttribute('name');
       const value = await select.locator('option').nth(1).getAttribute('value');
+      const is_run_field = kRunFields.some(([name]) => name === field);
       await select.selectOption(value);
-      await shows(`${field} ${value}`, (scene) => scene.runs.some((run) => String(run[field]) === value));
+      await shows(`${field} ${value}`, (scene) => (is_run_field ? scene.runs.some((run) => String(run[field]) === value) : scene[field] === value));
+      if (is_run_field) {
+        const wrong = await page.locator('section.scene:not(.filtered) .run').evaluateAll((all, [name, wanted]) =>
+          all.filter((one) => one.getClientRects().length && one.dataset[name] !== undefined && one.dataset[name].split('@')[0] !== wanted).length, [field, value]);
+        assert.equal(wrong, 0, `runs that are not of ${field} ${value} are shown`);
+      }
       await select.selectOption('');
     }
     await shows('at last', () => true);
   });
 }
 
+async function addresses() {
+  const scene = data.scenes.find(({ runs }) => runs.length);
+  const [run] = scene.runs;
+  await visit(async (page) => {
+    await page.goto(`${url}#scene=${scene.name}&profile=${run.profile}`);
+    await page.reload();
+    await page.waitForSelector('html[data-ready]', { state: 'attached' });
+    assert(await page.locator(`section.scene[data-scene="${data.scenes.indexOf(scene)}"] > details`).evaluate((one) => one.open), 'the scene is not open');
+    const select = page.locator('#toolbar select[name=profile]');
+    if (await select.count()) assert.equal(await select.inputValue(), run.profile);
+    await page.locator('#toolbar button.show-all').click();
+    assert(!(await address(page)).includes('profile='), await address(page));
+    await page.locator('#toolbar input[type=search]').fill('roll');
+    assert((await address(page)).includes('name=roll'), await address(page));
+    // An anchor of the page without the script's words leads to its scene, too.
+    await page.goto(`${url}#${scene.id}`);
+    await page.reload();
+    await page.waitForSelector('html[data-ready]', { state: 'attached' });
+    assert(await page.locator(`section.scene[data-scene="${data.scenes.indexOf(scene)}"] > details`).evaluate((one) => one.open));
+  });
+}
+
 async function sorts() {
   await visit(async (page) => {
-    const table = page.locator('table:has(tbody tr:nth-child(2)):has(button.sort):visible').first();
-    assert(await table.count(), 'no table can be sorted');
-    const rows = () => table.locator('tbody tr').evaluateAll((all) => all.map((row) => row.cells[0].textContent.trim()));
-    const before = await rows();
-    const head = table.locator('thead th').first();
-    const compare = new Intl.Collator('en', { numeric: true }).compare;
+    // Within each topic by the worst error of a method: numbers first, the least first.
+    const head = page.locator('.matrix thead th[data-method]').first();
+    const column = async () => page.locator('.matrix tbody').evaluateAll((all) => all.map((body) => [...body.rows].filter((row) => row.cells.length > 3)
+      .map((row) => (row.cells[3].dataset.value === undefined ? Infinity : Number(row.cells[3].dataset.value)))));
     await head.locator('button').click();
     assert.equal(await head.getAttribute('aria-sort'), 'ascending');
-    const rising = await rows();
-    assert.deepEqual(rising, [...before].sort(compare));
+    const rising = await column();
+    for (const values of rising) assert.deepEqual(values, [...values].sort((a, b) => a - b));
     await head.locator('button').click();
     assert.equal(await head.getAttribute('aria-sort'), 'descending');
-    assert.deepEqual(await rows(), [...rising].reverse());
+    for (const values of await column()) {
+      const known = values.filter(Number.isFinite);
+      assert.deepEqual(values.slice(0, known.length), [...known].sort((a, b) => b - a));
+    }
+    // Topics stay above their scenes.
+    assert(await page.locator('.matrix tbody').evaluateAll((all) => all.every((body) => body.rows[0].className === 'topic')));
 
-    const numbers = page.locator('table:has(tbody tr:nth-child(2) td:nth-child(2)[data-value]):has(button.sort):visible').first();
+    await page.locator('section.scene:has(.runs) > details > summary').first().click();
+    await open_all(page);
+    const numbers = page.locator('section.scene table:has(tbody tr:nth-child(2) td:nth-child(2)[data-value]):has(button.sort):visible').first();
     await numbers.locator('thead th').nth(1).locator('button').click();
     const values = await numbers.locator('tbody tr').evaluateAll((all) => all.map((row) => Number(row.cells[1].dataset.value ?? Infinity)));
     assert.deepEqual(values, [...values].sort((a, b) => a - b));
@@ -182,6 +301,7 @@ async function sorts() {
 async function themes() {
   await visit(async (page) => {
     const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    await open_all(page);
     await page.locator('figure.chart').first().scrollIntoViewIfNeeded();
     await page.waitForSelector('figure.chart[data-drawn]');
     const ink = () => page.locator('figure.chart[data-drawn] svg text').first().getAttribute('fill');
@@ -196,6 +316,8 @@ async function themes() {
   });
   await visit(async (page) => {
     assert.match(await page.locator('#toolbar button.theme').innerText(), /Light/);
+    if (folder) await page.screenshot({ path: join(folder, 'dark-first.png') });
+    await open_all(page);
     await page.locator('figure.chart').first().scrollIntoViewIfNeeded();
     await page.waitForSelector('figure.chart[data-drawn]');
     if (folder) await page.screenshot({ path: join(folder, 'dark-wide.png') });
@@ -205,6 +327,7 @@ async function themes() {
 async function replays() {
   if (moving < 0) return console.log('     no scene has a motion');
   return visit(async (page) => {
+    await page.locator(`section.scene[data-scene="${moving}"] > details > summary`).click();
     const plots = page.locator(`.plots[data-scene="${moving}"]`);
     const open = plots.locator('.replay-open');
     await open.click();
@@ -262,18 +385,58 @@ async function keyboard() {
       }
       return false;
     };
+    await page.keyboard.press('Tab');
+    assert.equal(await page.evaluate(() => document.activeElement.className), 'skip', 'the first stop skips to the scenes');
     assert(await reaches('#toolbar input[type=search]'), 'the tab key does not reach the filter');
+    // The index is one stop: arrows go through its heads and names.
+    assert(await reaches('.matrix thead button'), 'the tab key does not reach the index');
+    await page.keyboard.press('ArrowRight');
+    assert.equal(await page.evaluate(() => document.activeElement.closest('th')?.cellIndex), 1);
+    await page.keyboard.press('ArrowDown');
+    assert(await page.evaluate(() => document.activeElement.matches('.matrix tbody a')), 'an arrow does not reach the names');
+    await page.keyboard.press('Tab');
+    assert(await page.evaluate(() => !document.activeElement.closest('.matrix')), 'the index takes more than one stop');
     if (moving < 0) return;
     // From the scene on, lest hundreds of links lie between.
-    await page.evaluate((k) => {
-      const scene = document.querySelector(`section.scene[data-scene="${k}"]`);
-      scene.tabIndex = -1;
-      scene.focus();
-    }, moving);
+    await page.locator(`section.scene[data-scene="${moving}"] > details > summary`).focus();
+    await page.keyboard.press('Enter');
     assert(await reaches('.replay-open'), 'the tab key does not reach the replay');
     await page.keyboard.press('Enter');
     assert(await reaches('canvas.replay-canvas'), 'the tab key does not reach the balls');
     assert(await reaches('.replay-time'), 'the tab key does not reach the time');
+  });
+}
+
+/** No rule of axe-core is broken, in light and dark, folded and open. */
+async function accessible() {
+  const axe = readFileSync(join(resolve(modules), 'axe-core/axe.min.js'), 'utf8');
+  for (const colorScheme of ['light', 'dark']) {
+    await visit(async (page) => {
+      await page.evaluate(axe);  // by the protocol, which the page's policy does not hold
+      const violations = async () => (await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ['violations'] }))).violations
+        .map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html, failureSummary }) => `${html.slice(0, 160)} ${failureSummary}`).join(' | ')} (${nodes.length})`);
+      assert.deepEqual(await violations(), [], `${colorScheme}, folded`);
+      const k = Math.max(moving, 0);
+      await page.locator(`section.scene[data-scene="${k}"] > details > summary`).click();
+      for (const run of await page.locator(`section.scene[data-scene="${k}"] .run > details > summary`).all()) await run.click();
+      assert.deepEqual(await violations(), [], `${colorScheme}, a scene open`);
+    }, { colorScheme, bypassCSP: true });
+  }
+}
+
+/** Paper has what it comes to and the scenes that are open, not hundreds of pages. */
+async function on_paper() {
+  await visit(async (page) => {
+    await page.emulateMedia({ media: 'print' });
+    assert(await page.locator('#finding').isVisible());
+    assert(!await page.locator('#toolbar').isVisible());
+    assert.equal(await page.locator('section.scene:visible').count(), 0, 'folded scenes are printed');
+    await page.emulateMedia({ media: 'screen' });
+    await page.locator('section.scene > details > summary').first().click();
+    await page.emulateMedia({ media: 'print' });
+    assert.equal(await page.locator('section.scene:visible').count(), 1);
+    const sheets = (await page.pdf({ format: 'A4' })).toString('latin1').match(/\/Type\s*\/Page\b/g).length;
+    console.log(`     ${sheets} sheets with a scene open`);
   });
 }
 
@@ -295,6 +458,8 @@ async function without_script() {
 async function narrow() {
   for (const colorScheme of ['light', 'dark']) {
     await visit(async (page) => {
+      if (folder) await page.screenshot({ path: join(folder, `${colorScheme}-narrow-first.png`) });
+      await open_all(page);
       const figures = page.locator('.plots figure.chart');
       for (let k = 0; k < Math.min(8, await figures.count()); ++k) {
         await figures.nth(k).scrollIntoViewIfNeeded();
@@ -304,6 +469,6 @@ async function narrow() {
       const beyond = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
       assert(beyond <= 0, `the page is ${beyond} px too wide`);
       if (folder) await page.screenshot({ path: join(folder, `${colorScheme}-narrow.png`), fullPage: true });
-    }, { viewport: { width: 420, height: 900 }, colorScheme });
+    }, { viewport: { width: 390, height: 844 }, colorScheme });
   }
 }

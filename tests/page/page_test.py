@@ -43,7 +43,7 @@ def main():
 
     shutil.rmtree(arguments.out, ignore_errors=True)
     arguments.out.mkdir(parents=True)
-    page = arguments.out / "page.html"
+    page = arguments.out / ("page.html" if arguments.slipcheck else "fixture.html")
     if arguments.slipcheck:
         make_report(arguments.slipcheck, arguments.out / "results", page)
     else:

@@ -4,10 +4,13 @@ import { test } from 'node:test';
 import { deflateSync } from 'node:zlib';
 import { count_of, read_data, values_of } from '../../core/report/html/page/src/data.js';
 import { escaped, number_text, prefixed, quantity_text } from '../../core/report/html/page/src/dom.js';
-import { empty_filter, name_passes, run_passes, scene_passes } from '../../core/report/html/page/src/filter.js';
+import { read_address, write_address } from '../../core/report/html/page/src/address.js';
+import { empty_filter, looked_at, name_passes, run_passes } from '../../core/report/html/page/src/filter.js';
+import { first_lines } from '../../core/report/html/page/src/lines.js';
 import { between, between_periodic, end_of, frame_at, orientations, turned } from '../../core/report/html/page/src/motion.js';
 import { shown, tell, unpacked } from '../../core/report/html/page/src/panels.js';
 import { sorted_order } from '../../core/report/html/page/src/sort.js';
+import { scene_verdict, summarize, told_counts, verdict_name } from '../../core/report/html/page/src/summary.js';
 
 const close = (a, b, tolerance = 1e-12) => assert(Math.abs(a - b) <= tolerance, `${a} is not ${b}`);
 
@@ -49,17 +52,77 @@ test('numbers as people write them', () => {
   assert.equal(escaped('<b a="1">&\''), '&lt;b a=&quot;1&quot;&gt;&amp;&#39;');
 });
 
+const run_of = (profile, rate, verdict, more = {}) => ({ label: `bullet double ${profile} ${rate} Hz`, engine: 'bullet', version: '3.24', precision: 'double',
+  profile, rate, verdict, naive: profile === 'naive', expected: false, skipped: false, error: null, ...more });
+
 test('the filter', () => {
-  const run = { engine: 'bullet', precision: 'double', profile: 'tuned', rate: 240, verdict: 'within' };
+  const run = run_of('tuned', 240, 'within');
   const filter = empty_filter();
   assert(run_passes(filter, run));
   assert(run_passes({ ...filter, rate: '240' }, run));
   assert(!run_passes({ ...filter, rate: '24' }, run));
-  assert(!run_passes({ ...filter, verdicts: new Set(['failed']) }, run));
   assert(name_passes({ ...filter, name: ' 30CMS sym' }, 'symmetric-30cms'));
   assert(!name_passes({ ...filter, name: 'sym box' }, 'symmetric-30cms'));
-  assert(scene_passes(filter, { name: 'alone', runs: [] }));
-  assert(!scene_passes({ ...filter, engine: 'bullet' }, { name: 'alone', runs: [] }));
+  const alone = { name: 'alone', topic: 'Slopes', reached: true, runs: [] };
+  assert(looked_at(filter, alone));
+  assert.equal(looked_at({ ...filter, engine: 'bullet' }, alone), null);
+  assert.equal(looked_at({ ...filter, topic: 'Collisions' }, alone), null);
+  const scene = { name: 'one', topic: 'Collisions', reached: true, runs: [run, run_of('default', 240, 'deviates')] };
+  assert.deepEqual(looked_at({ ...filter, profile: 'tuned' }, scene).runs, [run]);
+  // The verdict is that of the runs which are looked at.
+  assert(looked_at({ ...filter, profile: 'tuned', verdicts: new Set(['within']) }, scene));
+  assert.equal(looked_at({ ...filter, verdicts: new Set(['within']) }, scene), null);
+});
+
+test('naive runs decide a scene only where there are no others', () => {
+  const scene = { reached: true };
+  const naive = run_of('naive', 240, 'deviates'), good = run_of('tuned', 240, 'within');
+  assert.equal(scene_verdict(scene, [naive, good]), 'within');
+  assert.equal(scene_verdict(scene, [naive]), 'deviates');
+  assert.equal(scene_verdict({ reached: false }, [good]), 'undecided');
+  assert.equal(scene_verdict({ reached: false }, [{ ...good, expected: true }]), 'within');
+  assert.equal(verdict_name(scene, [{ ...good, expected: true }]), 'as expected');
+  assert.equal(verdict_name(scene, []), 'reference alone');
+});
+
+test('counts, scores and the sentence of what is looked at', () => {
+  const off = (severity) => ({ error: severity, worst: { text: `x off by up to ${severity} %, tolerance 1 %`, severity } });
+  const scene = { name: 'one', reached: true, runs: [run_of('default', 240, 'deviates', off(5)), run_of('tuned', 240, 'within', { error: 0.5 }),
+    run_of('naive', 240, 'deviates', off(500)), run_of('tuned', 1000, 'undecided', { skipped: true })] };
+  const alone = { name: 'two', reached: true, runs: [] };
+  const summary = summarize([scene, alone].map((one) => ({ scene: one, runs: one.runs })));
+  assert.equal(summary.finding, 'tuned is within all tolerances in 1 of 1 run, default in 0 of 1; worst: one, x off by up to 5 %, tolerance 1 % ' +
+    '(bullet double default 240 Hz).');
+  assert.deepEqual(told_counts(summary).map(([, text]) => text), ['0 within', '1 deviates', '0 undecided', '0 failed', '1 of the reference alone']);
+  assert.deepEqual(summary.scores.map(({ profile, share }) => [profile, share]), [['tuned', 1], ['default', 0], ['naive', 0]]);
+  const tuned = summarize([{ scene, runs: [scene.runs[1]] }]);
+  assert.equal(tuned.finding, 'tuned is within all tolerances in 1 of 1 run.');
+  assert.equal(summarize([{ scene: alone, runs: [] }]).finding, 'nothing was judged');
+  // Of many the best three and the last.
+  const many = { name: 'many', reached: true, runs: ['a', 'b', 'c', 'd', 'e'].map((profile, k) => run_of(profile, 240, k < 3 ? 'within' : 'undecided', { error: k })) };
+  assert.equal(summarize([{ scene: many, runs: many.runs }]).finding,
+    'a is within all tolerances in 1 of 1 run, b in 1 of 1, c in 1 of 1, last of 5 e in 0 of 1.');
+});
+
+test('what is looked at stands in the address by name, and comes back', () => {
+  const filter = { ...empty_filter(), profile: 'tuned', topic: 'Walls, belts & more', verdicts: new Set(['deviates', 'failed']) };
+  const address = write_address(filter, 'symmetric-30cms');
+  assert.equal(address, '#scene=symmetric-30cms&topic=Walls,+belts+%26+more&profile=tuned&verdict=deviates,failed');
+  assert.deepEqual(read_address(address), { filter, scene: 'symmetric-30cms' });
+  assert.equal(write_address(empty_filter(), ''), '');
+  assert.equal(read_address('#scene-symmetric'), null);
+  assert.deepEqual(read_address(''), { filter: empty_filter(), scene: '' });
+  assert.equal(read_address('#verdict=none').filter.verdicts.has('within'), false);
+});
+
+test('a chart shows at most five runs at first, one of each profile before a second, naive ones only if asked for', () => {
+  const all = [60, 240, 1000, 4000, 16000].map((rate) => run_of('default', rate, 'within'))
+    .concat(run_of('naive', 240, 'deviates'), run_of('tuned', 240, 'within'), run_of('tuned', 1000, 'within'));
+  const every = all.map((_, k) => k);
+  assert.deepEqual(first_lines(all, every, empty_filter()), [0, 1, 2, 6, 7]);
+  assert.deepEqual(first_lines(all, [5], empty_filter()), [5]);
+  assert.deepEqual(first_lines(all, [0, 5], { ...empty_filter(), profile: 'naive' }), [0, 5]);
+  assert.deepEqual(first_lines(all, [0, 5], empty_filter()), [0]);
 });
 
 test('frames and what is between them', () => {
@@ -135,4 +198,13 @@ test('curves come as lists or as channels', () => {
   assert.deepEqual(curve.y, [4, 4, 4]);
   const [plain] = unpacked({ panels: [{ curves: [{ x: [1, 2], y: [3, null] }] }] }).panels[0].curves;
   assert.deepEqual([plain.x, plain.y], [[1, 2], [3, null]]);
+});
+
+test('an axis follows points that all lie beyond it', () => {
+  const chart = rows();
+  chart.panels[0].x = { label: 'time', low: 10, high: 20 };
+  const [panel] = shown(chart, () => true).panels;
+  assert(panel.x.low < 1 && panel.x.high > 3 && panel.x.high < 10);
+  chart.panels[0].x = { label: 'time', low: 0, high: 20 };
+  assert.equal(shown(chart, () => true).panels[0].x.high, 20);
 });

@@ -17,7 +17,7 @@ from html.parser import HTMLParser
 VOID = {"meta", "input", "br", "hr", "img", "link"}
 SVG = {"use", "circle", "path", "line", "rect", "polygon"}  # may close themselves
 ALLOWED_TAGS = """html head meta title style body svg g defs circle path use line rect text header h1 h2
-tspan polygon desc h3 h4 p span strong ol ul li a dl div dt dd main fieldset legend input label nav section figure
+tspan polygon desc h3 h4 h5 caption p span strong ol ul li a dl div dt dd main fieldset legend input label nav section figure
 figcaption table thead tbody tr th td details summary noscript footer pre""".split()
 
 
@@ -79,7 +79,7 @@ def check_scripts(text, faults):
         faults.append(f"{constant} in the data")
 
     data = json.loads(zlib.decompress(base64.b64decode(packed)), parse_constant=refuse)
-    if data["schema"] != "slipcheck-page/2":
+    if data["schema"] != "slipcheck-page/3":
         faults.append(f"schema {data['schema']}")
     for part, attribute in (("scenes", "data-scene"), ("precision", "data-precision")):
         for k in range(len(data[part])):

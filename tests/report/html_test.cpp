@@ -6,6 +6,7 @@
 #include "records.h"
 #include "report/charts/scene_charts.h"
 #include "report/html/html_text.h"
+#include "report/html/page_scenes.h"
 #include "report/html/report_page.h"
 #include "report/rows/phase_spread.h"
 #include "scenario/load.h"
@@ -57,7 +58,7 @@ TEST(Html, ShowsWhatAnEngineIsExpectedToDo) {
   SceneRecord scene = expected_lottery();
   std::string html = page_of({scene});
   EXPECT_TRUE(contains(html, "<span class=\"verdict within\">✓ as expected</span>"));
-  EXPECT_TRUE(contains(html, "240 Hz <span class=\"good\">✓ as expected</span></h4>"));
+  EXPECT_TRUE(contains(html, "240 Hz <span class=\"good\">✓ as expected</span></h5>"));
   EXPECT_TRUE(contains(html,
                        "<td>max</td><td data-value=\"0.498\">0.4980</td><td "
                        "data-value=\"0.49\">0.4900 … 0.5000</td><td class=\"good\">✓ as "
@@ -149,6 +150,76 @@ TEST(Html, ChartsTheWorstSixObservables) {
                                              "g6.sliding_time", "g5.sliding_time"}));
 }
 
+TEST(Html, BeginsWithWhatWasFound) {
+  SceneRecord good = lottery_scene(4);
+  good.scenario.name = "good-scene";
+  good.runs.resize(1);
+  good.runs[0].profile = "tuned";
+  good.runs[0].errors.erase("i-j.effective_restitution");
+  const std::string html = page_of({lottery_scene(4), good, box_scene()});
+  EXPECT_TRUE(contains(html,
+                       "<p class=\"finding\" id=\"finding\">tuned is within all tolerances in 1 of "
+                       "1 run, default in "
+                       "0 of 2; worst: symmetric-steel, i-j.effective_restitution off by up to "
+                       "0.141, tolerance 0.005 "
+                       "(bullet double default 240 Hz).</p>"));
+  EXPECT_LT(html.find("id=\"finding\""), html.find("id=\"index\""));
+  EXPECT_LT(html.find("id=\"index\""), html.find("<section class=\"scene"));
+  // Nothing of what the user typed stands before it.
+  EXPECT_GT(html.find("<dt>command</dt>"), html.find("<section class=\"scene"));
+  EXPECT_TRUE(
+      contains(html, "<span class=\"share\">100 %</span> <span class=\"whose\">tuned</span>"));
+}
+
+TEST(Html, FoldsScenesByTopicFailuresFirst) {
+  SceneRecord good = lottery_scene(4), slope = lottery_scene(4);
+  good.scenario.name = "a-good-one";
+  good.runs.resize(1);
+  good.runs[0].errors.erase("i-j.effective_restitution");
+  slope.scenario.name = "slope";
+  std::get<Substrate>(slope.scenario.surroundings).tilt = 0.1;
+  const std::string html = page_of({slope, good, lottery_scene(4)});
+  const auto at = [&](const std::string& id) { return html.find("id=\"scene-" + id + "\""); };
+  EXPECT_LT(at("symmetric-steel"), at("a-good-one"));
+  EXPECT_LT(at("a-good-one"), at("slope"));
+  EXPECT_TRUE(contains(html, "<h2>Slopes <span class=\"faint\">0 of 1 within</span></h2>"));
+  EXPECT_TRUE(contains(html, "<h2>Collisions <span class=\"faint\">1 of 2 within</span></h2>"));
+  EXPECT_TRUE(contains(html,
+                       "<span class=\"says\">1 of 1 run within; nearest to its tolerance: "
+                       "i.sliding_time, 0.3 of it (bullet double default 240 Hz).</span>"));
+  EXPECT_EQ(count(html, "<section class=\"scene"), 3u);
+  // No scene is open.
+  EXPECT_FALSE(contains(html, "data-verdict=\"deviates\">\n<details open"));
+}
+
+TEST(Html, IndexHasTheWorstPhaseOfEachRunAndLinks) {
+  const std::string html = page_of({lottery_scene(4)});
+  // 0.141 is 28.2 tolerances of 0.005.
+  EXPECT_TRUE(contains(html, "<td data-method=\"0\" class=\"m3\" data-value=\"28.2\">28</td>"));
+  EXPECT_TRUE(contains(html, "<a href=\"#scene-symmetric-steel\">symmetric-steel</a>"));
+  EXPECT_TRUE(contains(html, "<span>bullet 3.24</span> <span>default</span> <span>240 Hz</span>"));
+}
+
+TEST(Html, NaiveRunsDecideNothingBesideOthers) {
+  SceneRecord scene = lottery_scene(4);
+  scene.runs[0].errors.erase("i-j.effective_restitution");
+  scene.runs[1].profile = "naive";
+  std::string html = page_of({scene});
+  EXPECT_TRUE(contains(html, "<span class=\"verdict within\">✓ within</span>"));
+  EXPECT_FALSE(contains(html, "Worst deviations"));
+  EXPECT_TRUE(contains(html,
+                       "is within in 0 of 1 run and decides no scene&#39;s verdict beside other "
+                       "runs; in 1 scene only it is not within, which the exit code counts."));
+  scene.runs.erase(scene.runs.begin());
+  html = page_of({scene});
+  EXPECT_TRUE(contains(html, "<span class=\"verdict deviates\">✗ deviates</span>"));
+}
+
+TEST(Html, SceneIdsAreDistinct) {
+  EXPECT_EQ(scene_ids({lottery_scene(1), lottery_scene(1)}),
+            (std::vector<std::string>{"scene-symmetric-steel", "scene-symmetric-steel-2"}));
+}
+
 TEST(Html, OpensOnlyWhatIsWrong) {
   SceneRecord scene = lottery_scene();
   EXPECT_EQ(count(page_of({scene}), "<details open"), 2u);
@@ -179,12 +250,15 @@ TEST(Html, CountsWhatEnginesCannotRepresent) {
         Lack{"slow approaches (below 1e-05 m/s)", "restitution below … m/s of approach"}};
   second.runs[0].profile = "tuned";
   const std::string html = page_of({first, second});
-  EXPECT_TRUE(contains(html, "<th>bullet default, of 2</th><th>bullet tuned, of 1</th>"));
-  EXPECT_TRUE(contains(html,
-                       "<th>restitution below … m/s of approach</th><td data-value=\"2\">2</td><td "
-                       "data-value=\"1\">1</td>"));
-  EXPECT_TRUE(
-      contains(html, "<th>rolling</th><td data-value=\"1\">1</td><td class=\"faint\">·</td>"));
+  EXPECT_TRUE(contains(
+      html,
+      "<th scope=\"col\">bullet default, of 2</th><th scope=\"col\">bullet tuned, of 1</th>"));
+  EXPECT_TRUE(contains(
+      html,
+      "<th scope=\"row\">restitution below … m/s of approach</th><td data-value=\"2\">2</td><td "
+      "data-value=\"1\">1</td>"));
+  EXPECT_TRUE(contains(
+      html, "<th scope=\"row\">rolling</th><td data-value=\"1\">1</td><td class=\"faint\">·</td>"));
   EXPECT_TRUE(contains(html, "rolling (1.41 times)"));
   first.runs.clear();
   EXPECT_FALSE(contains(page_of({first}), "What engines cannot represent"));
@@ -194,7 +268,7 @@ TEST(Html, TellsSharedSettingsOnce) {
   SceneRecord scene = lottery_scene();
   scene.runs[1].applied.settings["friction"] = 0.25;
   const std::string html = page_of({scene});
-  EXPECT_TRUE(contains(html, "<tr><th>solver</th><td>sequential</td></tr>"));
+  EXPECT_TRUE(contains(html, "<tr><th scope=\"row\">solver</th><td>sequential</td></tr>"));
   EXPECT_EQ(count(html, "sequential"), 1u);
   EXPECT_TRUE(contains(html, "Settings of this run [SI]:</strong> friction 0.1</p>"));
   EXPECT_TRUE(contains(html, "Settings of this run [SI]:</strong> friction 0.25</p>"));

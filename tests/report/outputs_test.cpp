@@ -183,19 +183,28 @@ TEST(Markdown, SaysWhatDeviatesAndWhatIsWithin) {
   crashed.scenario.name = "crashed-scene";
   crashed.runs = {failed_run(RunStatus::crashed, "signal 11")};
   const std::string text = markdown_of({lottery_scene(), good, crashed, box_scene()});
+  EXPECT_TRUE(text.starts_with(
+      "## ⚠ Slipcheck: 2 of 4 scenes not within tolerance\n\n"
+      "default is within all tolerances in 2 of 4 runs, tuned in 0 of 1; worst: symmetric-steel, "
+      "i-j.effective_restitution off by up to 0.141, tolerance 0.005 (bullet double default 240 "
+      "Hz).\n\n"
+      "4 scenes: 1 within, 1 deviates, 0 undecided, 1 failed, 1 of the reference alone  \n"
+      "5 engine runs: 2 within, 2 deviate, 0 undecided, 1 failed\n"));
+  EXPECT_TRUE(contains(text, "### What failed\n"));
   EXPECT_TRUE(
-      text.starts_with("## ✗ Slipcheck: 2 of 4 scenes not within tolerance\n\n"
-                       "4 scenes: 1 within, 1 deviates, 0 undecided, 1 failed, 1 of the reference "
-                       "alone  \n"
-                       "5 engine runs: 2 within, 2 deviate, 0 undecided, 1 failed\n"));
+      contains(text, "| ⚠ crashed-scene | bullet single tuned 240 Hz | crashed: signal 11 |"));
   EXPECT_TRUE(contains(text, "### Worst deviations\n"));
   EXPECT_TRUE(contains(text,
-                       "| ✗ bullet double default 240 Hz | i-j.effective_restitution | 0.3571 | "
-                       "0.4280 | 0.3580 … 0.4980 | 0.141 | 0.005 |\n"));
-  EXPECT_TRUE(contains(text, "### ⚠ crashed-scene\n"));
-  EXPECT_TRUE(contains(text, "| ⚠ bullet single tuned 240 Hz | crashed: signal 11 |"));
-  EXPECT_TRUE(contains(text, "**✓ 1 within tolerance**: good-scene\n"));
-  EXPECT_FALSE(contains(text, "### ✗ good-scene"));
+                       "| symmetric-steel | bullet double default 240 Hz | "
+                       "i-j.effective_restitution | 0.3571 | 0.4280 | 0.3580 … 0.4980 | 0.141 | "
+                       "0.005 |\n"));
+  EXPECT_TRUE(contains(text, "| bullet 3.24 | default | 2 | 4 | 2 | · | · | · |"));
+  EXPECT_TRUE(contains(text, "<summary>2 scenes not within tolerance, one by one</summary>\n\n|"));
+  EXPECT_TRUE(contains(text,
+                       "| ✗ symmetric-steel | 0/2 | i-j.effective_restitution off by up to 0.141, "
+                       "tolerance 0.005 | bullet double default 240 Hz |"));
+  EXPECT_TRUE(contains(text, "<summary>✓ 1 scene within tolerance</summary>\n\ngood-scene\n"));
+  EXPECT_FALSE(contains(text, "✗ good-scene"));
 
   const std::string fine = markdown_of({good});
   EXPECT_TRUE(fine.starts_with("## ✓ Slipcheck: all within tolerance\n"));
@@ -203,14 +212,26 @@ TEST(Markdown, SaysWhatDeviatesAndWhatIsWithin) {
 }
 
 TEST(Markdown, FitsAndCountsWhatDoesNot) {
-  std::vector<SceneRecord> scenes(50, lottery_scene(4));
+  std::vector<SceneRecord> scenes(94, lottery_scene(4));
   for (std::size_t k = 0; k < scenes.size(); ++k) scenes[k].scenario.name += std::to_string(k);
-  const std::string text = markdown_of(scenes, 4000);
-  EXPECT_LE(text.size(), 4000u);
-  const std::size_t shown = count(text, "\n### ✗ ");
-  EXPECT_GT(shown, 1u);
-  EXPECT_TRUE(contains(text, "… and " + std::to_string(50 - shown) + " more scenes that deviate"));
-  EXPECT_EQ(count(markdown_of(scenes), "\n### ✗ "), 50u);
+  for (const std::size_t most : {3000u, 8000u}) {
+    const std::string text = markdown_of(scenes, std::nullopt, most);
+    EXPECT_LE(text.size(), most);
+    const std::size_t shown = count(text, "\n| ✗ ");
+    EXPECT_GT(shown, 1u);
+    EXPECT_LT(shown, 94u);
+    EXPECT_TRUE(
+        contains(text, "… and " + std::to_string(94 - shown) + " more scenes; there is no"));
+  }
+  scenes.resize(20);
+  EXPECT_EQ(count(markdown_of(scenes), "\n| ✗ "), 20u);
+}
+
+TEST(Markdown, TellsWhatHasMoved) {
+  Moved moved{"1 of 2 values has moved", {{{"scene"}, {"now"}}, {{{"one"}, {"0.5"}}}}};
+  const std::string text = markdown_of({lottery_scene()}, moved);
+  EXPECT_TRUE(contains(text, "### What has moved\n\n1 of 2 values has moved\n\n| scene | now |\n"));
+  EXPECT_LT(text.find("What has moved"), text.find("Worst deviations"));
 }
 
 TEST(ResultCsv, ARowForEachObservableOfEachRun) {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "records.h"
+#include "report/rows/told_verdict.h"
 #include "report/terminal/brief.h"
 #include "report/terminal/text.h"
 #include "text_search.h"
@@ -111,7 +112,16 @@ TEST(Table, KeepsTheVerdictWhereThereIsLittleRoom) {
   const std::string table = table_of(lottery_scene(), {.colour = false, .width = 70});
   EXPECT_TRUE(contains(table, "max error"));
   EXPECT_TRUE(contains(table, "✗"));
-  EXPECT_FALSE(contains(table, "median"));
+  EXPECT_EQ(line_with(table, "median"),
+            "    … no room for median: widen the terminal, or COLUMNS=200");
+}
+
+TEST(Table, HasAllColumnsInAPipe) {
+  const std::string table =
+      table_of(lottery_scene(), {.colour = false, .width = 70, .is_bound = false});
+  EXPECT_TRUE(contains(line_with(table, "max error"), "median"));
+  EXPECT_TRUE(contains(line_with(table, "max error"), "tolerance"));
+  EXPECT_FALSE(contains(table, "no room for"));
 }
 
 TEST(Table, AlignsColumnsByDisplayWidth) {
@@ -198,7 +208,7 @@ TEST(Table, ShowsHowARunWasExpectedToEnd) {
   EXPECT_EQ(
       summary_of({scene}, kWide),
       "1 scene: 0 within, 1 deviates, 0 undecided, 0 failed; 3 engine runs: 1 within, 2 deviate, "
-      "0 undecided, 0 failed\n");
+      "0 undecided, 0 failed\n1 of 3 runs of which something is expected do as expected.\n");
 }
 
 TEST(Table, KeepsItsWordsWhereOnlySomeRunsHaveExpectations) {
@@ -245,7 +255,23 @@ TEST(Summary, CountsScenesAndRuns) {
   EXPECT_EQ(
       summary_of({lottery_scene(), good, alone}, kWide),
       "3 scenes: 0 within, 1 deviates, 1 undecided, 0 failed, 1 of the reference alone; 3 engine "
-      "runs: 0 within, 2 deviate, 1 undecided, 0 failed\n");
+      "runs: 0 within, 2 deviate, 1 undecided, 0 failed\n"
+      "default is within all tolerances in 0 of 2 runs; worst: symmetric-steel, "
+      "i-j.effective_restitution off by up to\n0.141, tolerance 0.005 (bullet double default 240 "
+      "Hz).\n");
+}
+
+TEST(Summary, TellsOfNaiveRunsApart) {
+  SceneRecord scene = lottery_scene();
+  scene.runs[1].profile = "naive";
+  scene.runs[0].errors.erase("i-j.effective_restitution");
+  const std::string text = summary_of({scene}, kWide);
+  EXPECT_TRUE(contains(text, "1 scene: 1 within, 0 deviate"));
+  EXPECT_TRUE(contains(text, "2 engine runs: 1 within, 1 deviates"));
+  EXPECT_TRUE(contains(text, "default is within all tolerances in 1 of 1 run.\n"));
+  EXPECT_TRUE(contains(text, "in 1 scene only it is not"));
+  EXPECT_EQ(told_verdict(scene), Verdict::within);
+  EXPECT_EQ(scene.verdict(), Verdict::deviates);
 }
 
 /// The lottery without collision: a tolerance names what never occurs.

@@ -12,6 +12,7 @@
 #include "report/rows/phase_spread.h"
 #include "report/rows/quantity.h"
 #include "report/rows/selection.h"
+#include "report/rows/told_verdict.h"
 #include "scenario/observable_key.h"
 
 namespace slipcheck {
@@ -56,12 +57,14 @@ std::string caption_of(const PhaseSpread& spread, const std::string& twins) {
 }
 
 /// Covers the tolerance, nine tenths of the values, and what is not far beyond these: a run that
-/// left the scene does not squeeze the others.
+/// left the scene does not squeeze the others, nor do naive ones.
 AxisRange axis_of(const PhaseSpread& spread) {
   std::vector<double> values;
+  const bool all_naive =
+      std::ranges::all_of(spread.runs, [](const RunSpread& run) { return is_naive(*run.run); });
   for (const RunSpread& run : spread.runs)
     for (const double value : run.values)
-      if (std::isfinite(value)) values.push_back(value);
+      if (std::isfinite(value) && (all_naive || !is_naive(*run.run))) values.push_back(value);
   AxisRange range{spread.low, spread.high};
   const auto take = [&](double value) {
     range = {std::fmin(range.low, value), std::fmax(range.high, value)};

@@ -134,7 +134,7 @@ TestOutcome reference_outcome(const SceneRecord& scene, bool allow_undecided) {
 
 }  // namespace
 
-std::string junit_xml(const std::vector<TestOutcome>& outcomes) {
+std::string junit_xml(const std::vector<TestOutcome>& outcomes, const std::string& title) {
   std::vector<std::string> names;
   std::map<std::string, Outcomes> suites;
   Outcomes all;
@@ -150,7 +150,7 @@ std::string junit_xml(const std::vector<TestOutcome>& outcomes) {
   set(declaration, "version", "1.0");
   set(declaration, "encoding", "UTF-8");
   pugi::xml_node root = document.append_child("testsuites");
-  set(root, "name", "slipcheck");
+  set(root, "name", printable(title));
   add_totals(root, all, false);
   for (const std::string& name : names) {
     pugi::xml_node suite = root.append_child("testsuite");

@@ -20,8 +20,9 @@ struct TestOutcome {
 };
 
 /// A JUnit XML file, as GitHub, GitLab and Jenkins read it: a test suite for each scene, in the
-/// order in which they first come.
-std::string junit_xml(const std::vector<TestOutcome>& outcomes);
+/// order in which they first come. `name` is that of all of them.
+std::string junit_xml(const std::vector<TestOutcome>& outcomes,
+                      const std::string& name = "slipcheck");
 
 /// Scenes in engines as tests: one for each run, and one for a reference without engines. A
 /// deviation is a failure whose message names the worst observable with reference, median and

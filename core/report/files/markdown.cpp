@@ -7,9 +7,10 @@
 #include <string_view>
 
 #include "report/rows/engine_matrix.h"
-#include "report/rows/expectation_rows.h"
 #include "report/rows/findings.h"
-#include "report/rows/selection.h"
+#include "report/rows/quantity.h"
+#include "report/rows/summary.h"
+#include "report/rows/told_verdict.h"
 #include "report/rows/verdict_look.h"
 #include "report/terminal/text.h"
 
@@ -17,7 +18,8 @@ namespace slipcheck {
 namespace {
 
 constexpr std::size_t kWorst = 5;
-constexpr std::size_t kMostOfRun = 8;
+constexpr std::size_t kMostMoved = 10, kMostScores = 12;  // rows
+constexpr std::size_t kLongestReason = 90;
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80) != 0; }
 
@@ -31,88 +33,128 @@ bool begins_block(std::string_view text, std::size_t at) {
          text.find_first_not_of("0123456789") == at;
 }
 
-std::string head_of(const std::vector<SceneRecord>& scenes) {
-  const AllVerdicts all = count_verdicts(scenes);
-  const std::size_t bad = all.scenes.of(Verdict::undecided) + all.scenes.of(Verdict::deviates) +
-                          all.scenes.of(Verdict::failed);
-  const std::size_t good = all.scenes.of(Verdict::within);
-  const std::string verdict =
-      bad > 0 ? fmt::format("{} of {} not within tolerance", bad, counted(scenes.size(), "scene"))
-      : good > 0 ? "all within tolerance"
-                 : "nothing was judged";
-  std::string text = fmt::format("## {} Slipcheck: {}\n\n{}: {}",
-                                 bad > 0    ? "✗"
-                                 : good > 0 ? "✓"
-                                            : "–",
-                                 verdict, counted(scenes.size(), "scene"), all.scenes.list());
-  if (all.scenes_alone > 0) text += fmt::format(", {} of the reference alone", all.scenes_alone);
-  return text + fmt::format("  \n{}: {}\n", counted(all.run_count, "engine run"), all.runs.list());
+std::string head_of(const Summary& summary) {
+  const AllVerdicts& all = summary.counts;
+  std::string text =
+      fmt::format("## {} Slipcheck: {}\n\n", symbol_of(summary.verdict), summary.heading);
+  if (!summary.finding.empty()) text += markdown_escaped(summary.finding) + "\n\n";
+  text += fmt::format("{}: {}  \n{}: {}\n", counted(all.scene_count, "scene"), scenes_text(summary),
+                      counted(all.run_count, "engine run"), all.runs.list());
+  return summary.naive.empty() ? text : text + "\n" + markdown_escaped(summary.naive) + "\n";
 }
 
-std::string worst_part(const std::vector<SceneRecord>& scenes) {
-  const std::vector<Finding> findings = worst_findings(scenes, kWorst);
-  if (findings.empty()) return {};
+std::string moved_part(const std::optional<Moved>& moved) {
+  if (!moved) return {};
+  std::string text = "\n### What has moved\n\n" + markdown_escaped(moved->finding) + "\n";
+  TextTable table = moved->table;
+  const std::size_t count = table.rows.size();
+  if (count == 0) return text;
+  table.rows.resize(std::min(count, kMostMoved));
+  text += "\n" + markdown_table(table);
+  if (count > kMostMoved) text += fmt::format("\n… and {} more.\n", count - kMostMoved);
+  return text;
+}
+
+/// What came to no end of itself, in the scenes that it decides.
+std::string failed_part(const std::vector<SceneRecord>& scenes) {
+  TextTable table{{{"scene"}, {"run"}, {"why"}}};
+  std::size_t count = 0;
+  for (const SceneRecord& scene : scenes)
+    for (const EngineRecord& run : scene.runs) {
+      if (run.verdict() != Verdict::failed || !decides(scene, run)) continue;
+      if (++count <= kWorst)
+        table.rows.push_back({{"⚠ " + scene.scenario.name},
+                              {run_label(run)},
+                              {shortened(finding_text(scene, run), kLongestReason)}});
+    }
+  if (count == 0) return {};
+  std::string text = "\n### What failed\n\n" + markdown_table(table);
+  if (count > kWorst) text += fmt::format("\n… and {}.\n", counted(count - kWorst, "more run"));
+  return text;
+}
+
+std::string worst_part(const Summary& summary) {
+  if (summary.worst.empty()) return {};
   TextTable table{comparison_columns({{"scene"}, {"run"}})};
-  for (const Finding& finding : findings)
+  for (const Finding& finding : summary.worst)
     table.rows.push_back(
         comparison_cells(finding.row, {{finding.scene->scenario.name}, {run_label(*finding.run)}}));
   return "\n### Worst deviations\n\n" + markdown_table(table);
 }
 
-/// A run that is not within, as rows of its scene's table; the worst of its observables.
-void add_rows(const SceneRecord& scene, const EngineRecord& run, TextTable& table) {
-  const auto whose = [label = run_label(run)](Verdict verdict) {
-    return Cell{std::string(symbol_of(verdict)) + " " + label};
-  };
-  const Cell bad = whose(Verdict::deviates);
-  if (run.status != RunStatus::ok || (run.expect && run.expect->status)) {
-    table.rows.push_back({whose(run.verdict()), {finding_text(scene, run)}});
-    return;
-  }
-  for (const ExpectationRow& row : expectation_rows(run))
-    if (!row.met)
-      table.rows.push_back(
-          {bad, {row.name + " " + row.statistic}, {"expected " + row.limits.text}, row.value});
-  std::vector<ComparisonRow> rows = comparison_rows(scene, run, shown_observables(scene, false));
-  std::erase_if(rows, [](const ComparisonRow& row) {
-    return row.verdict != Verdict::deviates && row.verdict != Verdict::undecided;
-  });
-  const std::size_t count = rows.size();
-  for (ComparisonRow& row : most_severe(std::move(rows), kMostOfRun)) {
-    if (!row.note.empty()) row.name += " (" + row.note + ")";
-    table.rows.push_back(comparison_cells(row, {whose(row.verdict)}));
-  }
-  if (count > kMostOfRun) table.rows.push_back({bad, {fmt::format("{} more", count - kMostOfRun)}});
+std::string scores_part(const Summary& summary) {
+  if (summary.scores.empty()) return {};
+  TextTable table = score_table(summary);
+  const std::size_t count = table.rows.size();
+  table.rows.resize(std::min(count, kMostScores));
+  std::string text = "\n### Within all tolerances, by profile\n\n" + markdown_table(table);
+  if (count > kMostScores) text += fmt::format("\n… and {} more.\n", count - kMostScores);
+  return text;
 }
 
-std::string scene_part(const SceneRecord& scene) {
-  TextTable table{comparison_columns({{"run"}})};
-  VerdictCounts counts;
+/// A scene that is not within, in a row.
+std::vector<Cell> scene_row(const SceneRecord& scene) {
+  std::size_t within = 0;
+  const EngineRecord* first = nullptr;
   for (const EngineRecord& run : scene.runs) {
-    counts.add(run.verdict());
-    if (run.verdict() > Verdict::within) add_rows(scene, run, table);
+    within += run.verdict() == Verdict::within ? 1 : 0;
+    if (!first && decides(scene, run) && run.verdict() == told_verdict(scene)) first = &run;
   }
-  std::string text = fmt::format("\n### {} {}\n\n", symbol_of(scene.verdict()),
-                                 markdown_escaped(scene.scenario.name));
-  if (!scene.scenario.title.empty())
-    text += fmt::format("{}. ", markdown_escaped(scene.scenario.title));
-  if (!scene.reference.run.reached)
-    text += fmt::format("The reference did not end: {}. ",
-                        markdown_escaped(scene.reference.run.reason));
-  if (table.rows.empty()) return text + "\n";
-  return text + fmt::format("{}: {}.\n\n", counted(scene.runs.size(), "run"), counts.list()) +
-         markdown_table(table);
+  std::vector<Cell> cells = {
+      {fmt::format("{} {}", symbol_of(told_verdict(scene)), scene.scenario.name)},
+      {fmt::format("{}/{}", within, scene.runs.size())}};
+  const auto worst = worst_finding(scene);
+  if (worst && told_verdict(scene) == Verdict::deviates) {
+    cells.insert(cells.end(), {{off_text(worst->row)}, {run_label(*worst->run)}});
+  } else if (first) {
+    cells.insert(cells.end(), {{finding_text(scene, *first)}, {run_label(*first)}});
+  } else {
+    cells.push_back({scene_finding(scene)});
+  }
+  if (cells.size() > 2) cells[2].text = shortened(cells[2].text, kLongestReason);
+  return cells;
+}
+
+/// Folded; GitHub wants empty lines about what is Markdown in HTML.
+std::string folded(const std::string& summary, const std::string& content) {
+  return fmt::format("\n<details><summary>{}</summary>\n\n{}\n</details>\n", summary, content);
+}
+
+/// The scenes that are not within, as many as `room` characters hold; the others are counted.
+std::string bad_part(const std::vector<SceneRecord>& scenes, std::size_t room) {
+  TextTable table{{{"scene"}, {"runs within", true}, {"finding"}, {"run"}}};
+  for (const SceneRecord& scene : scenes)
+    if (told_verdict(scene) > Verdict::within) table.rows.push_back(scene_row(scene));
+  const std::size_t count = table.rows.size();
+  if (count == 0) return {};
+  const auto text_of = [&] {
+    std::string text = markdown_table(table);
+    if (table.rows.size() < count)
+      text += fmt::format("\n… and {}; there is no room for them here.\n",
+                          counted(count - table.rows.size(), "more scene"));
+    return folded(fmt::format("{} not within tolerance, one by one", counted(count, "scene")),
+                  text);
+  };
+  std::string text = text_of();
+  while (text.size() > room && !table.rows.empty()) {
+    table.rows.pop_back();
+    text = text_of();
+  }
+  return text.size() <= room ? text : "";
 }
 
 /// The names of those scenes of which there is nothing more to say.
-std::string good_part(const std::vector<SceneRecord>& scenes) {
+std::string good_part(const std::vector<SceneRecord>& scenes, std::size_t room) {
   std::string names;
   std::size_t count = 0;
   for (const SceneRecord& scene : scenes) {
-    if (scene.verdict() != Verdict::within) continue;
+    if (told_verdict(scene) != Verdict::within) continue;
     names += (count++ > 0 ? ", " : "") + markdown_escaped(scene.scenario.name);
   }
-  return count == 0 ? "" : fmt::format("\n**✓ {} within tolerance**: {}\n", count, names);
+  if (count == 0) return {};
+  const std::string head = fmt::format("✓ {} within tolerance", counted(count, "scene"));
+  const std::string text = folded(head, names + "\n");
+  return text.size() <= room ? text : fmt::format("\n{}\n", head);
 }
 
 }  // namespace
@@ -153,22 +195,19 @@ std::string markdown_table(const TextTable& table) {
   return heads + "\n" + rules + "\n" + rows;
 }
 
-std::string markdown_of(const std::vector<SceneRecord>& scenes, std::size_t most) {
-  constexpr std::size_t kRoom = 120;  // for what is said about what is left out
-  std::string text = head_of(scenes) + worst_part(scenes);
-  std::vector<std::string> parts;
-  for (const SceneRecord& scene : scenes)
-    if (scene.verdict() > Verdict::within) parts.push_back(scene_part(scene));
+std::string markdown_of(const std::vector<SceneRecord>& scenes, const std::optional<Moved>& moved,
+                        std::size_t most) {
+  const Summary summary = summarize(scenes, kWorst);
   // Bytes are counted, of which there are never fewer than characters.
-  std::size_t shown = 0;
-  while (shown < parts.size() && text.size() + parts[shown].size() + kRoom <= most)
-    text += parts[shown++];
-  if (shown < parts.size())
-    text += fmt::format(
-        "\n… and {} that deviate, are undecided or failed; there is no room for them here.\n",
-        counted(parts.size() - shown, "more scene"));
-  const std::string good = good_part(scenes);
-  return text.size() + good.size() <= most ? text + good : text;
+  std::string text = head_of(summary);
+  const auto room = [&] { return most > text.size() ? most - text.size() : 0; };
+  for (const std::string& part :
+       {failed_part(scenes), moved_part(moved), worst_part(summary), scores_part(summary)})
+    if (part.size() <= room()) text += part;
+  const std::string good = good_part(scenes, room() / 3);
+  const std::string bad = bad_part(scenes, room() > good.size() ? room() - good.size() : 0);
+  text += bad;
+  return good.size() <= room() ? text + good : text;
 }
 
 std::string engines_markdown(const std::vector<SceneRecord>& scenes) {

@@ -14,12 +14,7 @@ std::string html_matrix(const std::vector<SceneRecord>& scenes, const ReportChar
   html += html_table(score_table(matrix));
   if (!charts.engines.empty())
     html += "<div class=\"plots\" data-engines=\"0\"></div>\n" + standing.html(charts.engines);
-  html += "<div class=\"matrix\">\n";
-  html +=
-      html_paragraph("", "Scene by engine:",
-                     "the worst phase's largest error in tolerances, 1 is just within; ✗ failed, "
-                     "– cannot run it, · nothing is judged.");
-  return html + html_table(matrix_table(matrix, "#scene-")) + "</div>\n</section>\n";
+  return html + "</section>\n";
 }
 
 }  // namespace slipcheck

@@ -9,8 +9,8 @@
 
 namespace slipcheck {
 
-/// Engines beside each other over all scenes: what that comes to, a score for each, scenes by
-/// engines, and error against run time. Nothing without two scenes and two methods.
+/// Engines beside each other over all scenes: what that comes to, a score for each with its cost,
+/// and error against run time. Nothing without two scenes and two methods.
 std::string html_matrix(const std::vector<SceneRecord>& scenes, const ReportCharts& charts,
                         const StandingCharts& standing);
 

@@ -44,12 +44,13 @@ std::string html_context(const Context& c, const std::vector<std::string>& comma
   std::string html = "<dl class=\"context\">\n";
   for (const std::string& command : commands) html += html_fact("command", command);
   const std::string warning = c.build == context().build ? debug_build_warning() : "";
-  return html + html_fact("date", c.date) +
-         html_fact("slipcheck", fmt::format("{}, commit {}", c.version, c.commit)) +
-         html_fact("engines", fmt::format("{}", fmt::join(engines, ", "))) +
-         html_fact("build", fmt::format("{}, {}", c.build, c.compiler)) +
-         html_fact("processor", fmt::format("{}, {} hardware threads", c.cpu, c.cores)) +
-         html_fact("system", c.system) + html_fact("warning", warning) + "</dl>\n";
+  html += html_fact("date", c.date) +
+          html_fact("slipcheck", fmt::format("{}, commit {}", c.version, c.commit)) +
+          html_fact("engines", fmt::format("{}", fmt::join(engines, ", "))) +
+          html_fact("build", fmt::format("{}, {}", c.build, c.compiler)) +
+          html_fact("processor", fmt::format("{}, {} hardware threads", c.cpu, c.cores)) +
+          html_fact("system", c.system) + html_fact("warning", warning) + "</dl>\n";
+  return html_details("Command, versions and machine", html);
 }
 
 }  // namespace slipcheck

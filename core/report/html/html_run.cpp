@@ -41,8 +41,8 @@ std::string html_run(const SceneRecord& scene, std::size_t k, const std::vector<
   if (ok) rows = comparison_rows(scene, run, names);
   std::string html = fmt::format(
       "<section class=\"run\" data-run=\"{}\" data-engine=\"{}\" data-precision=\"{}\" "
-      "data-profile=\"{}\" data-rate=\"{:g}\" data-verdict=\"{}\">\n<details{}><summary><h4>{} "
-      "<span class=\"{}\">{} {}</span></h4> <span class=\"faint\">{}</span></summary>\n",
+      "data-profile=\"{}\" data-rate=\"{:g}\" data-verdict=\"{}\">\n<details{}><summary><h5>{} "
+      "<span class=\"{}\">{} {}</span></h5> <span class=\"faint\">{}</span></summary>\n",
       k, escaped(run.engine), escaped(run.precision), escaped(run.profile), run.rate,
       class_of(verdict), verdict <= Verdict::within ? "" : " open=\"\"", escaped(run_name(run)),
       class_of(tone_of(verdict)), symbol_of(verdict), escaped(outcome_text(run)),

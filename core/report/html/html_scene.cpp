@@ -5,11 +5,14 @@
 
 #include "harness/compare/scene_features.h"
 #include "report/charts/scene_drawing.h"
+#include "report/html/html_index.h"
 #include "report/html/html_run.h"
-#include "report/html/html_summary.h"
 #include "report/html/html_text.h"
 #include "report/rows/comparison_rows.h"
+#include "report/rows/expectation_rows.h"
+#include "report/rows/findings.h"
 #include "report/rows/selection.h"
+#include "report/rows/told_verdict.h"
 #include "report/rows/verdict_look.h"
 
 namespace slipcheck {
@@ -20,7 +23,7 @@ std::string reference_part(const SceneRecord& scene, const std::vector<std::stri
   TextTable table = reference_table(scene, names, kMostRows);
   if (!reference.closed_form.empty() || !absent_observables(scene).empty())
     table.columns[2].header = "closed form";
-  std::string html = "<div class=\"reference\"><h3>The reference</h3>\n" +
+  std::string html = "<div class=\"reference\"><h4>The reference</h4>\n" +
                      html_paragraph("faint", "", reference_summary(reference)) + html_table(table);
   if (const std::size_t left_out = names.size() - table.rows.size(); left_out > 0)
     html += html_paragraph("faint", "", fmt::format("… {} observables more", left_out));
@@ -41,31 +44,46 @@ std::string left_out_part(const SceneRecord& scene) {
 
 }  // namespace
 
-std::string verdict_label(const SceneRecord& scene) {
-  const Verdict verdict = scene.verdict();
-  return fmt::format("<span class=\"verdict {}\">{} {}</span>", class_of(verdict),
-                     symbol_of(verdict), verdict_name(scene));
+std::string html_runs(const SceneRecord& scene, const SharedSettings& shared) {
+  const std::vector<std::string> names = shown_observables(scene, false);
+  std::string html;
+  for (std::size_t run = 0; run < scene.runs.size(); ++run)
+    html += html_run(scene, run, names, shared);
+  return html;
 }
 
-std::string html_scene(const SceneRecord& scene, std::size_t k, const SharedSettings& shared,
-                       const std::string& charts) {
+std::string html_run_list(const SceneRecord& scene) {
+  TextTable table{{{"run"}, {"verdict"}, {"finding"}}, {}, "Engine by engine"};
+  for (const EngineRecord& run : scene.runs) {
+    const Verdict verdict = run.verdict();
+    table.rows.push_back(
+        {{run_name(run)},
+         {.text = outcome_text(run), .tone = tone_of(verdict), .symbol = symbol_of(verdict)},
+         {finding_text(scene, run), Tone::faint}});
+  }
+  return html_table(table);
+}
+
+std::string html_scene(const PageScene& each, const SharedSettings& shared,
+                       const std::string& charts, const std::string& runs) {
+  const SceneRecord& scene = *each.scene;
   const Scenario& scenario = scene.scenario;
   const std::vector<std::string> names = shown_observables(scene, false);
   std::string html = fmt::format(
       "<section class=\"scene {0}\" id=\"{1}\" data-scene=\"{2}\" data-name=\"{3}\" "
-      "data-verdict=\"{0}\">\n<h2>{3} {4}</h2>\n",
-      class_of(scene.verdict()), scene_id(k), k, escaped(scenario.name), verdict_label(scene));
-  html += html_paragraph("title", "", scenario.title);
+      "data-verdict=\"{0}\">\n<details><summary><h3>{3}</h3> {4} <span "
+      "class=\"title\">{5}</span> <span class=\"says\">{6}.</span></summary>\n",
+      class_of(told_verdict(scene)), each.id, each.place, escaped(scenario.name),
+      verdict_label(scene), escaped(scenario.title), escaped(scene_finding(scene)));
   html += html_paragraph("faint", "", scenario.source);
   html += "<div class=\"setting\">\n" + scene_drawing(scenario) + reference_part(scene, names) +
           "</div>\n";
+  html += fmt::format("<div class=\"plots\" data-scene=\"{}\"></div>\n", each.place) + charts;
   html += left_out_part(scene);
-  html += fmt::format("<div class=\"plots\" data-scene=\"{}\"></div>\n", k) + charts;
-  if (!scene.runs.empty()) html += "<h3>Engine by engine</h3>\n";
+  if (!scene.runs.empty()) html += "<h4>Engine by engine</h4>\n";
   html += html_settings("Settings of all runs [SI]:", shared.of_scene(scene));
-  for (std::size_t run = 0; run < scene.runs.size(); ++run)
-    html += html_run(scene, run, names, shared);
-  return html + "</section>\n";
+  html += fmt::format("<div class=\"runs\" data-runs=\"{}\">\n{}</div>\n", each.place, runs);
+  return html + "</details></section>\n";
 }
 
 }  // namespace slipcheck

@@ -1,20 +1,20 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
-#include "harness/compare/record.h"
+#include "report/rows/summary.h"
 
 namespace slipcheck {
 
-/// The id of a scene's section on the page.
-std::string scene_id(std::size_t k);
+/// What the results come to, first of all on the page: the finding in a sentence, how many scenes
+/// came out how, what is to be said of naive runs, and a score for each engine and profile. Nothing
+/// without scenes.
+std::string html_summary(const Summary& summary);
 
-/// How many scenes came out how, and the worst deviations.
-std::string html_summary(const std::vector<SceneRecord>& scenes);
-
-/// The list of all scenes with what is worst of each, and a filter that works without a script.
-std::string html_contents(const std::vector<SceneRecord>& scenes);
+/// The worst deviations with links to their scenes; nothing where there are none. `ids` are those
+/// of `scenes`, which the summary is of.
+std::string html_worst(const Summary& summary, const std::vector<SceneRecord>& scenes,
+                       const std::vector<std::string>& ids);
 
 }  // namespace slipcheck

@@ -21,7 +21,7 @@ std::string html_cell(const char* tag, const Cell& cell) {
   std::string text = escaped(symbol + cell.text);
   if (!cell.link.empty()) text = fmt::format("<a{}>{}</a>", attribute("href", cell.link), text);
   return fmt::format(
-      "<{0}{1}{2}>{3}</{0}>", tag,
+      "<{0}{1}{2}{3}>{4}</{0}>", tag, std::string_view(tag) == "th" ? " scope=\"row\"" : "",
       attribute("class", cell.css_class.empty() ? class_of(cell.tone) : cell.css_class),
       attribute("data-value", value), text);
 }
@@ -74,8 +74,12 @@ std::string html_table(const TextTable& table) {
     if (table.columns[c].right) numbers += fmt::format("{}n{}", numbers.empty() ? "" : " ", c + 1);
   std::string html = "<div class=\"table\" tabindex=\"0\"";
   if (!table.title.empty()) html += " role=\"region\"" + attribute("aria-label", table.title);
-  html += "><table" + attribute("class", numbers) + "><thead><tr>";
-  for (const Column& column : table.columns) html += "<th>" + escaped(column.header) + "</th>";
+  html += "><table" + attribute("class", numbers) + ">";
+  if (!table.title.empty()) html += "<caption>" + escaped(table.title) + "</caption>";
+  html += "<thead><tr>";
+  for (const Column& column : table.columns)
+    html += column.header.empty() ? "<td></td>"
+                                  : "<th scope=\"col\">" + escaped(column.header) + "</th>";
   html += "</tr></thead><tbody>\n";
   for (const auto& row : table.rows) {
     html += "<tr>";

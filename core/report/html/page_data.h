@@ -8,8 +8,9 @@
 
 namespace slipcheck {
 
-/// What the page's script draws, as "slipcheck-page/2": charts (page_chart.h) and the motion of
-/// each scene [SI], which the script draws over time and plays back. `charts` are those of the
+/// What the page's script draws, as "slipcheck-page/3": charts (page_chart.h) and the motion of
+/// each scene [SI], which the script draws over time and plays back; of each run its verdict and
+/// worst deviation, and its tables as HTML. `charts` are those of the
 /// content.
 nlohmann::json page_data(const ReportContent& content, const ReportCharts& charts);
 

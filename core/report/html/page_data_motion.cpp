@@ -184,7 +184,8 @@ Json surface_data(const NamedSurface& surface) {
                          surface.shape);
   data["name"] = printable(surface.name);
   std::visit(
-      Match{[](const StillMotion&) {}, [](const BeltMotion&) {},
+      Match{[](const StillMotion&) {},
+            [&](const BeltMotion& belt) { data["belt"] = numbers_of(belt.velocity); },
             [&](const SurfaceTranslation& moves) { data["velocity"] = numbers_of(moves.velocity); },
             [&](const SurfaceOscillation& wave) {
               data["amplitude"] = numbers_of(wave.amplitude);

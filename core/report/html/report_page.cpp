@@ -10,6 +10,7 @@
 #include "report/charts/report_charts.h"
 #include "report/html/html_charts.h"
 #include "report/html/html_engines.h"
+#include "report/html/html_index.h"
 #include "report/html/html_matrix.h"
 #include "report/html/html_page.h"
 #include "report/html/html_precision.h"
@@ -19,7 +20,9 @@
 #include "report/html/html_text.h"
 #include "report/html/packed_text.h"
 #include "report/html/page_data.h"
+#include "report/html/page_scenes.h"
 #include "report/html/page_script.h"
+#include "report/rows/summary.h"
 
 namespace slipcheck {
 namespace {
@@ -49,19 +52,35 @@ std::string parts_nav(bool scenes, bool precision, bool stability) {
   return html + "</nav>\n";
 }
 
+constexpr std::size_t kMostMoved = 10;  // rows that are not folded
+
 /// The toolbar is the script's.
 constexpr const char* kToolbar = "<div id=\"toolbar\"></div>\n";
 
-std::string scenes_part(const std::vector<SceneRecord>& scenes, const ReportCharts& charts,
-                        const StandingCharts& standing) {
-  if (scenes.empty()) return kToolbar;
+std::string scenes_part(const std::vector<PageTopic>& topics,
+                        const std::vector<SceneRecord>& scenes, const ReportCharts& charts,
+                        const StandingCharts& standing, bool has_script) {
+  if (scenes.empty()) return {};
   const SharedSettings shared(scenes);
-  std::string html = html_lacks(scenes) + shared.html() + kToolbar;
-  html += "<h2 id=\"scenes\">Scenes</h2>\n" + html_contents(scenes);
-  for (std::size_t k = 0; k < scenes.size(); ++k)
-    html += html_scene(scenes[k], k, shared,
-                       standing.html(charts.motions[k]) + standing.html(charts.scenes[k]));
-  return html;
+  std::string html = "<div id=\"scenes\" tabindex=\"-1\">\n";
+  for (const PageTopic& topic : topics) {
+    html += fmt::format(
+        "<section class=\"topic\" id=\"{}\">\n<h2>{} <span class=\"faint\">{}</span></h2>\n",
+        topic.id, escaped(topic.name), topic.counts());
+    for (const PageScene& each : topic.scenes) {
+      const SceneRecord& scene = *each.scene;
+      // With a script the runs come with its data, when their scene is opened.
+      const std::string runs = scene.runs.empty() ? ""
+                               : has_script ? "<noscript>" + html_run_list(scene) + "</noscript>\n"
+                                            : html_runs(scene, shared);
+      html += html_scene(
+          each, shared,
+          standing.html(charts.motions[each.place]) + standing.html(charts.scenes[each.place]),
+          runs);
+    }
+    html += "</section>\n";
+  }
+  return html + "</div>\n" + html_lacks(scenes) + shared.html();
 }
 
 /// What has moved, before all that is.
@@ -69,7 +88,17 @@ std::string moved_part(const std::optional<Moved>& moved) {
   if (!moved) return {};
   std::string html = "<section id=\"moved\">\n<h2>What has moved</h2>\n";
   html += html_paragraph("", "", moved->finding);
-  if (!moved->table.rows.empty()) html += html_table(moved->table);
+  TextTable table = moved->table;
+  if (table.rows.empty()) return html + "</section>\n";
+  table.title = "What has moved";
+  const std::size_t count = table.rows.size();
+  TextTable first = table;
+  first.rows.resize(std::min(count, kMostMoved));
+  html += html_table(first);
+  if (count > kMostMoved) {
+    table.rows.erase(table.rows.begin(), table.rows.begin() + kMostMoved);
+    html += html_details(fmt::format("{} more", count - kMostMoved), html_table(table));
+  }
   return html + "</section>\n";
 }
 
@@ -116,21 +145,27 @@ std::string report_page(const ReportContent& content, PageScript script) {
   const bool has_script = script == PageScript::included && !kPageScript.empty();
   const ReportCharts charts = report_charts(content, ChartExtent::page);
   const StandingCharts standing = has_script ? StandingCharts() : StandingCharts(charts.all());
+  const Summary summary = summarize(content.scenes);
+  const std::vector<PageTopic> topics = page_topics(content.scenes);
   const std::string precision = html_precision(content.precision, charts, standing);
   const std::string stability = html_stability(content, charts, standing);
   std::string html =
       html_head("Slipcheck report", stability.empty() ? "" : outcome_css(),
                 has_script ? std::vector{kLoader, kPageScript} : std::vector<std::string_view>());
+  if (!content.scenes.empty())
+    html += "<a class=\"skip\" href=\"#scenes\">Skip to the scenes</a>\n";
   html += "<header>\n<h1>Slipcheck</h1>\n";
   html += html_paragraph(
       "title", "",
       "Physics engines beside an exact reference of spheres that collide, slide and roll");
-  html += html_summary(content.scenes) +
-          html_context(content.context, content.commands, engines_of(content)) +
+  html += html_summary(summary) +
           parts_nav(!content.scenes.empty(), !precision.empty(), !stability.empty());
-  html += "</header>\n<main>\n" + moved_part(content.moved) +
-          html_matrix(content.scenes, charts, standing) +
-          scenes_part(content.scenes, charts, standing) + precision + stability + "</main>\n";
+  html += "</header>\n<main>\n" + moved_part(content.moved) + kToolbar +
+          html_index(topics, engine_matrix(content.scenes, MatrixExtent::all)) +
+          html_worst(summary, content.scenes, scene_ids(content.scenes)) +
+          scenes_part(topics, content.scenes, charts, standing, has_script) +
+          html_matrix(content.scenes, charts, standing) + precision + stability +
+          html_context(content.context, content.commands, engines_of(content)) + "</main>\n";
   if (has_script) html += script_part(content, charts);
   return html + kHtmlEnd;
 }

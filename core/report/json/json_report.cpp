@@ -10,6 +10,7 @@
 #include "engine/lacks.h"
 #include "report/json/common_fields.h"
 #include "report/rows/selection.h"
+#include "report/rows/told_verdict.h"
 #include "report/rows/verdict_look.h"
 #include "scenario/tolerances.h"
 
@@ -274,6 +275,10 @@ void describe(Fields& f, SceneRecord& scene) {
     f("runs", shown_runs(scene));
   f.derived("verdict", [&] {
     return std::string(is_reference_alone(scene) ? "reference alone" : name_of(scene.verdict()));
+  });
+  f.derived("verdict_told", [&] {
+    return std::string(is_reference_alone(scene) ? "reference alone"
+                                                 : name_of(told_verdict(scene)));
   });
 }
 

@@ -28,19 +28,9 @@ bool has_failed(const EngineRecord& run) {
   return run.status != RunStatus::ok && run.status != RunStatus::skipped;
 }
 
-double worst_phase(const EngineRecord& run) {
-  if (has_failed(run)) return INFINITY;
-  double worst = NAN;
-  for (const auto& [name, error] : run.errors) {
-    if (!error.tolerance || error.verdict == Verdict::undecided) continue;
-    const bool is_absent = error.verdict == Verdict::deviates && !std::isfinite(error.max);
-    worst = std::fmax(worst, is_absent ? INFINITY : error.max / *error.tolerance);
-  }
-  return worst;
-}
-
-/// In the order of names, versions, profiles and rates, those that are common enough.
-std::vector<EngineMethod> common_methods(const std::vector<SceneRecord>& scenes) {
+/// In the order of names, versions, profiles and rates; those that are common enough, or all with
+/// naive ones last.
+std::vector<EngineMethod> methods_of(const std::vector<SceneRecord>& scenes, MatrixExtent extent) {
   std::map<EngineMethod, std::size_t> scenes_of;
   for (const SceneRecord& scene : scenes) {
     std::set<EngineMethod> here;
@@ -52,21 +42,11 @@ std::vector<EngineMethod> common_methods(const std::vector<SceneRecord>& scenes)
   for (const auto& [method, count] : scenes_of) most = std::max(most, count);
   std::vector<EngineMethod> methods;
   for (const auto& [method, count] : scenes_of)
-    if (2 * count >= most) methods.push_back(method);
+    if (extent == MatrixExtent::all || 2 * count >= most) methods.push_back(method);
+  if (extent == MatrixExtent::all)
+    std::ranges::stable_partition(
+        methods, [](const EngineMethod& method) { return method.profile != "naive"; });
   return methods;
-}
-
-Cell cell_of(const MatrixCell& cell) {
-  if (cell.run == nullptr) return {""};
-  const Verdict verdict = cell.run->verdict();
-  if (has_failed(*cell.run)) return {"✗", Tone::bad, INFINITY};
-  if (cell.run->status == RunStatus::skipped) return {"–", Tone::faint};
-  if (std::isnan(cell.error))
-    return {verdict == Verdict::unjudged ? "·" : symbol_of(verdict), Tone::doubtful};
-  const std::string text = !std::isfinite(cell.error) ? "∞"
-                           : cell.error < 0.005       ? "0"
-                                                      : fmt::format("{:.2g}", cell.error);
-  return {text, cell.error > 1 ? Tone::bad : Tone::good, cell.error};
 }
 
 double simulated_seconds(const EngineRecord& run) {
@@ -171,22 +151,49 @@ bool EngineMatrix::has_both_precisions() const {
   });
 }
 
-EngineMatrix engine_matrix(const std::vector<SceneRecord>& scenes) {
+double worst_phase(const EngineRecord& run) {
+  if (has_failed(run)) return INFINITY;
+  double worst = NAN;
+  for (const auto& [name, error] : run.errors) {
+    if (!error.tolerance || error.verdict == Verdict::undecided) continue;
+    const bool is_absent = error.verdict == Verdict::deviates && !std::isfinite(error.max);
+    worst = std::fmax(worst, is_absent ? INFINITY : error.max / *error.tolerance);
+  }
+  return worst;
+}
+
+Cell matrix_cell(const MatrixCell& cell) {
+  if (cell.run == nullptr) return {""};
+  const Verdict verdict = cell.run->verdict();
+  if (has_failed(*cell.run)) return {"✗", Tone::bad, INFINITY};
+  if (cell.run->status == RunStatus::skipped) return {"–", Tone::faint};
+  if (std::isnan(cell.error))
+    return {verdict == Verdict::unjudged ? "·" : symbol_of(verdict), Tone::doubtful};
+  const std::string text = !std::isfinite(cell.error) ? "∞"
+                           : cell.error < 0.005       ? "0"
+                                                      : fmt::format("{:.2g}", cell.error);
+  return {text, cell.error > 1 ? Tone::bad : Tone::good, cell.error};
+}
+
+EngineMatrix engine_matrix(const std::vector<SceneRecord>& scenes, MatrixExtent extent) {
   EngineMatrix matrix;
-  matrix.methods = common_methods(scenes);
+  matrix.methods = methods_of(scenes, extent);
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     EngineMatrix::Row row{&scenes[k], k, std::vector<MatrixCell>(matrix.methods.size())};
     bool any = false;
     for (const EngineRecord& run : scenes[k].runs) {
       const auto method = std::ranges::find(matrix.methods, method_of(run));
       if (!counts(run) || method == matrix.methods.end()) continue;
-      row.cells[static_cast<std::size_t>(method - matrix.methods.begin())] = {&run,
-                                                                              worst_phase(run)};
+      // Of several scales the worst.
+      MatrixCell& cell = row.cells[static_cast<std::size_t>(method - matrix.methods.begin())];
+      const double error = worst_phase(run);
+      if (cell.run == nullptr || error > cell.error) cell = {&run, error};
       any = true;
     }
-    if (any) matrix.rows.push_back(std::move(row));
+    if (any || extent == MatrixExtent::all) matrix.rows.push_back(std::move(row));
   }
-  if (matrix.methods.size() < 2 || matrix.rows.size() < 2) return {};
+  if (extent == MatrixExtent::common && (matrix.methods.size() < 2 || matrix.rows.size() < 2))
+    return {};
   return matrix;
 }
 
@@ -205,7 +212,7 @@ TextTable matrix_table(const EngineMatrix& matrix, const std::string& anchor) {
     if (!anchor.empty()) scene.link = anchor + std::to_string(row.place + 1);
     std::vector<Cell>& cells = table.rows.emplace_back();
     cells.push_back(std::move(scene));
-    for (const MatrixCell& cell : row.cells) cells.push_back(cell_of(cell));
+    for (const MatrixCell& cell : row.cells) cells.push_back(matrix_cell(cell));
   }
   return table;
 }

@@ -28,6 +28,9 @@ struct MatrixCell {
   double error = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// The worst phase's largest error of a run [tolerances], as in MatrixCell.
+double worst_phase(const EngineRecord& run);
+
 /// Scenes by methods. Runs of which something is expected are left out: they show a trait of one
 /// engine, and so are methods that fewer than half as many scenes ask for as the commonest.
 struct EngineMatrix {
@@ -43,8 +46,17 @@ struct EngineMatrix {
   bool has_both_precisions() const;
 };
 
-/// Empty where there are not two scenes and two methods. The scenes must outlive it.
-EngineMatrix engine_matrix(const std::vector<SceneRecord>& scenes);
+/// Which methods a matrix has: those that enough scenes ask for, to be held beside each other, or
+/// all of them.
+enum class MatrixExtent { common, all };
+
+/// The common one is empty where there are not two scenes and two methods. The scenes must outlive
+/// it.
+EngineMatrix engine_matrix(const std::vector<SceneRecord>& scenes,
+                           MatrixExtent extent = MatrixExtent::common);
+
+/// A cell as people see it: "0.5", "✗" of a run that failed, "–" of one that cannot run the scene.
+Cell matrix_cell(const MatrixCell& cell);
 
 /// A method over all its scenes.
 struct MethodScore {

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "report/rows/expectation_rows.h"
+#include "report/rows/quantity.h"
 #include "report/rows/selection.h"
+#include "report/rows/told_verdict.h"
 #include "report/terminal/text.h"
 
 namespace slipcheck {
@@ -26,6 +29,28 @@ std::string first_undecided(const EngineRecord& run) {
   for (const auto& [name, error] : run.errors)
     if (error.verdict == Verdict::undecided) return printable(name + ": " + error.reason);
   return {};
+}
+
+/// "nearest to its tolerance: i.sliding_time, 0.8 of it (bullet double tuned 240 Hz)"
+std::string nearest_text(const SceneRecord& scene) {
+  const std::pair<const std::string, Deviation>* nearest = nullptr;
+  const EngineRecord* whose = nullptr;
+  double most = -1;
+  for (const EngineRecord& run : scene.runs) {
+    if (run.expect || !decides(scene, run)) continue;
+    for (const auto& error : run.errors) {
+      const Deviation& deviation = error.second;
+      if (deviation.verdict != Verdict::within || !(deviation.tolerance.value_or(0) > 0)) continue;
+      const double share = deviation.max / *deviation.tolerance;
+      if (!(share > most)) continue;
+      most = share;
+      nearest = &error;
+      whose = &run;
+    }
+  }
+  if (!nearest) return {};
+  return fmt::format("nearest to its tolerance: {}, {} of it ({})", printable(nearest->first),
+                     plain_number(most), run_label(*whose));
 }
 
 }  // namespace
@@ -67,15 +92,61 @@ std::string finding_text(const SceneRecord& scene, const EngineRecord& run) {
   return printable(run.reason.empty() ? text : text + ": " + run.reason);
 }
 
+std::optional<Finding> worst_finding(const SceneRecord& scene) {
+  std::optional<Finding> worst;
+  for (const EngineRecord& run : scene.runs) {
+    if (!decides(scene, run)) continue;
+    if (auto row = worst_deviation(scene, run); row && (!worst || is_worse(*row, worst->row)))
+      worst = Finding{&scene, &run, std::move(*row)};
+  }
+  return worst;
+}
+
+std::string off_text(const ComparisonRow& row) {
+  if (row.worst.text == "–") return printable(fmt::format("{} ({})", row.name, row.note));
+  std::string text =
+      fmt::format("{} off by up to {}, tolerance {}", row.name, row.worst.text, row.tolerance.text);
+  return printable(row.note.empty() ? text : fmt::format("{} ({})", text, row.note));
+}
+
+std::string worst_text(const Finding& finding) {
+  return printable(fmt::format("{}, {} ({})", finding.scene->scenario.name, off_text(finding.row),
+                               run_label(*finding.run)));
+}
+
+std::string scene_finding(const SceneRecord& scene) {
+  if (scene.runs.empty())
+    return scene.reference.run.reached
+               ? "The reference alone: " + reference_summary(scene.reference)
+               : "The reference did not end: " + scene.reference.run.reason;
+  const Verdict verdict = told_verdict(scene);
+  std::size_t within = 0;
+  const EngineRecord* first = nullptr;  // that is as bad as the scene
+  for (const EngineRecord& run : scene.runs) {
+    within += run.verdict() == Verdict::within ? 1 : 0;
+    if (!first && decides(scene, run) && run.verdict() == verdict) first = &run;
+  }
+  const std::string counts =
+      fmt::format("{} of {} within", within, counted(scene.runs.size(), "run"));
+  if (verdict == Verdict::unjudged) return "Nothing is judged";
+  if (verdict == Verdict::within) {
+    const std::string near = nearest_text(scene);
+    return near.empty() ? counts : counts + "; " + near;
+  }
+  if (verdict == Verdict::deviates)
+    if (const auto worst = worst_finding(scene))
+      return fmt::format("{}; worst: {} ({})", counts, off_text(worst->row),
+                         run_label(*worst->run));
+  if (!first)
+    return fmt::format("{}; the reference did not end: {}", counts,
+                       printable(scene.reference.run.reason));
+  return fmt::format("{}; {} ({})", counts, finding_text(scene, *first), run_label(*first));
+}
+
 std::vector<Finding> worst_findings(const std::vector<SceneRecord>& scenes, std::size_t most) {
   std::vector<Finding> findings;
-  for (const SceneRecord& scene : scenes) {
-    std::optional<Finding> worst;
-    for (const EngineRecord& run : scene.runs)
-      if (auto row = worst_deviation(scene, run); row && (!worst || is_worse(*row, worst->row)))
-        worst = Finding{&scene, &run, std::move(*row)};
-    if (worst) findings.push_back(std::move(*worst));
-  }
+  for (const SceneRecord& scene : scenes)
+    if (auto worst = worst_finding(scene)) findings.push_back(std::move(*worst));
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return is_worse(a.row, b.row); });
   if (findings.size() > most) findings.resize(most);

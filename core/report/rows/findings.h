@@ -31,6 +31,20 @@ struct Finding {
   ComparisonRow row;
 };
 
+/// The worst deviation of the runs that decide a scene's verdict, if any exceeds its tolerance.
+std::optional<Finding> worst_finding(const SceneRecord& scene);
+
+/// "i.sliding_time off by up to 10.2 %, tolerance 1 %", with the row's note.
+std::string off_text(const ComparisonRow& row);
+
+/// "asymmetric, i.sliding_time off by up to 10.2 %, tolerance 1 % (bullet double default 60 Hz)"
+std::string worst_text(const Finding& finding);
+
+/// What a scene comes to, in a sentence without its full stop: what failed, the worst deviation,
+/// what is not as expected or not decided, else how near to its tolerance the worst run is; of the
+/// reference alone what it did.
+std::string scene_finding(const SceneRecord& scene);
+
 /// The `most` worst, one of a scene at most, so that one bad scene does not hide the others.
 std::vector<Finding> worst_findings(const std::vector<SceneRecord>& scenes, std::size_t most);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "report/rows/expectation_rows.h"
+#include "report/rows/told_verdict.h"
 
 namespace slipcheck {
 
@@ -68,7 +69,7 @@ AllVerdicts count_verdicts(const std::vector<SceneRecord>& scenes) {
     if (is_reference_alone(scene))
       ++counts.scenes_alone;
     else
-      counts.scenes.add(scene.verdict());
+      counts.scenes.add(told_verdict(scene));
     counts.run_count += scene.runs.size();
     for (const EngineRecord& run : scene.runs) counts.runs.add(run.verdict());
   }
@@ -80,7 +81,7 @@ bool is_reference_alone(const SceneRecord& scene) {
 }
 
 std::string verdict_name(const SceneRecord& scene) {
-  const Verdict verdict = scene.verdict();
+  const Verdict verdict = told_verdict(scene);
   if (is_reference_alone(scene)) return "reference alone";
   if (is_judged_by_expectations(scene) &&
       (verdict == Verdict::within || verdict == Verdict::deviates))

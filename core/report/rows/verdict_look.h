@@ -39,7 +39,7 @@ class VerdictCounts {
   std::array<std::size_t, 5> counts_{};
 };
 struct AllVerdicts {
-  VerdictCounts scenes;  ///< but for those of the reference alone
+  VerdictCounts scenes;  ///< as people are told, but for those of the reference alone
   VerdictCounts runs;
   std::size_t scenes_alone = 0;  ///< of the reference alone, which came to its end
   std::size_t scene_count = 0, run_count = 0;

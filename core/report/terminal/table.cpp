@@ -10,6 +10,8 @@
 #include "report/rows/comparison_rows.h"
 #include "report/rows/expectation_rows.h"
 #include "report/rows/selection.h"
+#include "report/rows/summary.h"
+#include "report/rows/told_verdict.h"
 #include "report/rows/verdict_look.h"
 #include "report/terminal/text.h"
 
@@ -86,7 +88,7 @@ std::string run_block(const SceneRecord& scene, const EngineRecord& run,
 }
 
 std::string verdict_text(const SceneRecord& scene, const TableStyle& style) {
-  const Verdict verdict = scene.verdict();
+  const Verdict verdict = told_verdict(scene);
   const std::string name = verdict_name(scene), loud = word_of(verdict);
   return inked(fmt::format("{} {}", symbol_of(verdict),
                            name == name_of(verdict) && !loud.empty() ? loud : name),
@@ -109,7 +111,8 @@ std::string table_of(const SceneRecord& scene, const TableStyle& style) {
 }
 
 std::string summary_of(const std::vector<SceneRecord>& scenes, const TableStyle& style) {
-  const AllVerdicts all = count_verdicts(scenes);
+  const Summary summary = summarize(scenes, 1);
+  const AllVerdicts& all = summary.counts;
   const auto list = [&](const VerdictCounts& counts) {
     return counts.list([&](Verdict verdict) {
       return inked(counts.text_of(verdict), counts.of(verdict) > 0 ? tone_of(verdict) : Tone::plain,
@@ -122,8 +125,13 @@ std::string summary_of(const std::vector<SceneRecord>& scenes, const TableStyle&
       all.run_count > 0
           ? fmt::format("; {}: {}", counted(all.run_count, "engine run"), list(all.runs))
           : "";
-  return fmt::format("{}: {}{}{}\n", counted(all.scene_count, "scene"), list(all.scenes), alone,
-                     runs);
+  std::string text =
+      fmt::format("{}: {}{}{}\n", counted(all.scene_count, "scene"), list(all.scenes), alone, runs);
+  for (const std::string& sentence : {summary.finding, summary.naive})
+    for (const std::string& line :
+         wrapped(sentence, static_cast<std::size_t>(std::max(style.width, 1))))
+      if (!line.empty()) text += line + '\n';
+  return text;
 }
 
 }  // namespace slipcheck

@@ -1,6 +1,10 @@
 #include "report/terminal/table_style.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <limits>
 
 #include "report/terminal/text.h"
 
@@ -27,13 +31,14 @@ std::size_t total(const std::vector<std::size_t>& widths, std::size_t indent) {
   return sum - kGap;
 }
 
-/// Removes the most spare column; false if there is none.
-bool leave_one_out(TextTable& table) {
+/// Removes the most spare column and adds its name; false if there is none.
+bool leave_one_out(TextTable& table, std::vector<std::string>& left_out) {
   const auto most =
       std::max_element(table.columns.begin(), table.columns.end(),
                        [](const Column& a, const Column& b) { return a.spare < b.spare; });
   if (most->spare == 0) return false;
   const auto at = most - table.columns.begin();
+  left_out.insert(left_out.begin(), most->header);
   table.columns.erase(most);
   for (auto& row : table.rows) row.erase(row.begin() + at);
   return true;
@@ -67,8 +72,10 @@ std::string terminal_table(TextTable table, const TableStyle& style, std::size_t
   set_symbols_apart(table);
   for (auto& row : table.rows)
     for (Cell& cell : row) cell.text = printable(cell.text);
-  const auto room = static_cast<std::size_t>(std::max(style.width, 1));
-  while (total(widths_of(table), indent) > room && leave_one_out(table)) {
+  const std::size_t room = style.is_bound ? static_cast<std::size_t>(std::max(style.width, 1))
+                                          : std::numeric_limits<std::size_t>::max();
+  std::vector<std::string> left_out;
+  while (total(widths_of(table), indent) > room && leave_one_out(table, left_out)) {
   }
   std::vector<std::size_t> widths = widths_of(table);
   if (const std::size_t taken = total(widths, indent); taken > room) {
@@ -97,6 +104,13 @@ std::string terminal_table(TextTable table, const TableStyle& style, std::size_t
   for (const Column& column : table.columns) headers.push_back({column.header, Tone::faint});
   add_line(headers);
   for (const auto& row : table.rows) add_line(row);
+  std::erase(left_out, "");  // a verdict's word, whose symbol stays, and remarks
+  if (!left_out.empty()) {
+    const std::string note = fmt::format("… no room for {}: widen the terminal, or COLUMNS=200",
+                                         fmt::join(left_out, ", "));
+    for (const std::string& line : wrapped(note, room > indent ? room - indent : 1))
+      result += std::string(indent, ' ') + inked(line, Tone::faint, style) + '\n';
+  }
   return result;
 }
 

@@ -45,7 +45,7 @@ export function redraw_charts() {
 /**
  * Adds a figure to `parent`; its `title` may be left out. `option_of({colours, width, narrow})` gives ECharts' options, with
  * `height` [px] in them, of which `height` is a guess that keeps the page from jumping; `name` is
- * read out by screen readers. Returns {redraw, head, figure}.
+ * read out by screen readers. Returns {redraw, head, figure, on_draw(listener)}.
  */
 export function add_chart(parent, { title, name, caption, height, option_of }) {
   const head = make('div', { class: 'chart-head' }, ...(title ? [make('h4', {}, title)] : []));
@@ -55,6 +55,7 @@ export function add_chart(parent, { title, name, caption, height, option_of }) {
   parent.append(figure);
 
   let drawn = null, width = 0;
+  const listeners = [];
   const chart = {
     show() {
       if (drawn || !canvas.isConnected || canvas.clientWidth === 0) return;
@@ -73,6 +74,7 @@ export function add_chart(parent, { title, name, caption, height, option_of }) {
       const option = option_of({ colours: theme_colours(), width: canvas.clientWidth,
         narrow: canvas.clientWidth < kNarrow });
       canvas.style.height = `${option.height}px`;
+      for (const listener of listeners) listener();
       return { ...common_options(name), ...option };
     },
     draw() {
@@ -91,7 +93,7 @@ export function add_chart(parent, { title, name, caption, height, option_of }) {
   charts.set(canvas, chart);
   near.observe(canvas);
   sized.observe(canvas);
-  return { redraw: () => chart.draw(), head, figure };
+  return { redraw: () => chart.draw(), head, figure, on_draw: (listener) => listeners.push(listener) };
 }
 
 function common_options(name) {

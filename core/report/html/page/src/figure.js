@@ -2,6 +2,7 @@
 // curves, tinted bands and cells, with one legend.
 import { add_chart, axis_of, legend_of, log_axis_of, tooltip_of } from './chart.js';
 import { escaped, make, make_select, number_text } from './dom.js';
+import { Lines } from './lines.js';
 import { look_of } from './look.js';
 import { shown, tell, unpacked } from './panels.js';
 
@@ -11,16 +12,24 @@ const kNarrow = 760;    // below which panels stand one below the other
 const kLong = 100;      // points of a line that is read along its axis, not point by point
 
 /**
- * Adds a figure that shows one of `charts`, the first unless the reader chooses; `passes(k)` tells whether the k-th
- * run of their scene is shown.
+ * Adds a figure that shows one of `charts`, the first unless the reader chooses. Of a scene: its `runs`, of which the
+ * chart has rows, and view(), what is looked at now.
  */
-export function add_figure(parent, charts, passes = () => true) {
+export function add_figure(parent, charts, { runs = [], view = null } = {}) {
   let chosen = unpacked(charts[0]);
+  const rows = [...new Set(chosen.panels.flatMap(({ y }) => y.runs ?? []))];
+  const lines = view && rows.length ? new Lines(runs, rows, view) : null;
+  const now = () => {
+    if (!lines) return chosen;
+    const first = new Set(lines.shown().first);
+    return shown(chosen, (k) => first.has(k));
+  };
   const figure = add_chart(parent, {
     title: chosen.title, name: `${chosen.title}. ${chosen.caption}`, caption: chosen.caption,
-    height: layout_of(shown(chosen, passes), { width: 1000 }).height,
-    option_of: (view) => option_of(shown(chosen, passes), view),
+    height: layout_of(now(), { width: 1000 }).height,
+    option_of: (canvas) => option_of(now(), canvas),
   });
+  if (lines) add_lines_button(figure, lines);
   if (charts.length > 1) {
     const { label } = make_select('Show', charts.map(({ title }, k) => [k, title]), (value) => {
       chosen = unpacked(charts[Number(value)]);
@@ -34,6 +43,21 @@ export function add_figure(parent, charts, passes = () => true) {
       make('li', {}, make('span', { style: `background:${fill};color:${ink}`, 'aria-hidden': 'true' }, letter), ` ${label}`))));
   }
   return figure;
+}
+
+/** The button that shows all runs of a chart, or few again. */
+export function add_lines_button(figure, lines) {
+  const button = make('button', { type: 'button', class: 'show-lines', onclick: () => {
+    lines.all = !lines.all;
+    figure.redraw();
+  } });
+  const name = () => {
+    button.textContent = lines.text();
+    button.hidden = !button.textContent;
+  };
+  figure.on_draw(name);
+  name();
+  figure.head.append(make('div', { class: 'chart-choices' }, button));
 }
 
 // Where the panels' frames lie.

@@ -1,17 +1,20 @@
-// Brings the page to life. Without this script it is complete, too: texts, tables and drawings.
-import style from './style.css';
+// Brings the page to life. Without this script it is complete but for what the runs' tables say:
+// texts, drawings and charts that stand still.
+import { read_address, write_address } from './address.js';
 import { redraw_charts } from './chart.js';
 import { read_data } from './data.js';
 import { make } from './dom.js';
 import { add_figure } from './figure.js';
-import { apply_filter, make_filter_form, run_passes } from './filter.js';
-import { unpacked } from './motion.js';
-import { add_replay } from './replay.js';
+import { apply_filter, empty_filter, looked_at, make_filter_form, run_passes } from './filter.js';
+import { tell_summary } from './first_screen.js';
+import { listen_to_index, tell_index } from './index.js';
+import { mend_stops, rove } from './rove.js';
+import { Scenes } from './scenes.js';
 import { make_sortable } from './sort.js';
+import { summarize } from './summary.js';
 import { make_theme_button, set_palette, start_theme } from './theme.js';
-import { add_time_chart } from './time_chart.js';
 
-const kSchema = 'slipcheck-page/2';
+const kSchema = 'slipcheck-page/3';
 
 function plots(selector, fill) {
   for (const element of document.querySelectorAll(`.plots[data-${selector}]`)) {
@@ -19,54 +22,101 @@ function plots(selector, fill) {
   }
 }
 
-function fill_scene(parent, scene, passes) {
-  if (scene.motion?.runs.length) {
-    let motions = null;  // unpacked when the first of them is looked at: a page may hold hundreds
-    const unpack = () => {
-      motions ??= scene.motion.runs.map((run) => unpacked(run, scene.motion.bodies)).sort((a, b) => a.run - b.run);
-      return motions;
-    };
-    if (scene.motion.runs.some((run) => run.run < 0)) add_replay(parent, scene, unpack);
-    add_time_chart(parent, scene, unpack, passes);
+/** The toolbar, and what of the page follows what is chosen there. */
+class Page {
+  constructor(data, toolbar) {
+    this.data = data;
+    this.filter = empty_filter();
+    this.scene = '';  // the one that is looked at, by name
+    const view = () => ({ filter: this.filter, passes: (run) => run_passes(this.filter, run) });
+    this.scenes = new Scenes(data.scenes, view, (k) => this.look_at(k));
+    this.form = make_filter_form(data.scenes, (filter) => this.choose(filter));
+    this.total = `${data.scenes.length} scene${data.scenes.length === 1 ? '' : 's'}`;
+    this.form.tell(`${data.scenes.length} of ${this.total}`);
+    toolbar.append(this.form.form);
+    for (const plain of document.querySelectorAll('fieldset.filter')) plain.remove();
+    document.getElementById('scenes')?.prepend(make('p', { class: 'fold' },
+      make('button', { type: 'button', onclick: () => this.scenes.open_all(true) }, 'Open all'), ' ',
+      make('button', { type: 'button', onclick: () => this.scenes.open_all(false) }, 'Close all')));
+    listen_to_index((k) => this.scenes.open(k));
+    document.addEventListener('click', (event) => this.follow(event));
+    window.addEventListener('hashchange', () => this.read());
   }
-  for (const chart of scene.charts) add_figure(parent, [chart], (k) => passes(scene.runs[k]));
+
+  choose(filter) {
+    this.filter = { ...filter };
+    const shown = this.data.scenes.map((scene) => looked_at(filter, scene)).filter(Boolean);
+    apply_filter(filter, this.data.scenes, shown);
+    tell_index(filter, this.data.scenes, this.data.methods, shown);
+    tell_summary(summarize(shown));
+    this.form.tell(`${shown.length} of ${this.total}`);
+    mend_stops();
+    redraw_charts();
+    this.write();
+  }
+
+  look_at(k) {
+    this.scene = this.data.scenes[k].name;
+    this.write();
+  }
+
+  write() {
+    const address = write_address(this.filter, this.scene);
+    if (address !== window.location.hash && !this.is_reading) history.replaceState(null, '', address || window.location.pathname + window.location.search);
+  }
+
+  /** Takes what the address says. */
+  read() {
+    const wanted = read_address(decode(window.location.hash));
+    if (!wanted) return this.open_id(window.location.hash.slice(1));
+    this.is_reading = true;
+    this.form.set(wanted.filter);
+    this.is_reading = false;
+    const k = this.data.scenes.findIndex(({ name }) => name === wanted.scene);
+    if (k >= 0) this.scenes.open(k);
+    return undefined;
+  }
+
+  open_id(id) {
+    const k = this.data.scenes.findIndex((scene) => scene.id === id);
+    if (k >= 0) this.scenes.open(k);
+    return k >= 0;
+  }
+
+  /** Links to scenes open them. */
+  follow(event) {
+    const link = event.target.closest?.('a[href^="#scene-"]');
+    if (link && this.open_id(link.getAttribute('href').slice(1))) event.preventDefault();
+  }
 }
 
-function fill_toolbar(scenes, changed) {
-  const toolbar = document.getElementById('toolbar');
-  if (!toolbar) return;
-  if (scenes.length) {
-    const total = `${scenes.length} scene${scenes.length === 1 ? '' : 's'}`;
-    const { form, tell } = make_filter_form(scenes, (filter) => {
-      tell(`${apply_filter(filter, scenes)} of ${total}`);
-      changed(filter);
-    });
-    tell(`${scenes.length} of ${total}`);
-    toolbar.append(form);
-    for (const plain of document.querySelectorAll('fieldset.filter')) plain.remove();
+function decode(hash) {
+  try {
+    return hash.includes('=') ? hash : decodeURIComponent(hash);
+  } catch {
+    return hash;
   }
-  toolbar.append(make_theme_button());
 }
 
 async function start() {
-  document.head.append(make('style', {}, style));
   start_theme();
-  for (const table of document.querySelectorAll('table')) make_sortable(table);
+  for (const table of document.querySelectorAll('table')) {
+    if (table.closest('section.scene')) continue;
+    make_sortable(table);
+    rove(table);
+  }
   const data = await read_data(document.getElementById('slipcheck-data'));
-  const scenes = data?.scenes ?? [];
-  let passes = () => true;
-  fill_toolbar(scenes, (filter) => {
-    passes = (run) => run_passes(filter, run);
-    redraw_charts();
-  });
+  if (data && data.schema !== kSchema) throw new Error(`data of the schema ${data.schema}, not ${kSchema}`);
+  const toolbar = document.getElementById('toolbar');
+  const page = data?.scenes.length && toolbar ? new Page(data, toolbar) : null;
+  toolbar?.append(make_theme_button());
   if (!data) return;
-  if (data.schema !== kSchema) throw new Error(`data of the schema ${data.schema}, not ${kSchema}`);
   set_palette(data.palette);
-  plots('scene', (parent, k) => fill_scene(parent, scenes[k], (run) => passes(run)));
   plots('engines', (parent) => add_figure(parent, data.engines));
   plots('precision', (parent, k) => { if (data.precision[k].charts.length) add_figure(parent, data.precision[k].charts); });
   plots('map', (parent, k) => add_figure(parent, [data.stability.maps[k]]));
   plots('limits', (parent, k) => add_figure(parent, [data.stability.limits[k]]));
+  if (window.location.hash) page?.read();
   document.documentElement.dataset.ready = '';
 }
 

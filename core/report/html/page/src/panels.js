@@ -12,8 +12,25 @@ export function unpacked(chart) {
   return { ...chart, panels: chart.panels.map((panel) => ({ ...panel, curves: panel.curves.map(curve_of) })) };
 }
 
-/** Without the rows of runs that are not shown. */
+/**
+ * Without the rows of runs that are not shown. Where all of those that are lie beyond the axis, as naive ones do that were
+ * asked for, the axis follows them.
+ */
 export function shown(chart, passes) {
+  return { ...chart, panels: rows_of(chart, passes).panels.map(widened) };
+}
+
+/** The panel with an axis that shows its points, where it shows none of them. */
+function widened(panel) {
+  const points = panel.curves.filter(({ notes }) => notes).flatMap(({ x }) => x);
+  const { low, high } = panel.x;
+  if (!panel.y.runs || !panel.truth || panel.x.log || !points.length || points.some((x) => x >= low && x <= high)) return panel;
+  const all = [...points, panel.truth.value - panel.truth.tolerance, panel.truth.value + panel.truth.tolerance];
+  const least = all.reduce((a, b) => Math.min(a, b)), most = all.reduce((a, b) => Math.max(a, b)), room = 0.04 * (most - least);
+  return { ...panel, x: { ...panel.x, low: least - room, high: most + room } };
+}
+
+function rows_of(chart, passes) {
   return { ...chart, panels: chart.panels.map((panel) => {
     const { names, runs } = panel.y;
     if (!names || !runs) return panel;

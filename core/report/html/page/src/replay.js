@@ -9,20 +9,25 @@ const kSteps = 2000;     // of the slider
 const kMostTold = 4;     // bodies in the line of text
 const kStep = 0.12;      // [rad] of an arrow key
 
+const kPhases = { median: 'the phase in the middle of the engine’s ensemble', worst: 'the phase that is farthest off',
+  nearest: 'the phase that is nearest to the reference' };
+
 let open_replay = null;  // browsers allow few WebGL contexts: one at a time
+const remembered = new Map();  // how a scene was looked at: its id -> {view, follow}
+const still = window.matchMedia('(prefers-reduced-motion: reduce)');
 
 /** A button in `parent` that opens the replay; `motions()` gives the scene's, unpacked, the reference's first. */
 export function add_replay(parent, scene, motions) {
   const panel = make('div', { class: 'replay', hidden: true });
   const button = make('button', { type: 'button', class: 'replay-open', 'aria-expanded': 'false',
-    onclick: () => (panel.hidden ? open() : close()) }, '▶ Replay in 3D');
+    onclick: () => (panel.hidden ? open() : close()) }, 'Replay in 3D');
   parent.append(button, panel);
 
   function open() {
     open_replay?.();
     panel.hidden = false;
     button.setAttribute('aria-expanded', 'true');
-    button.textContent = '✕ Close the replay';
+    button.textContent = 'Close the replay';
     const replay = new Replay(panel, scene, motions());
     open_replay = close;
     close.end = () => replay.close();
@@ -33,7 +38,7 @@ export function add_replay(parent, scene, motions) {
     panel.replaceChildren();
     panel.hidden = true;
     button.setAttribute('aria-expanded', 'false');
-    button.textContent = '▶ Replay in 3D';
+    button.textContent = 'Replay in 3D';
     if (open_replay === close) open_replay = null;
   }
 }
@@ -51,7 +56,7 @@ class Replay {
     this.most_slip = largest_of(motions.flatMap((motion) => motion.bodies.flatMap((body) => body.slip.flat())));
     this.runs = [...new Set(motions.filter((motion) => motion.run >= 0).map((motion) => motion.run))];
     this.run = this.runs[0] ?? null;
-    this.follow = this.reach() > 14 * scene.motion.bodies[0].radius;
+    this.follow = remembered.get(scene.id)?.follow ?? this.reach() > 14 * scene.motion.bodies[0].radius;
     this.make_controls(panel);
     try {
       this.world = new ReplayWorld(this.canvas, scene.motion);
@@ -65,14 +70,17 @@ class Replay {
     this.end_theme = on_theme(() => { this.world.paint(theme_colours(), this.scene.runs[this.run] ?? null); this.show(); });
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.canvas);
+    const before = remembered.get(scene.id);
+    if (before) this.world.view = { ...before.view };
     this.resize();
     this.show();
+    if (!still.matches) this.toggle();
   }
 
   make_controls(panel) {
     this.canvas = make('canvas', { class: 'replay-canvas', tabindex: '0', role: 'img',
-      'aria-label': `Replay of ${this.scene.name}: drag or arrow keys turn it, the wheel, plus and minus zoom, space plays` });
-    this.play = make('button', { type: 'button', class: 'replay-play', onclick: () => this.toggle() }, '▶ Play');
+      'aria-label': `Replay of ${this.scene.name}: drag or arrow keys turn it, the wheel, plus and minus zoom, space plays; at the slider arrow keys step through time` });
+    this.play = make('button', { type: 'button', class: 'replay-play', onclick: () => this.toggle() }, 'Play');
     this.slider = make('input', { type: 'range', min: 0, max: kSteps, value: 0, step: 1, 'aria-label': 'Time',
       class: 'replay-time', oninput: () => this.go(this.begin + (this.slider.value / kSteps) * (this.end - this.begin)) });
     const speeds = [['', `whole run in ${kAuto} s`], ...[1, 0.1, 0.01, 0.001].map((rate) => [rate, rate === 1 ? 'real time' : `1/${1 / rate} of it`])];
@@ -104,6 +112,9 @@ class Replay {
     const { tilt, substrate } = this.scene.motion;
     return `Solid: the reference.${this.runs.length ? ' Ghost: the engine.' : ''}` +
       (substrate && this.most_slip > 0 ? ' Arrows: slip at the lowest point.' : '') +
+      (this.motions[0].bodies.length && (this.scene.motion.surfaces ?? []).some(({ belt, velocity, rate }) => belt ?? velocity ?? rate)
+        ? ' Grey arrows: where surfaces move.' : '') +
+      (this.runs.length ? ' A phase is where within a time step the first contact falls; the engine’s ensemble has many.' : '') +
       (this.meetings().length ? ' Yellow: where balls touch.' : '') + (tilt ? ` The plane is tilted by ${number_text(tilt, 3)}°.` : '');
   }
 
@@ -129,7 +140,8 @@ class Replay {
       ArrowLeft: [-kStep, 0], ArrowRight: [kStep, 0], ArrowUp: [0, kStep], ArrowDown: [0, -kStep],
       '+': [0, 0, 1.15], '=': [0, 0, 1.15], '-': [0, 0, 1 / 1.15],
     };
-    canvas.addEventListener('keydown', (event) => {
+    canvas.closest('.replay').addEventListener('keydown', (event) => {
+      if (event.target.matches('button, select, input[type=checkbox]') || (event.target !== canvas && event.key !== ' ')) return;
       if (event.ctrlKey || event.metaKey || event.altKey) return;
       if (event.key === ' ') this.toggle();
       else if (keys[event.key]) this.world.turn(...keys[event.key]);
@@ -169,7 +181,10 @@ class Replay {
   }
 
   toggle() {
-    if (this.frame) return this.stop();
+    if (this.frame) {
+      this.stop();
+      return undefined;
+    }
     if (this.time >= this.end) this.time = this.begin;
     let last = null;
     const step = (now) => {
@@ -181,7 +196,7 @@ class Replay {
       else this.frame = requestAnimationFrame(step);
     };
     this.frame = requestAnimationFrame(step);
-    this.play.textContent = '⏸ Pause';
+    this.play.textContent = 'Pause';
     this.text.setAttribute('aria-live', 'off');  // not sixty times a second
     return undefined;
   }
@@ -189,7 +204,7 @@ class Replay {
   stop() {
     cancelAnimationFrame(this.frame);
     this.frame = null;
-    this.play.textContent = '▶ Play';
+    this.play.textContent = 'Play';
     this.text.setAttribute('aria-live', 'polite');
   }
 
@@ -268,7 +283,7 @@ class Replay {
     const lines = bodies.slice(0, kMostTold).map(({ name }, k) =>
       make('span', {}, make('b', {}, name), ` reference ${of(reference[k])}${other ? `; engine ${of(other[k])}` : ''}`));
     const more = bodies.length > kMostTold ? [make('span', {}, `… ${bodies.length - kMostTold} more`)] : [];
-    const phase = ghost ? `${this.scene.runs[ghost.run].label}, ${ghost.role} phase (${ghost.phase + 1})` +
+    const phase = ghost ? `${this.scene.runs[ghost.run].label}, phase ${ghost.phase + 1}, ${kPhases[ghost.role] ?? ghost.role}` +
       (ghost.error === null || ghost.error === undefined ? '' : `, off by ${number_text(ghost.error, 3)} tolerances`) : '';
     this.text.replaceChildren(
       make('span', { class: 'replay-clock' }, `t = ${quantity_text(this.time / this.clock.factor, this.clock.unit)}`),
@@ -281,6 +296,7 @@ class Replay {
   }
 
   close() {
+    if (this.world) remembered.set(this.scene.id, { view: { ...this.world.view }, follow: this.follow });
     this.stop();
     this.end_theme?.();
     this.observer?.disconnect();

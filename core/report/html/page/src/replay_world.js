@@ -65,7 +65,7 @@ export class ReplayWorld {
       everything.push(this.shadows, this.ground, this.grid);
     }
     this.surfaces = (this.motion.surfaces ?? []).map((surface) => new SurfaceInSpace(surface, this.unit));
-    everything.push(...this.surfaces.map((surface) => surface.mesh));
+    everything.push(...this.surfaces.map((surface) => surface.mesh), ...this.surfaces.map(({ arrow }) => arrow).filter(Boolean));
     for (const mesh of everything) mesh.frustumCulled = false;
     this.lab.add(...everything);
     this.arrows = [];
@@ -98,6 +98,7 @@ export class ReplayWorld {
     this.shell.material.color.copy(ghost);
     this.wire.material.color.copy(ghost);
     this.marks.material.color.set('#e8b400');
+    for (const { arrow } of this.surfaces) arrow?.setColor(new Color(colours.text));
     for (const { mesh } of this.surfaces) mesh.material.color.copy(page).lerp(new Color(colours.faint), 0.6);
     this.ground?.material.color.copy(page).lerp(new Color(colours.faint), 0.1);
     const half = this.arrows.length / 2;

@@ -18,12 +18,13 @@ export function sorted_order(cells, descending) {
   });
 }
 
-/** Puts a button into each head of a table with more than one row. */
+/** Puts a button into each head of a table with more than one row; rows stay in their groups. */
 export function make_sortable(table) {
-  const body = table.tBodies[0];
-  if (!table.tHead || !body || body.rows.length < 2) return;
+  const groups = [...table.tBodies];
+  const rows_of = (body) => [...body.rows].filter((row) => !row.classList.contains('topic'));
+  if (!table.tHead || !groups.some((body) => rows_of(body).length > 1)) return;
   // A cell that spans rows or columns belongs to more than one place.
-  if (table.querySelector('[rowspan], [colspan]')) return;
+  if (groups.some((body) => rows_of(body).some((row) => row.querySelector('[rowspan], [colspan]')))) return;
   const heads = [...table.tHead.rows[table.tHead.rows.length - 1].cells];
   // A grid of two parameters is no list.
   if (heads.slice(1).every((head) => head.textContent && Number.isFinite(Number(head.textContent)))) return;
@@ -35,9 +36,11 @@ export function make_sortable(table) {
       const descending = head.getAttribute('aria-sort') === 'ascending';
       for (const other of heads) other.removeAttribute('aria-sort');
       head.setAttribute('aria-sort', descending ? 'descending' : 'ascending');
-      const rows = [...body.rows];
-      const cells = rows.map((row) => ({ text: row.cells[column]?.textContent ?? '', value: row.cells[column]?.dataset.value }));
-      body.append(...sorted_order(cells, descending).map((k) => rows[k]));
+      for (const body of groups) {
+        const rows = rows_of(body);
+        const cells = rows.map((row) => ({ text: row.cells[column]?.textContent ?? '', value: row.cells[column]?.dataset.value }));
+        body.append(...sorted_order(cells, descending).map((k) => rows[k]));
+      }
     });
   });
 }

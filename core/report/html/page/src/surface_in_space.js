@@ -1,5 +1,5 @@
 // A surface of a scene in a replay: a plane, a plate, a rod or a ball, where it is at a time.
-import { CylinderGeometry, DoubleSide, Mesh, MeshLambertMaterial, PlaneGeometry, Quaternion, SphereGeometry, Vector3 } from 'three';
+import { ArrowHelper, CylinderGeometry, DoubleSide, Mesh, MeshLambertMaterial, PlaneGeometry, Quaternion, SphereGeometry, Vector3 } from 'three';
 
 const kPlaneSpan = 400;  // [units] across what stands for a plane
 
@@ -34,6 +34,20 @@ export class SurfaceInSpace {
     this.mesh = new Mesh(geometry, new MeshLambertMaterial({ transparent: true, opacity: 0.35, side: DoubleSide,
       depthWrite: false }));
     this.mesh.renderOrder = -1;
+    this.arrow = this.make_arrow();
+  }
+
+  /** Where its matter goes, of one that is moving: as long as a ball is wide. Null for one that stands or swings. */
+  make_arrow() {
+    const { belt, velocity, rate } = this.surface;
+    const along = belt ?? velocity ?? rate;
+    if (!along || !(Math.hypot(...along) > 0)) return null;
+    const arrow = new ArrowHelper(new Vector3(...along).normalize(), new Vector3(), 2, 0x808080, 0.6, 0.35);
+    for (const part of [arrow.line, arrow.cone]) {
+      part.material.depthTest = false;
+      part.renderOrder = 2;
+    }
+    return arrow;
   }
 
   /** Where it is at `time` [s]; what stands for a plane stays around `target`. */
@@ -52,9 +66,11 @@ export class SurfaceInSpace {
       mesh.position.sub(about).applyQuaternion(turn).add(about);
       mesh.quaternion.premultiply(turn);
     }
-    if (surface.kind !== 'plane') return;
-    const off = target.clone().sub(mesh.position);
-    mesh.position.add(off.addScaledVector(this.normal, -off.dot(this.normal)));
+    if (surface.kind === 'plane') {
+      const off = target.clone().sub(mesh.position);
+      mesh.position.add(off.addScaledVector(this.normal, -off.dot(this.normal)));
+    }
+    this.arrow?.position.copy(mesh.position);
   }
 }
 

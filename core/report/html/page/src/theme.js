@@ -26,10 +26,27 @@ export function is_dark() {
   return chosen ? chosen === 'dark' : system.matches;
 }
 
-/** The style sheet's colours as they are now. */
+/** The style sheet's colours as they are now: light-dark() is resolved where it is used, so one element uses them. */
 export function theme_colours() {
-  const style = getComputedStyle(document.documentElement);
-  const colour = (name, otherwise) => style.getPropertyValue(`--${name}`).trim() || otherwise;
+  const probe = make('span', { hidden: true });
+  document.body.append(probe);
+  const colour = (name, otherwise) => {
+    probe.style.color = otherwise;
+    probe.style.color = `var(--${name}, ${otherwise})`;
+    return hex_of(getComputedStyle(probe).color) ?? otherwise;
+  };
+  const colours = all_colours(colour);
+  probe.remove();
+  return colours;
+}
+
+/** "#0072b2" of "rgb(0, 114, 178)": charts append opacities to it. */
+function hex_of(text) {
+  const parts = /^rgb\((\d+), (\d+), (\d+)\)$/.exec(text);
+  return parts && `#${parts.slice(1).map((part) => Number(part).toString(16).padStart(2, '0')).join('')}`;
+}
+
+function all_colours(colour) {
   return {
     text: colour('text', '#1b1b1b'),
     faint: colour('faint', '#5c5c5c'),
@@ -46,7 +63,7 @@ export function theme_colours() {
 
 export function make_theme_button() {
   const button = make('button', { type: 'button', class: 'theme', onclick: toggle });
-  const name = () => { button.textContent = is_dark() ? '☀ Light' : '☾ Dark'; };
+  const name = () => { button.textContent = is_dark() ? 'Light' : 'Dark'; };
   function toggle() {
     document.documentElement.dataset.theme = is_dark() ? 'light' : 'dark';
     remember(document.documentElement.dataset.theme);

@@ -1,6 +1,8 @@
 // Slip, speed and energy over time: the reference's line, and one phase of each engine run over it.
 import { add_chart, axis_of, legend_of, tooltip_of } from './chart.js';
 import { escaped, largest_of, make_select, number_text, prefixed, quantity_text } from './dom.js';
+import { add_lines_button } from './figure.js';
+import { Lines } from './lines.js';
 import { look_of } from './look.js';
 import { end_of, kRoles } from './motion.js';
 
@@ -9,20 +11,18 @@ const kLegend = 34, kPanel = 190, kRow = kPanel + 66, kZoom = 36;
 const kNarrow = 760;     // below which panels stand one below the other
 const kMarks = 9;        // symbols along a line
 
-/**
- * `motions()` gives the scene's, unpacked, the reference's first; `passes(run)` tells whether a run of
- * the scene is shown.
- */
-export function add_time_chart(parent, scene, motions, passes) {
+/** `motions()` gives the scene's, unpacked, the reference's first; `view()` what is looked at now. */
+export function add_time_chart(parent, scene, motions, view) {
   const { bodies, runs } = scene.motion;
   const roles = kRoles.filter((role) => runs.some((run) => run.role === role));
   const choice = { body: 0, role: roles[0] };
+  const lines = new Lines(scene.runs, [...new Set(runs.map(({ run }) => run).filter((run) => run >= 0))], view);
   const chart = add_chart(parent, {
     title: 'Over time',
     name: `Slip speed, speed and kinetic energy of ${scene.name} over time`,
     caption: 'Full line: the reference; dashed: a phase of an engine’s ensemble. The slider zooms all panels; a click on a name hides its line.',
     height: kLegend + kRow + kZoom,
-    option_of: (view) => option_of(scene, motions(), choice, passes, view),
+    option_of: (canvas) => option_of(scene, motions(), choice, new Set(lines.shown().first), canvas),
   });
   const choices = document.createElement('div');
   choices.className = 'chart-choices';
@@ -39,6 +39,7 @@ export function add_time_chart(parent, scene, motions, passes) {
     }).label);
   }
   chart.head.append(choices);
+  add_lines_button(chart, lines);
   return chart;
 }
 
@@ -52,9 +53,9 @@ function panels_of(body) {
   ];
 }
 
-function option_of(scene, motions, choice, passes, { colours, width }) {
+function option_of(scene, motions, choice, first, { colours, width }) {
   const shown = motions.filter((motion) => motion.run < 0 ||
-    ((choice.role === 'all' || motion.role === choice.role) && passes(scene.runs[motion.run])));
+    ((choice.role === 'all' || motion.role === choice.role) && first.has(motion.run)));
   const name_of = (motion) => (motion.run < 0 ? 'reference'
     : `${scene.runs[motion.run].label}${choice.role === 'all' ? `, ${motion.role}` : ''}`);
   if (!shown.length) return { height: kLegend, series: [] };
