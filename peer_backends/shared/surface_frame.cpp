@@ -7,8 +7,10 @@
 namespace slipcheck::peer {
 namespace {
 
+/// Those of the scene where the third is its.
 Matrix3 axes_about(const Vector3& third) {
-  Matrix3 axes;
+  Matrix3 axes = Matrix3::Identity();
+  if (third == Vector3::UnitZ()) return axes;
   axes.col(2) = third;
   axes.col(0) = third.unitOrthogonal();
   axes.col(1) = third.cross(axes.col(0));

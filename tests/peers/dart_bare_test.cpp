@@ -85,6 +85,72 @@ States run_bare_dart(const Scene& scene, double mu_ground, double e_ground, doub
   return states;
 }
 
+/// A ball with a shape for each surface, as their names say, and surfaces of as good as no friction
+/// limit, in the worker's order; the belt is put back before each step, with its velocity.
+States run_bare_surfaces(const Scene& scene, double mu, double e, double belt_velocity, double rate,
+                         int steps) {
+  class ByName final : public ::dart::collision::CollisionFilter {
+   public:
+    bool ignoresCollision(const ::dart::collision::CollisionObject* a,
+                          const ::dart::collision::CollisionObject* b) const override {
+      const std::string &p = a->getShapeFrame()->getName(), &q = b->getShapeFrame()->getName();
+      return p != "on " + q && q != "on " + p;
+    }
+  };
+  const auto world = ::dart::simulation::World::create();
+  world->setTimeStep(1 / rate);
+  world->setGravity(Eigen::Vector3d(0, 0, -scene.gravity));
+  world->getConstraintSolver()->getCollisionOption().collisionFilter = std::make_shared<ByName>();
+  const auto surface = [&](const char* name, const dd::ShapePtr& shape, const Vector3& centre) {
+    const auto skeleton = dd::Skeleton::create(name);
+    auto [joint, node] = skeleton->createJointAndBodyNodePair<dd::FreeJoint>();
+    add_bare_shape(node, shape, name, 1e18, 1);
+    Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+    place.translation() = centre;
+    joint->setTransform(place);
+    skeleton->setMobile(false);
+    world->addSkeleton(skeleton);
+    return joint;
+  };
+  const auto box = [](double length, double width, double height) {
+    return std::make_shared<dd::BoxShape>(Eigen::Vector3d(length, width, height));
+  };
+  surface("plate", box(0.2, 0.2, 2 * 1e-10), {0, 0, 0.1});
+  surface("peg", std::make_shared<dd::SphereShape>(0.05), {0.25, 0, -0.03});
+  dd::FreeJoint* belt = surface("belt", box(1e4, 1e4, 1), {0, 0, -0.6});
+  const Eigen::Isometry3d home = belt->getRelativeTransform();
+  const Sphere& sphere = scene.bodies[0];
+  const auto ball = dd::Skeleton::create("ball");
+  auto [joint, node] = ball->createJointAndBodyNodePair<dd::FreeJoint>();
+  dd::Inertia inertia;
+  inertia.setMass(sphere.mass);
+  inertia.setMoment(sphere.moment_of_inertia() * Eigen::Matrix3d::Identity());
+  node->setInertia(inertia);
+  const auto shape = std::make_shared<dd::SphereShape>(sphere.radius);
+  for (const char* name : {"on belt", "on peg", "on plate"})
+    add_bare_shape(node, shape, name, mu, e);
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  place.translation() = scene.initial[0].position;
+  joint->setTransform(place);
+  joint->setLinearVelocity(scene.initial[0].velocity);
+  world->addSkeleton(ball);
+  States states;
+  for (int n = 0; n < steps; ++n) {
+    belt->setTransform(home);
+    belt->setLinearVelocity(Eigen::Vector3d(belt_velocity, 0, 0));
+    belt->setAngularVelocity(Eigen::Vector3d::Zero());
+    world->step();
+    states.push_back({{node->getTransform().translation(), node->getLinearVelocity(),
+                       node->getAngularVelocity()}});
+  }
+  return states;
+}
+
+TEST(DartBare, APlateAPegAndABelt) {
+  const Scene scene = plate_peg_and_belt(0.3, 0.5, -0.5);
+  expect_as_bare("dart", scene, run_bare_surfaces(scene, 0.3, 0.5, -0.5, 240, 240));
+}
+
 TEST(DartBare, SlideToRoll) {
   const Scene scene = bundled_scene("slide-to-roll");
   expect_as_bare("dart", scene, run_bare_dart(scene, 0.2, 0, 0, 0, 240, 240));

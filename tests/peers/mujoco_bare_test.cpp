@@ -2,6 +2,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -13,7 +14,8 @@
 namespace slipcheck::test {
 namespace {
 
-/// `%G`, `%M`, `%I` stand for gravity, and mass and moment of inertia of the scene's balls.
+/// `%G`, `%M`, `%I` stand for gravity, and mass and moment of inertia of the scene's balls, `%H`
+/// and `%J` for those of a body that carries a belt, a million times as heavy.
 std::string filled_in(std::string text, const Scene& scene) {
   const Sphere& sphere = scene.bodies[0];
   const auto fill = [&](const std::string& mark, double value) {
@@ -25,10 +27,13 @@ std::string filled_in(std::string text, const Scene& scene) {
   fill("%G", scene.gravity);
   fill("%M", sphere.mass);
   fill("%I", sphere.moment_of_inertia());
+  fill("%H", 1e6 * sphere.mass);
+  fill("%J", 1e6 * sphere.mass * 100 * 100);
   return text;
 }
 
-States run_bare_mujoco(const Scene& scene, const std::string& xml, int steps) {
+/// With a `belt`, its body is the first.
+States run_bare_mujoco(const Scene& scene, const std::string& xml, int steps, double belt = 0) {
   const auto file = std::filesystem::temp_directory_path() /
                     ("slipcheck-bare-" + std::to_string(getpid()) + ".xml");
   std::ofstream(file) << filled_in(xml, scene);
@@ -40,17 +45,26 @@ States run_bare_mujoco(const Scene& scene, const std::string& xml, int steps) {
     return {};
   }
   mjData* data = mj_makeData(model);
+  const std::size_t first = belt != 0 ? 1 : 0;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      data->qvel[6 * i + static_cast<std::size_t>(k)] = scene.initial[i].velocity[k];
-      data->qvel[6 * i + 3 + static_cast<std::size_t>(k)] = scene.initial[i].angular_velocity[k];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      data->qvel[6 * (first + i) + k] = scene.initial[i].velocity[axis];
+      data->qvel[6 * (first + i) + 3 + k] = scene.initial[i].angular_velocity[axis];
     }
+  const std::vector<mjtNum> home(data->qpos, data->qpos + 7 * first);
   States states;
   for (int n = 0; n < steps; ++n) {
+    std::copy(home.begin(), home.end(), data->qpos);
+    if (belt != 0) {
+      const std::array<mjtNum, 6> moves = {belt, 0, 0, 0, 0, 0};
+      std::copy(moves.begin(), moves.end(), data->qvel);
+      data->qfrc_applied[2] = 1e6 * scene.bodies[0].mass * scene.gravity;
+    }
     mj_step(model, data);
     auto& now = states.emplace_back();
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      const mjtNum *q = data->qpos + 7 * i, *v = data->qvel + 6 * i;
+      const mjtNum *q = data->qpos + 7 * (first + i), *v = data->qvel + 6 * (first + i);
       mjtNum spin[3];
       mju_rotVecQuat(spin, v + 3, q + 3);
       now.push_back({{q[0], q[1], q[2]}, {v[0], v[1], v[2]}, {spin[0], spin[1], spin[2]}});
@@ -111,6 +125,32 @@ TEST(MujocoBare, TwoRollingBallsMeet) {
     </contact>
   </mujoco>)";
   expect_as_bare("mujoco", scene, run_bare_mujoco(scene, xml, 240));
+}
+
+TEST(MujocoBare, APlateAPegAndABelt) {
+  // A belt is a box behind its face on a body that is put back before each step, with its velocity.
+  const double belt = -0.5;
+  const Scene scene = plate_peg_and_belt(0.3, 0, belt);
+  const std::string xml = R"(<mujoco>
+    <option timestep="0.004166666666666667" gravity="0 0 -%G"/>
+    <statistic meaninertia="%M"/>
+    <worldbody>
+      <geom name="plate" type="box" size="0.1 0.1 1e-10" pos="0 0 0.1" contype="0" conaffinity="0"/>
+      <geom name="peg" type="sphere" size="0.05" pos="0.25 0 -0.03" contype="0" conaffinity="0"/>
+      <body pos="0 0 -0.6"><freejoint/>
+        <inertial pos="0 0 0" mass="%H" diaginertia="%J %J %J"/>
+        <geom name="belt" type="box" size="1e4 1e4 0.5" contype="0" conaffinity="0"/></body>
+      <body pos="0 0 0.12"><freejoint/>
+        <inertial pos="0 0 0" mass="%M" diaginertia="%I %I %I"/>
+        <geom name="ball" type="sphere" size="0.02" contype="0" conaffinity="0"/></body>
+    </worldbody>
+    <contact>
+      <pair geom1="plate" geom2="ball" condim="3" friction="0.3 0.3 0 0 0"/>
+      <pair geom1="peg" geom2="ball" condim="3" friction="0.3 0.3 0 0 0"/>
+      <pair geom1="belt" geom2="ball" condim="3" friction="0.3 0.3 0 0 0"/>
+    </contact>
+  </mujoco>)";
+  expect_as_bare("mujoco", scene, run_bare_mujoco(scene, xml, 240, belt));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ import { substrateMotion } from '../kit/motion.mjs';
 import { readScene } from '../kit/packing.mjs';
 import { count, flag, number, refuseBadSettings, word } from '../kit/settings.mjs';
 import { inertiaOf, turnFromY, turnFromZ, turnOf } from '../kit/solids.mjs';
-import { besideSurfaces } from '../kit/surfaces.mjs';
+import { besideSurfaces, farthest, planeEnds } from '../kit/surfaces.mjs';
 import { exactText, rounded } from '../kit/text.mjs';
 import { Units } from '../kit/units.mjs';
 import { ball, codec, packed, replies, sceneOf } from './support.mjs';
@@ -270,4 +270,31 @@ test('surfaces lie and move as the scene says', () => {
   near(belt.stepVelocity(1, 0.25, [0, 0, 0], true), [0, 0, 0.5]);
   near(belt.axes(0)[2], [0, 1, 0]);
   assert.deepEqual([plate.touch, belt.touch], [-2, -3]);
+});
+
+test('what the nearest place of a surface points to, and what stays where it is', () => {
+  const still = { kind: 'still' };
+  const along = (velocity) => ({ kind: 'moving', course: { kind: 'constant', velocity }, first: [1, 0, 0], second: [0, 0, 1] });
+  const floor = { kind: 'plane', point: [0, 0, 1], normal: [0, 0, 1] };
+  const scene = { bodies: [{}], initial: new Float64Array([3, 4, 0, 0, 0, 0, 0, 0, 0]), surfaces: [
+    { shape: { kind: 'rectangle', centre: [0, 0, 0], half_length: [1, 0, 0], half_width: [0, 2, 0] }, motion: still },
+    { shape: { kind: 'rod', begin: [0, 0, -1], end: [0, 0, 1], radius: 0.5 }, motion: still },
+    { shape: { kind: 'ball', centre: [0, 0, 0], radius: 1 }, motion: still },
+    { shape: floor, motion: along([2, 0]) },
+    { shape: floor, motion: along([2, 1e-3]) },
+    { shape: floor, motion: { kind: 'turning', pivot: [0, 0, 0], rate: [0, 0, 1] } },
+  ] };
+  const [plate, rod, round, sliding, rising, turning] = besideSurfaces(scene);
+  const near = (a, b) => a.forEach((value, k) => assert.ok(Math.abs(value - b[k]) < 1e-15, `${a} is not ${b}`));
+  near(plate.normalAt(0, [0.5, 0.5, -2]), [0, 0, -1]); // its other face
+  near(plate.normalAt(0, [1.3, 0, 0.4]), [0.6, 0, 0.8]); // an edge
+  near(rod.normalAt(0, [0, 2, 0.5]), [0, 1, 0]);
+  near(rod.normalAt(0, [0.2, 0, 3]), [0, 0, 1]); // an end
+  near(round.normalAt(0, [0, 3, 4]), [0, 0.6, 0.8]);
+  near(sliding.behind(0, 0.25), [0, 0, 0.75]);
+  assert.deepEqual([plate, sliding, rising, turning].map(({ stays }) => stays), [true, true, false, true]);
+  assert.equal(farthest(scene, 0), 5);
+  assert.equal(farthest(scene, 7), 7);
+  assert.deepEqual(planeEnds([plate, sliding], 10), []);
+  assert.match(planeEnds([rising], 10)[0].text, /^planes without end that move away \(boxes of ±10 m\)$/);
 });

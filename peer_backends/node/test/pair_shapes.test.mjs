@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { FLOOR } from '../kit/contacts.mjs';
+import { FLOOR, surfaceTouch } from '../kit/contacts.mjs';
 import { pairShapes } from '../kit/pair_shapes.mjs';
 import { Refused } from '../kit/faults.mjs';
 
@@ -104,4 +104,29 @@ test('more materials than there are bits are refused', () => {
       error.message ===
         'some: the contacts of these materials need more than 31 bits of collision filters',
   );
+});
+
+test('surfaces beside the substrate keep their own contacts, and those met alike share their bits', () => {
+  const materials = [0, 0, 1, 1];
+  const scene = sceneOf(materials, [ground(0.1, 0.2), ground(0.3, 0.4)],
+    [pair(0.5, 0.3), pair(0.6, 0.1), pair(0.6, 0.1), pair(0.7, 0.2)]);
+  // Two of five plates are met otherwise by the second material.
+  const on = (material, k) => ({
+    lasting: ground(0.05 + 0.1 * material + (k > 2 && material === 1 ? 0.3 : 0), 0),
+    impact: pair(0.25, 0.3),
+  });
+  scene.surfaces = Array.from({ length: 5 }, () => ({ shape: {}, motion: { kind: 'still' } }));
+  scene.on_surfaces = [0, 1].flatMap((material) => scene.surfaces.map((_, k) => on(material, k)));
+  const shapes = pairShapes(scene, 'some', 31);
+  materials.forEach((material, i) => {
+    scene.surfaces.forEach((_, k) => {
+      const { kinetic_friction } = on(material, k).lasting;
+      assert.deepEqual(contactOf(shapes.ofBall(i), shapes.ofSurface(surfaceTouch(k))),
+        { friction: kinetic_friction, staticFriction: kinetic_friction, restitution: 0.25 });
+    });
+    assert.equal(contactOf(shapes.ofBall(i), shapes.ofSurface(FLOOR)).restitution, [0.2, 0.4][material]);
+  });
+  assert.equal(shapes.ofSurface(surfaceTouch(0)), shapes.ofSurface(surfaceTouch(2)));
+  assert.notEqual(shapes.ofSurface(surfaceTouch(0)), shapes.ofSurface(surfaceTouch(3)));
+  assert.equal(shapes.applied['surface_friction[2-4]'], 0.45);
 });
