@@ -34,8 +34,9 @@ sweep:
 """
 
 
-def shard_at_work(store):
-    """The process that writes this store, once it has made a run; None if it is not there."""
+def shard_at_work(store, written):
+    """The process that writes this store, as its command has it written, once it has made a run; None
+    if it is not there."""
     for entry in Path("/proc").iterdir():
         if not entry.name.isdigit():
             continue
@@ -43,7 +44,7 @@ def shard_at_work(store):
             words = (entry / "cmdline").read_bytes().split(b"\0")
         except OSError:
             continue
-        if str(store).encode() in words and words[0] == SLIPCHECK.encode() and runs_in(store) > 0:
+        if str(written).encode() in words and words[0] == SLIPCHECK.encode() and runs_in(store) > 0:
             return int(entry.name)
     return None
 
@@ -59,13 +60,14 @@ class Cluster(unittest.TestCase):
     def tearDown(self):
         self.directory.cleanup()
 
-    def kill_shard(self, store, patience=120):
+    def kill_shard(self, written, patience=60):
+        store = self.path / written
         end = time.monotonic() + patience
         while time.monotonic() < end:
-            pid = shard_at_work(store)
+            pid = shard_at_work(store, written)
             if pid is not None:
                 os.kill(pid, signal.SIGKILL)
-                return runs_in(store)
+                return
             time.sleep(0.01)
         self.fail(f"no process came to write {store}")
 
@@ -81,9 +83,9 @@ class Cluster(unittest.TestCase):
              f"slipcheck={SLIPCHECK}"],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
         try:
-            kept = self.kill_shard(Path("out.db.shards") / f"2-of-{SHARDS}.db")
+            self.kill_shard(f"out.db.shards/2-of-{SHARDS}.db")
         finally:
-            said = process.communicate(timeout=300)[0]
+            said = process.communicate(timeout=120)[0]
         self.assertEqual(process.returncode, 0, said)
         self.same(self.path / "out.db")
 
@@ -165,10 +167,10 @@ PartitionName=all Nodes={node} Default=YES MaxTime=INFINITE State=UP
             (self.folder / name).mkdir()
 
     def start(self, *command):
-        log = open(self.folder / f"{Path(command[0]).name}.out", "w")
-        self.processes.append(subprocess.Popen(
-            list(map(str, command)), env=self.environment, stdout=log, stderr=log,
-            start_new_session=True))
+        with open(self.folder / f"{Path(command[0]).name}.out", "w") as log:
+            self.processes.append(subprocess.Popen(
+                list(map(str, command)), env=self.environment, stdout=log, stderr=log,
+                start_new_session=True))
 
     def __enter__(self):
         self.write_configuration()
