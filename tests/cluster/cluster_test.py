@@ -34,8 +34,9 @@ sweep:
 """
 
 
-def shard_at_work(store):
-    """The process that writes this store, once it has made a run; None if it is not there."""
+def shard_at_work(store, written):
+    """The process that writes this store, as its command has it written, once it has made a run; None
+    if it is not there."""
     for entry in Path("/proc").iterdir():
         if not entry.name.isdigit():
             continue
@@ -43,7 +44,7 @@ def shard_at_work(store):
             words = (entry / "cmdline").read_bytes().split(b"\0")
         except OSError:
             continue
-        if str(store).encode() in words and words[0] == SLIPCHECK.encode() and runs_in(store) > 0:
+        if str(written).encode() in words and words[0] == SLIPCHECK.encode() and runs_in(store) > 0:
             return int(entry.name)
     return None
 
@@ -59,13 +60,14 @@ class Cluster(unittest.TestCase):
     def tearDown(self):
         self.directory.cleanup()
 
-    def kill_shard(self, store, patience=120):
+    def kill_shard(self, written, patience=60):
+        store = self.path / written
         end = time.monotonic() + patience
         while time.monotonic() < end:
-            pid = shard_at_work(store)
+            pid = shard_at_work(store, written)
             if pid is not None:
                 os.kill(pid, signal.SIGKILL)
-                return runs_in(store)
+                return
             time.sleep(0.01)
         self.fail(f"no process came to write {store}")
 
@@ -81,9 +83,9 @@ class Cluster(unittest.TestCase):
              f"slipcheck={SLIPCHECK}"],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
         try:
-            kept = self.kill_shard(Path("out.db.shards") / f"2-of-{SHARDS}.db")
+            self.kill_shard(f"out.db.shards/2-of-{SHARDS}.db")
         finally:
-            said = process.communicate(timeout=300)[0]
+            said = process.communicate(timeout=120)[0]
         self.assertEqual(process.returncode, 0, said)
         self.same(self.path / "out.db")
 
@@ -99,14 +101,9 @@ class Cluster(unittest.TestCase):
                               f"--output={self.path}/merge.log", "--wrap",
                               f"{SLIPCHECK} merge {self.path}/out.db {self.path}/shards/*.db").strip()
             self.kill_shard(self.path / "shards" / "2.db")
-            failed = slurm.wait_for(f"{job}_2", {"FAILED", "NODE_FAIL", "CANCELLED"})
-            self.assertIn(failed, {"FAILED", "NODE_FAIL", "CANCELLED"})
-            # What a node's end does by itself: the task is put into the queue again.
-            slurm.run("scontrol", "requeue", f"{job}_2")
             for k in range(1, SHARDS + 1):
                 self.assertEqual(slurm.wait_for(f"{job}_{k}", {"COMPLETED"}), "COMPLETED")
-            self.assertEqual(slurm.wait_for(merge, {"COMPLETED"}), "COMPLETED",
-                             (self.path / "merge.log"))
+            self.assertEqual(slurm.wait_for(merge, {"COMPLETED"}), "COMPLETED")
         self.same(self.path / "out.db")
 
 
@@ -138,7 +135,7 @@ SlurmUser={user}
 SlurmdUser={user}
 AuthType=auth/munge
 CredType=cred/munge
-AuthInfo=socket={self.folder}/munge.socket
+AuthInfo=socket={self.folder}/munge.socket,cred_expire=5
 StateSaveLocation={self.folder}/state
 SlurmdSpoolDir={self.folder}/spool
 SlurmctldPidFile={self.folder}/slurmctld.pid
@@ -156,7 +153,7 @@ MailProg=/bin/true
 MpiDefault=none
 ReturnToService=2
 MinJobAge=3600
-SchedulerParameters=sched_interval=2,requeue_setup_env_fail
+SchedulerParameters=sched_interval=2
 NodeName={node} NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN
 PartitionName=all Nodes={node} Default=YES MaxTime=INFINITE State=UP
 """)
@@ -165,10 +162,10 @@ PartitionName=all Nodes={node} Default=YES MaxTime=INFINITE State=UP
             (self.folder / name).mkdir()
 
     def start(self, *command):
-        log = open(self.folder / f"{Path(command[0]).name}.out", "w")
-        self.processes.append(subprocess.Popen(
-            list(map(str, command)), env=self.environment, stdout=log, stderr=log,
-            start_new_session=True))
+        with open(self.folder / f"{Path(command[0]).name}.out", "w") as log:
+            self.processes.append(subprocess.Popen(
+                list(map(str, command)), env=self.environment, stdout=log, stderr=log,
+                start_new_session=True))
 
     def __enter__(self):
         self.write_configuration()

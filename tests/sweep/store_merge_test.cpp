@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "some_store.h"
-#include "studies/sweep/store_query.h"
 #include "../support/in_folder.h"
 #include "../support/refusal.h"
+#include "some_store.h"
+#include "studies/sweep/store_query.h"
 
 namespace slipcheck {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "some_store.h"
 #include "../support/in_folder.h"
 #include "../support/refusal.h"
+#include "some_store.h"
 
 namespace slipcheck {
 namespace {

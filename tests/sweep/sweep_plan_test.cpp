@@ -53,8 +53,8 @@ TEST(SweepPlan, NumbersAreInTheScenesUnitsOrInTheirOwn) {
   const SweepPlan plan =
       plan_of("  grid: {\"bodies[i].velocity[0]\": [10, 0.2 m/s], gravity: 9.81 m/s2}\n");
   EXPECT_TRUE(plan.is_reference_alone());
-  EXPECT_DOUBLE_EQ(plan.scene(0).bodies[0].velocity.x(), 0.1);  // 10 cm/s
-  EXPECT_DOUBLE_EQ(plan.scene(1).bodies[0].velocity.x(), 0.2);
+  EXPECT_DOUBLE_EQ(plan.scene(0).bodies[0].initial.velocity.x(), 0.1);  // 10 cm/s
+  EXPECT_DOUBLE_EQ(plan.scene(1).bodies[0].initial.velocity.x(), 0.2);
   ReadNumbers numbers = {{"bodies[0].velocity[0]", std::nullopt}};
   plan.scene(0, &numbers);
   EXPECT_DOUBLE_EQ(numbers.at("bodies[0].velocity[0]")->value, 0.1);
@@ -68,8 +68,9 @@ TEST(SweepPlan, AListGoesThroughItsRows) {
       "    - {bodies.j.velocity.0: -20, bodies.i.velocity.0: 20}\n");
   ASSERT_EQ(plan.runs(), 2u);
   for (std::uint64_t run = 0; run < 2; ++run)
-    EXPECT_EQ(plan.scene(run).bodies[0].velocity.x(), -plan.scene(run).bodies[1].velocity.x());
-  EXPECT_DOUBLE_EQ(plan.scene(1).bodies[0].velocity.x(), 0.2);
+    EXPECT_EQ(plan.scene(run).bodies[0].initial.velocity.x(),
+              -plan.scene(run).bodies[1].initial.velocity.x());
+  EXPECT_DOUBLE_EQ(plan.scene(1).bodies[0].initial.velocity.x(), 0.2);
 }
 
 TEST(SweepPlan, RowsWithOneSceneShareItsReference) {
@@ -108,7 +109,7 @@ TEST(SweepPlan, SamplesStayInTheirRangesAndUnits) {
     EXPECT_EQ(plan.runs(), 40u);
     EXPECT_EQ(plan.scenes(), 40u);
     for (std::uint64_t run = 0; run < 40; ++run) {
-      const double speed = plan.scene(run).bodies[0].velocity.x();
+      const double speed = plan.scene(run).bodies[0].initial.velocity.x();
       EXPECT_GE(speed, 0.1);
       EXPECT_LT(speed, 0.2);
     }

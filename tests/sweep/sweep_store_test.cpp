@@ -8,9 +8,9 @@
 #include <csignal>
 #include <fstream>
 
-#include "some_store.h"
 #include "../support/in_folder.h"
 #include "../support/refusal.h"
+#include "some_store.h"
 
 namespace slipcheck {
 namespace {
