@@ -183,7 +183,7 @@ function scene_html(scene, k) {
   const verdict = scene_verdict(scene, scene.runs);
   return `<section class="scene ${verdict}" id="${scene.id}" data-scene="${k}" data-name="${escaped(scene.name)}" data-verdict="${verdict}">
 <details><summary><h3>${escaped(scene.name)}</h3> ${label_html(scene)} <span class="title">A title</span> <span class="says">What was found.</span></summary>
-<div class="plots" data-scene="${k}"></div><div class="runs" data-runs="${k}"><noscript><table><tbody><tr><td>runs</td></tr></tbody></table></noscript></div></details></section>`;
+<div class="plots" data-scene="${k}"></div><h4>Engine by engine</h4><div class="runs" data-runs="${k}"><noscript><table><tbody><tr><td>runs</td></tr></tbody></table></noscript></div></details></section>`;
 }
 
 const topics_of = (scenes) => [...new Set(scenes.map(({ topic }) => topic))].map((topic, n) => ({ topic, id: `topic-${n + 1}`,

@@ -331,7 +331,7 @@ async function replays() {
     const plots = page.locator(`.plots[data-scene="${moving}"]`);
     const open = plots.locator('.replay-open');
     await open.click();
-    const canvas = plots.locator('canvas.replay-canvas');
+    const canvas = plots.locator('canvas.replay-canvas').first();
     const text = plots.locator('.replay-text');
     const look = async () => (await canvas.screenshot()).toString('base64');
     const begin = await look();
@@ -366,13 +366,27 @@ async function replays() {
       await plots.locator('.replay-phase').selectOption(await phases.nth(1).getAttribute('value'));
       assert.notEqual(await text.innerText(), before, 'another phase changes no text');
     }
+    const beside = plots.locator('.replay-beside');
+    if (await beside.count()) {
+      await beside.selectOption(await beside.locator('option').nth(2).getAttribute('value'));
+      const second = plots.locator('canvas.replay-canvas').nth(1);
+      const shown = await second.boundingBox();
+      assert(shown && shown.width > 200, 'the engine beside is not shown');
+      const before = (await second.screenshot()).toString('base64');
+      await canvas.focus();
+      await page.keyboard.press('ArrowRight');
+      assert.notEqual((await second.screenshot()).toString('base64'), before, 'both views do not turn together');
+      if (folder) await plots.locator('.replay').screenshot({ path: join(folder, 'replay-beside.png') });
+      await beside.selectOption('');
+      assert.equal(await plots.locator('canvas.replay-canvas').count(), 1);
+    }
     await plots.locator('.replay-play').click();
     await page.waitForTimeout(400);
     await plots.locator('.replay-play').click();
     assert(Number(await plots.locator('.replay-time').inputValue()) > 1000, 'it does not play');
 
     await open.click();
-    assert.equal(await canvas.count(), 0, 'the replay stays');
+    assert.equal(await plots.locator('canvas.replay-canvas').count(), 0, 'the replay stays');
   });
 }
 

@@ -12,7 +12,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
-SCENES = ["symmetric-30cms", "roll-to-rest", "box-one-ball"]
+SCENES = ["symmetric-30cms", "symmetric-10cms", "roll-to-rest", "box-one-ball"]
 
 
 def run(*command, accepted=(0,)):

@@ -171,7 +171,9 @@ Cell matrix_cell(const MatrixCell& cell) {
     return {verdict == Verdict::unjudged ? "·" : symbol_of(verdict), Tone::doubtful};
   const std::string text = !std::isfinite(cell.error) ? "∞"
                            : cell.error < 0.005       ? "0"
-                                                      : fmt::format("{:.2g}", cell.error);
+                           : cell.error > 99 && cell.error < 99999.5
+                               ? fmt::format("{:.0f}", cell.error)
+                               : fmt::format("{:.2g}", cell.error);
   return {text, cell.error > 1 ? Tone::bad : Tone::good, cell.error};
 }
 

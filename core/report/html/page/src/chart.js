@@ -48,7 +48,7 @@ export function redraw_charts() {
  * read out by screen readers. Returns {redraw, head, figure, on_draw(listener)}.
  */
 export function add_chart(parent, { title, name, caption, height, option_of }) {
-  const head = make('div', { class: 'chart-head' }, ...(title ? [make('h4', {}, title)] : []));
+  const head = make('div', { class: 'chart-head' }, ...(title ? [make('p', { class: 'chart-title' }, title)] : []));
   const canvas = make('div', { class: 'chart-canvas', role: 'img', 'aria-label': name });
   const figure = make('figure', { class: 'chart' }, head, canvas);
   if (caption) figure.append(make('figcaption', {}, caption));

@@ -65,9 +65,9 @@ class Replay {
         'This browser shows no WebGL, which the replay is drawn with; the charts and tables have the same numbers.'));
       return;
     }
-    this.world.paint(theme_colours(), this.scene.runs[this.run] ?? null);
+    this.paint();
     this.choose_roles();
-    this.end_theme = on_theme(() => { this.world.paint(theme_colours(), this.scene.runs[this.run] ?? null); this.show(); });
+    this.end_theme = on_theme(() => { this.paint(); this.show(); });
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(this.canvas);
     const before = remembered.get(scene.id);
@@ -88,7 +88,7 @@ class Replay {
     const run = make_select('Engine', [...this.runs.map((k) => [k, this.scene.runs[k].label]), ['', 'none']], (value) => {
       this.run = value === '' ? null : Number(value);
       this.choose_roles();
-      this.world.paint(theme_colours(), this.scene.runs[this.run] ?? null);
+      this.paint();
       this.show();
     });
     run.select.classList.add('replay-run');
@@ -102,9 +102,16 @@ class Replay {
       controls.append(make('button', { type: 'button', onclick: () => this.next_contact() }, 'Next contact'));
     }
     if (this.runs.length) controls.append(run.label, role.label);
+    if (this.runs.length > 1) {
+      const beside = make_select('Beside it', [['', 'nothing'], ...this.runs.map((k) => [k, this.scene.runs[k].label])],
+        (value) => this.set_beside(value === '' ? null : Number(value)));
+      beside.select.classList.add('replay-beside');
+      controls.append(beside.label);
+    }
     controls.append(make('label', {}, follow, ' Follow'));
     this.text = make('p', { class: 'replay-text', role: 'status' });
-    panel.append(this.canvas, controls, this.text, make('p', { class: 'faint' }, this.explanation()));
+    this.views = make('div', { class: 'replay-views' }, this.canvas);
+    panel.append(this.views, controls, this.text, make('p', { class: 'faint' }, this.explanation()));
     this.listen();
   }
 
@@ -127,14 +134,14 @@ class Replay {
     });
     canvas.addEventListener('pointermove', (event) => {
       if (!from) return;
-      this.world.turn(-(event.clientX - from[0]) / 160, (event.clientY - from[1]) / 160);
+      this.turn(-(event.clientX - from[0]) / 160, (event.clientY - from[1]) / 160);
       from = [event.clientX, event.clientY];
     });
     for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, () => { from = null; });
     canvas.addEventListener('wheel', (event) => {
       if (document.activeElement !== canvas) return;  // the page scrolls on
       event.preventDefault();
-      this.world.turn(0, 0, Math.exp(-event.deltaY / 500));
+      this.turn(0, 0, Math.exp(-event.deltaY / 500));
     }, { passive: false });
     const keys = {
       ArrowLeft: [-kStep, 0], ArrowRight: [kStep, 0], ArrowUp: [0, kStep], ArrowDown: [0, -kStep],
@@ -144,10 +151,39 @@ class Replay {
       if (event.target.matches('button, select, input[type=checkbox]') || (event.target !== canvas && event.key !== ' ')) return;
       if (event.ctrlKey || event.metaKey || event.altKey) return;
       if (event.key === ' ') this.toggle();
-      else if (keys[event.key]) this.world.turn(...keys[event.key]);
+      else if (keys[event.key]) this.turn(...keys[event.key]);
       else return;
       event.preventDefault();
     });
+  }
+
+  /** Each view in the colours of its run. */
+  paint() {
+    this.world.paint(theme_colours(), this.scene.runs[this.run] ?? null);
+    this.other?.world.paint(theme_colours(), this.scene.runs[this.other.run]);
+  }
+
+  /** A second engine in a view of its own, under the same camera; null takes it away. */
+  set_beside(run) {
+    this.other?.world.close();
+    this.other?.canvas.remove();
+    this.other = null;
+    if (run !== null) {
+      const canvas = make('canvas', { class: 'replay-canvas', role: 'img', 'aria-label': `The same with ${this.scene.runs[run].label}` });
+      this.views.append(canvas);
+      this.other = { run, canvas, world: new ReplayWorld(canvas, this.scene.motion) };
+      this.other.world.view = this.world.view;
+      this.observer.observe(canvas);
+      this.paint();
+    }
+    this.views.classList.toggle('two', run !== null);
+    this.resize();
+    this.show();
+  }
+
+  turn(...by) {
+    this.world.turn(...by);
+    this.other?.world.draw();
   }
 
   choose_roles() {
@@ -158,8 +194,10 @@ class Replay {
     this.role.disabled = roles.length < 2;
   }
 
-  ghost() {
-    return this.motions.find((motion) => motion.run === this.run && motion.run >= 0 && motion.role === this.role.value);
+  /** The motion of a run in the phase that is chosen, or in the first that it has. */
+  ghost(run = this.run) {
+    const motions = this.motions.filter((motion) => motion.run === run && motion.run >= 0);
+    return motions.find(({ role }) => role === this.role.value) ?? motions[0];
   }
 
   /** [m] from the first to the farthest place of any body of the reference. */
@@ -250,10 +288,11 @@ class Replay {
     const reference = this.bodies_of(truth);
     const other = ghost ? this.bodies_of(ghost) : null;
     this.look(reference, other);
-    this.world.show({
-      reference, ghost: other, marks: this.marks(truth, reference), most_slip: this.most_slip, time: this.time,
-      substrate: truth.substrate.map((column) => between(column, frame_at(truth.time, this.time))),
-    });
+    const seen = { reference, marks: this.marks(truth, reference), most_slip: this.most_slip, time: this.time,
+      substrate: truth.substrate.map((column) => between(column, frame_at(truth.time, this.time))) };
+    this.world.show({ ...seen, ghost: other });
+    const beside = this.other && this.ghost(this.other.run);
+    if (this.other) this.other.world.show({ ...seen, ghost: beside ? this.bodies_of(beside) : null });
     this.tell(reference, other, ghost);
   }
 
@@ -268,7 +307,9 @@ class Replay {
       return values.reduce(([low, high], x) => [Math.min(low, x), Math.max(high, x)], [Infinity, -Infinity]);
     });
     const centre = ranges.map(([low, high]) => (low + high) / 2);
-    this.world.look_at(centre, Math.hypot(...ranges.map(([low, high]) => high - low)) + 4 * radius);
+    const span = Math.hypot(...ranges.map(([low, high]) => high - low)) + 4 * radius;
+    this.world.look_at(centre, span);
+    this.other?.world.look_at(centre, span);
   }
 
   tell(reference, other, ghost) {
@@ -287,12 +328,14 @@ class Replay {
       (ghost.error === null || ghost.error === undefined ? '' : `, off by ${number_text(ghost.error, 3)} tolerances`) : '';
     this.text.replaceChildren(
       make('span', { class: 'replay-clock' }, `t = ${quantity_text(this.time / this.clock.factor, this.clock.unit)}`),
-      ...lines, ...more, make('span', { class: 'faint' }, phase));
+      ...lines, ...more, make('span', { class: 'faint' }, phase),
+      ...(this.other ? [make('span', { class: 'faint' }, `beside it: ${this.scene.runs[this.other.run].label}`)] : []));
   }
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width > 0 && height > 0) this.world.resize(width, height);
+    if (this.other && this.other.canvas.clientWidth > 0) this.other.world.resize(this.other.canvas.clientWidth, this.other.canvas.clientHeight);
   }
 
   close() {
@@ -301,5 +344,6 @@ class Replay {
     this.end_theme?.();
     this.observer?.disconnect();
     this.world?.close();
+    this.other?.world.close();
   }
 }
