@@ -59,6 +59,28 @@ TEST(MomentumTouches, AThirdBallOfALineIsPushedByTheSecond) {
   EXPECT_NEAR(touches[1].normal_impulse / mass, 0.2, 1e-12);
 }
 
+TEST(MomentumTouches, ASurfaceThatComesPushesAlongItsOwnNormal) {
+  Scene scene = test::steel_scene(1);
+  scene.gravity = 0;
+  scene.has_substrate = false;
+  const Vector3 normal(0.6, 0, 0.8);
+  const auto course = SubstrateMotion::constant({0.5, 0});
+  scene.surfaces = {{PlaneShape{Vector3::Zero(), normal},
+                     SurfaceMotion::moving(course, normal, Vector3::UnitY())}};
+  const double radius = scene.bodies[0].radius;
+  // At 0.1 s the plane is 5 cm on, and hits the ball at rest there: it leaves with 0.8 m/s.
+  scene.initial[0] = {};
+  scene.initial[0].position = (0.05 + radius) * normal;
+  std::vector<BodyState> after = scene.initial;
+  after[0].velocity = 0.8 * normal;
+  after[0].position += 1e-3 * after[0].velocity;
+  const auto touches = momentum_touches(scene, scene.initial, after, 1e-3, 0.1);
+  ASSERT_EQ(touches.size(), 1u);
+  EXPECT_EQ(touches[0].second, surface_touch(0));
+  EXPECT_NEAR(touches[0].normal_impulse / scene.bodies[0].mass, 0.8, 1e-12);
+  EXPECT_TRUE(momentum_touches(scene, scene.initial, after, 1e-3, 0).empty());  // not there yet
+}
+
 TEST(InImpact, IsWhatOverlapsAndDoesNotRest) {
   Scene scene = test::steel_scene(1);
   scene.initial[0].position.z() = 0.002 - 1e-6;

@@ -170,6 +170,14 @@ TEST_P(PeerSurfaces, WhatSwingsIsFollowedOrRefused) {
   }
 }
 
+TEST_P(PeerSurfaces, CylindersAreTakenOrRefusedByTheirNumber) {
+  const Scene scene = ball_and({{PlaneShape{}, {}}, {RodShape{{1, 0, 0}, {1, 1, 0}, 0.1}, {}}},
+                               {0, 0, kRadius}, 0.3, 0);
+  const bool round = GetParam().name != "dart" && GetParam().plates;
+  EXPECT_EQ(refusal(scene).find("surface 1 is a") != std::string::npos, !round) << refusal(scene);
+  EXPECT_EQ(refusal(scene).empty(), round);
+}
+
 INSTANTIATE_TEST_SUITE_P(Engines, PeerSurfaces, ::testing::ValuesIn(peers()),
                          [](const auto& each) { return each.param.name; });
 
