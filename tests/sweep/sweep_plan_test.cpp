@@ -160,6 +160,8 @@ TEST(SweepPlan, WhatIsWrongIsToldWithPlaceValueAndRule) {
             "s.yaml:24:11: sweep.gravity: must vary once, and gravity does at line 23");
   EXPECT_EQ(fault_of("  grid: {title: [a, b]}\n"),
             "s.yaml:23:10: sweep.title: must not be title, which is the same in all runs");
+  EXPECT_EQ(fault_of("  grid: {run: [{until: rolling}]}\n"),
+            "s.yaml:23:10: sweep.run: must be a key below run, as in run.limit");
   EXPECT_EQ(fault_of("  sobol: {points: 4, ranges: {gravity: [2, 1]}}\n"),
             "s.yaml:23:40: sweep.sobol.ranges.gravity: must be from the smaller number to the "
             "larger, got [2, 1]");
