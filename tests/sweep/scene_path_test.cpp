@@ -39,8 +39,8 @@ TEST(ScenePath, OnlyTheLastKeyMayBeNew) {
   EXPECT_EQ(scene_path(*tree(), "bodies.i.spin").text(), "bodies[0].spin");
   EXPECT_EQ(refusal_of<BadPath>([] { scene_path(*tree(), "bodies.i.sphere.radius"); }),
             "must be a path of the scene, and bodies[0] has no sphere");
-  EXPECT_EQ(refusal_of<BadPath>([] { scene_path(*tree(), "bodys.i.spin"); }),
-            "must be a path of the scene, and the scene has no bodys (did you mean bodies?)");
+  EXPECT_EQ(refusal_of<BadPath>([] { scene_path(*tree(), "bodie.i.spin"); }),
+            "must be a path of the scene, and the scene has no bodie (did you mean bodies?)");
   EXPECT_EQ(refusal_of<BadPath>([] { scene_path(*tree(), "bodies.k.spin"); }),
             "must be a path of the scene, and bodies has no item k");
   EXPECT_EQ(refusal_of<BadPath>([] { scene_path(*tree(), "bodies.2.spin"); }),

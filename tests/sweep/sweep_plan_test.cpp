@@ -148,7 +148,7 @@ TEST(SweepPlan, WhatIsWrongIsToldWithPlaceValueAndRule) {
   EXPECT_NE(fault_of("  grid: {bodies.i.sphere.raduis: [1, 2]}\n").find("raduis"),
             std::string::npos);
   EXPECT_EQ(fault_of("  grid: {contacts.0.normal.restitution: [0.5, 1.5]}\n"),
-            "s.yaml:23:48: contacts[0].normal.restitution: must be >= 0 and <= 1, got 1.5");
+            "s.yaml:23:47: contacts[0].normal.restitution: must be >= 0 and <= 1, got 1.5");
   EXPECT_EQ(fault_of("  grid: {phases: [0]}\n", "[{engine: bullet, rate: 60}]"),
             "s.yaml:23:19: sweep.phases: must be a whole number from 1 to 100000, got 0");
   EXPECT_EQ(fault_of("  grid: {engine: bullet}\n"),
@@ -160,6 +160,8 @@ TEST(SweepPlan, WhatIsWrongIsToldWithPlaceValueAndRule) {
             "s.yaml:24:11: sweep.gravity: must vary once, and gravity does at line 23");
   EXPECT_EQ(fault_of("  grid: {title: [a, b]}\n"),
             "s.yaml:23:10: sweep.title: must not be title, which is the same in all runs");
+  EXPECT_EQ(fault_of("  grid: {run: [{until: rolling}]}\n"),
+            "s.yaml:23:10: sweep.run: must be a key below run, as in run.limit");
   EXPECT_EQ(fault_of("  sobol: {points: 4, ranges: {gravity: [2, 1]}}\n"),
             "s.yaml:23:40: sweep.sobol.ranges.gravity: must be from the smaller number to the "
             "larger, got [2, 1]");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 #include <numeric>
 #include <set>
@@ -37,11 +38,19 @@ void check_scene_parameter(const SweepParameter& parameter, Reading& reading) {
   if (std::ranges::count(kFixedKeys, key) > 0)
     reading.fault(parameter.location, "sweep." + parameter.name,
                   fmt::format("must not be {}, which is the same in all runs", key));
+  if (parameter.name == "run")  // which is the number of a run in the store
+    reading.fault(parameter.location, "sweep.run", "must be a key below run, as in run.limit");
   if (parameter.path.text().starts_with("compare.engines") ||
       parameter.path.text().starts_with("compare.scales"))
     reading.fault(parameter.location, "sweep." + parameter.name,
                   "must be engine, version, precision, profile, rate, scale, phases or "
                   "settings.NAME, which stand for compare's own");
+}
+
+/// Columns of a store are told apart by more than case.
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
 }
 
 /// Notes what is wrong with the names that vary; each once.
@@ -50,7 +59,8 @@ void check_names(const std::vector<SweepParameter>& parameters, Reading& reading
     for (std::size_t j = 0; j < k; ++j) {
       const SweepParameter &one = parameters[j], &other = parameters[k];
       const bool both_scene = one.kind == Kind::scene && other.kind == Kind::scene;
-      if (one.name == other.name || (both_scene && overlap(one.path, other.path)))
+      if (lower_case(one.name) == lower_case(other.name) ||
+          (both_scene && overlap(one.path, other.path)))
         reading.fault(
             other.location, "sweep." + other.name,
             fmt::format("must vary once, and {} does at line {}", one.name, one.location.line));

@@ -1,6 +1,8 @@
 #include "studies/sweep/sweep_scenes.h"
 
+#include <exception>
 #include <utility>
+#include <vector>
 
 #include "base/stop_scope.h"
 #include "scenario/fault.h"
