@@ -156,7 +156,7 @@ TEST(Html, BeginsWithWhatWasFound) {
   good.runs.resize(1);
   good.runs[0].profile = "tuned";
   good.runs[0].errors.erase("i-j.effective_restitution");
-  const std::string html = page_of({lottery_scene(4), good, box_scene()});
+  const std::string html = page_of({lottery_scene(4), good, box_scene()}, "slipcheck run x.yaml");
   EXPECT_TRUE(contains(html,
                        "<p class=\"finding\" id=\"finding\">tuned is within all tolerances in 1 of "
                        "1 run, default in "
@@ -166,7 +166,8 @@ TEST(Html, BeginsWithWhatWasFound) {
   EXPECT_LT(html.find("id=\"finding\""), html.find("id=\"index\""));
   EXPECT_LT(html.find("id=\"index\""), html.find("<section class=\"scene"));
   // Nothing of what the user typed stands before it.
-  EXPECT_GT(html.find("<dt>command</dt>"), html.find("<section class=\"scene"));
+  ASSERT_TRUE(contains(html, "<dt>command</dt><dd>slipcheck run x.yaml</dd>"));
+  EXPECT_GT(html.find("<dt>command</dt>"), html.rfind("<section class=\"scene"));
   EXPECT_TRUE(
       contains(html, "<span class=\"share\">100 %</span> <span class=\"whose\">tuned</span>"));
 }

@@ -185,7 +185,8 @@ TEST(Markdown, SaysWhatDeviatesAndWhatIsWithin) {
   const std::string text = markdown_of({lottery_scene(), good, crashed, box_scene()});
   EXPECT_TRUE(text.starts_with(
       "## ⚠ Slipcheck: 2 of 4 scenes not within tolerance\n\n"
-      "default is within all tolerances in 2 of 4 runs, tuned in 0 of 1; worst: symmetric-steel, "
+      "bullet 3.24 default is within all tolerances in 2 of 4 runs, bullet tuned in 0 of 1; worst: "
+      "symmetric-steel, "
       "i-j.effective_restitution off by up to 0.141, tolerance 0.005 (bullet double default 240 "
       "Hz).\n\n"
       "4 scenes: 1 within, 1 deviates, 0 undecided, 1 failed, 1 of the reference alone  \n"
@@ -228,7 +229,10 @@ TEST(Markdown, FitsAndCountsWhatDoesNot) {
 }
 
 TEST(Markdown, TellsWhatHasMoved) {
-  Moved moved{"1 of 2 values has moved", {{{"scene"}, {"now"}}, {{{"one"}, {"0.5"}}}}};
+  Moved moved;
+  moved.finding = "1 of 2 values has moved";
+  moved.table.columns = {{"scene"}, {"now"}};
+  moved.table.rows.push_back({{"one"}, {"0.5"}});
   const std::string text = markdown_of({lottery_scene()}, moved);
   EXPECT_TRUE(contains(text, "### What has moved\n\n1 of 2 values has moved\n\n| scene | now |\n"));
   EXPECT_LT(text.find("What has moved"), text.find("Worst deviations"));

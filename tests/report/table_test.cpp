@@ -112,8 +112,7 @@ TEST(Table, KeepsTheVerdictWhereThereIsLittleRoom) {
   const std::string table = table_of(lottery_scene(), {.colour = false, .width = 70});
   EXPECT_TRUE(contains(table, "max error"));
   EXPECT_TRUE(contains(table, "✗"));
-  EXPECT_EQ(line_with(table, "median"),
-            "    … no room for median: widen the terminal, or COLUMNS=200");
+  EXPECT_TRUE(contains(table, "… no room for tolerance, median: widen"));
 }
 
 TEST(Table, HasAllColumnsInAPipe) {
@@ -256,9 +255,9 @@ TEST(Summary, CountsScenesAndRuns) {
       summary_of({lottery_scene(), good, alone}, kWide),
       "3 scenes: 0 within, 1 deviates, 1 undecided, 0 failed, 1 of the reference alone; 3 engine "
       "runs: 0 within, 2 deviate, 1 undecided, 0 failed\n"
-      "default is within all tolerances in 0 of 2 runs; worst: symmetric-steel, "
-      "i-j.effective_restitution off by up to\n0.141, tolerance 0.005 (bullet double default 240 "
-      "Hz).\n");
+      "bullet 3.24 default is within all tolerances in 0 of 2 runs; worst: symmetric-steel, "
+      "i-j.effective_restitution off by up\n"
+      "to 0.141, tolerance 0.005 (bullet double default 240 Hz).\n");
 }
 
 TEST(Summary, TellsOfNaiveRunsApart) {
@@ -269,7 +268,7 @@ TEST(Summary, TellsOfNaiveRunsApart) {
   EXPECT_TRUE(contains(text, "1 scene: 1 within, 0 deviate"));
   EXPECT_TRUE(contains(text, "2 engine runs: 1 within, 1 deviates"));
   EXPECT_TRUE(contains(text, "default is within all tolerances in 1 of 1 run.\n"));
-  EXPECT_TRUE(contains(text, "in 1 scene only it is not"));
+  EXPECT_TRUE(contains(text, "in 1 scene only it is"));
   EXPECT_EQ(told_verdict(scene), Verdict::within);
   EXPECT_EQ(scene.verdict(), Verdict::deviates);
 }

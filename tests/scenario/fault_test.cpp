@@ -79,7 +79,7 @@ TEST(Fault, WrongWord) {
                "s.yaml:8:13: contacts[0].normal: must be a mapping with its parameters, {model: "
                "linear, …}, got linear");
   expect_fault(with(kHard, "until: rolling", "until: roling"),
-               "s.yaml:16:14: run.until: must be rolling, rest or a time, got roling");
+               "s.yaml:16:14: run.until: must be rolling or rest (did you mean rolling?), got roling");
 }
 
 TEST(Fault, OutOfRange) {

@@ -144,11 +144,15 @@ Rule<WrittenRun> run_rule() {
   const auto is_number = [](const YamlNode& node) {
     return is_scalar(node) && node.text.find_first_of("0123456789") != std::string::npos;
   };
+  // What is nearly a word is read as one, so that the fault names the word.
+  const auto is_nearly_a_word = [](const YamlNode& node) {
+    return is_scalar(node) && !nearest(node.text, {"rolling", "rest"}).empty();
+  };
   constexpr std::int64_t kMostPeriods = 1'000'000'000;
   Record<WrittenRun> run;
   run.whole("until",
             one_form_of<WrittenRun>("must be rolling, rest or a time",
-                                    {{is_word("rolling"), until_named},
+                                    {{is_nearly_a_word, until_named},
                                      {is_word("rest"), until_named},
                                      {is_number, until_time}}),
             optional,

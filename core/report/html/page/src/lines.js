@@ -24,10 +24,7 @@ export function first_lines(runs, candidates, filter) {
   return chosen.sort((a, b) => a - b);
 }
 
-/**
- * Which runs of a scene a chart shows: {passes(k), hidden, text, toggle()}. `of` are the indices of those that it could
- * show.
- */
+/** Which runs of a scene a chart shows: of those with the indices `of` that view() lets pass few at first, or `all`. */
 export class Lines {
   constructor(runs, of, view) {
     this.runs = runs;
