@@ -47,7 +47,8 @@ Rows rows_of(BodyKind body, double mu_r, double drilling_length) {
   settings.body = body;
   settings.two_friction_directions = body == BodyKind::multibody;
   constexpr double kStep = 1.0 / 240;
-  const DynamicsWorld dynamics(settings, 1, find_leave_outs(scene, scene.initial, settings));
+  const PeriodicCell cell;
+  const DynamicsWorld dynamics(settings, 1, find_leave_outs(scene, scene.initial, settings), cell);
   const PairCoefficients coefficients(scene, settings, kStep);
   const Surfaces surfaces(dynamics.world(), scene, {}, settings);
   const auto balls =
