@@ -35,7 +35,7 @@ TEST(ManyThreads, GiveTheBitsOfOneToContactsThatRemember) {
                          .ordered_from = 1000});
       const SolvedRun run = solver.run(until_time(800 * solver.step()), nullptr);
       EXPECT_TRUE(run.reached) << run.reason;
-      EXPECT_GT(run.collisions, 150u);
+      EXPECT_GT(run.collisions, 100u);
       return std::pair(hash_of(solver.states()),
                        std::bit_cast<std::uint64_t>(run.balance->dissipated));
     };
