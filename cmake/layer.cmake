@@ -7,7 +7,7 @@ function(slipcheck_layer layer)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/core> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/slipcheck>)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${layer})
   add_library(slipcheck::${layer} ALIAS ${target})
-  if(SLIPCHECK_PYTHON AND NOT SLIPCHECK_SANITIZE)
+  if(SLIPCHECK_PYTHON_MODULE AND NOT SLIPCHECK_SANITIZE)
     # Hidden: calls inside of the library go straight to where they go in a program.
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON
       CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)

@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import textwrap
 import time
 import unittest
 import xml.etree.ElementTree
@@ -327,18 +328,32 @@ class Documentation(unittest.TestCase):
             result = self.sh(line)
             self.assertEqual(result.returncode, 1 if "--set" in line else 0, result.stderr)
 
-    def test_jobs(self):
+    def test_github_action(self):
+        """What the action runs, with what the documented job gives it."""
         self.make_baselines()
-        github, gitlab = self.blocks("yaml")
-        job = re.findall(r"run: ((?:slipcheck check|cat check).*)", github)
-        self.assertEqual(len(job), 2)
-        for line in job:
-            self.assertEqual(self.sh(line).returncode, 0, line)
+        job = next(block for block in self.blocks("yaml") if "uses: SLIPCHECK" in block)
+        action = (SOURCE / "action.yml").read_text()
+        given = dict(re.findall(r"^ +(packages|scenes|baselines|arguments): (.*)$", job, re.M))
+        self.assertEqual(set(given), {"packages", "scenes", "baselines"})
+        for name in [*given, "arguments"]:
+            self.assertRegex(action, rf"(?m)^  {name}:$")
+        step = action[action.index("- name: Check"):]
+        script = textwrap.dedent(step[step.index("run: |") + 6:])
+        self.environment |= {"SCENES": given["scenes"], "BASELINES": given["baselines"], "ARGUMENTS": "",
+                             "GITHUB_OUTPUT": str(self.path / "outputs")}
+        result = subprocess.run(["bash", "-ec", script], cwd=self.path, env=self.environment, text=True,
+                                capture_output=True, timeout=300)
+        self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("nothing has moved", (self.path / "summary.md").read_text())
-        job = re.findall(r"- (slipcheck check .*)", gitlab)
-        self.assertEqual(len(job), 1)
-        (self.path / "check.xml").unlink()
-        self.assertEqual(self.sh(job[0]).returncode, 0, job)
+        outputs = dict(line.split("=", 1) for line in (self.path / "outputs").read_text().splitlines())
+        xml.etree.ElementTree.parse(outputs["junit"])
+        for file in outputs.values():
+            self.addCleanup(shutil.rmtree, Path(file).parent, True)
+
+    def test_gitlab_job(self):
+        self.make_baselines()
+        (job,) = [line for block in self.blocks("yaml") for line in re.findall(r"- (slipcheck check .*)", block)]
+        self.assertEqual(self.sh(job).returncode, 0, job)
         xml.etree.ElementTree.parse(self.path / "check.xml")
 
     def test_ctest(self):

@@ -134,7 +134,7 @@ TEST_F(NpmEnginesTest, WhatIsThereStaysAsItIs) {
 
 TEST_F(NpmEnginesTest, ALockFileBesideTheWorkersIsKeptTo) {
   write("workers/node/locks/ball@1.0.0.json", "{\"lockfileVersion\": 3}");
-  program("npm", "[ \"$1\" = ci ] && cp package-lock.json seen && mkdir node_modules\n");
+  program("npm", "[ \"$1\" = install ] && cp package-lock.json seen && mkdir node_modules\n");
   install_engine(npm_choice("ball@1.0.0"));
   EXPECT_EQ(read("engines/ball@1.0.0/seen"), "{\"lockfileVersion\": 3}");
 }

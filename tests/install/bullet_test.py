@@ -45,7 +45,7 @@ class OwnBullet(unittest.TestCase):
 
     def configure(self, root):
         return run("cmake", "-S", SOURCE, "-B", self.path / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=OFF",
-                   "-DSLIPCHECK_PAGE_SCRIPT=OFF", "-DSLIPCHECK_PYTHON=OFF", f"-DBULLET_ROOT={root}")
+                   "-DSLIPCHECK_PAGE_SCRIPT=OFF", "-DSLIPCHECK_PYTHON_MODULE=OFF", f"-DBULLET_ROOT={root}")
 
     def commands(self, precision):
         return run("ninja", "-C", self.path / "build", "-t", "commands", f"slipcheck-engine-bullet-{precision}").stdout.splitlines()
