@@ -138,7 +138,7 @@ class Report(unittest.TestCase):
         self.assertEqual(len(cases), len(runs))
         deviating = [r for r in runs if any(not e["within"] for e in r["errors"].values())]
         self.assertEqual(len(list(suites.iter("failure"))), len(deviating))
-        self.assertIn("sliding_distance", at("s.md").read_text())
+        self.assertIn("j.rolling_velocity", at("s.md").read_text())
 
         motion = json.loads((self.runs / "symmetric-30cms.motion.json").read_text())
         lines = at("xyz/symmetric-30cms-reference.xyz").read_text().splitlines()

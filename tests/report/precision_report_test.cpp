@@ -252,8 +252,9 @@ TEST(PrecisionPage, EscapesAndHoldsTheMainMethods) {
   EXPECT_TRUE(contains(html, "does not converge"));
   EXPECT_TRUE(contains(html, "<li>bullet single default: 240 Hz: crashed: signal 11</li>"));
   EXPECT_TRUE(contains(html, "<div class=\"plots\" data-precision=\"0\"></div>"));
-  EXPECT_TRUE(
-      contains(html, "<tr><th scope=\"row\">bullet double default</th><td class=\"bad\" data-value=\"0.14\">"));
+  EXPECT_TRUE(contains(
+      html,
+      "<tr><th scope=\"row\">bullet double default</th><td class=\"bad\" data-value=\"0.14\">"));
   // In the table over all scenes alone.
   EXPECT_EQ(count(html, "<tr><th scope=\"row\">bullet double default, 50 iterations</th>"), 1u);
   EXPECT_EQ(html_precision({}, {}, {}), "");

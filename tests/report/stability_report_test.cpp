@@ -235,9 +235,10 @@ TEST(StabilityPage, SaysEverything) {
                        "<td class=\"o3\">E</td>"));
   EXPECT_TRUE(contains(html, "<details id=\"case-1\"><summary>speed-1e4 "));
   // The map's upper row, of restitution 1.
-  EXPECT_TRUE(contains(html,
-                       "<tr><th scope=\"row\">1</th><td class=\"o6\">N</td><td class=\"o0\">A</td><td "
-                       "class=\"o3\">E</td></tr>"));
+  EXPECT_TRUE(
+      contains(html,
+               "<tr><th scope=\"row\">1</th><td class=\"o6\">N</td><td class=\"o0\">A</td><td "
+               "class=\"o3\">E</td></tr>"));
   EXPECT_EQ(html_stability({}, {}, {}), "");
 }
 

@@ -78,8 +78,9 @@ TEST(Fault, WrongWord) {
   expect_fault(with(kHard, "{model: hard, restitution: 0.9}", "linear"),
                "s.yaml:8:13: contacts[0].normal: must be a mapping with its parameters, {model: "
                "linear, …}, got linear");
-  expect_fault(with(kHard, "until: rolling", "until: roling"),
-               "s.yaml:16:14: run.until: must be rolling or rest (did you mean rolling?), got roling");
+  expect_fault(
+      with(kHard, "until: rolling", "until: roling"),
+      "s.yaml:16:14: run.until: must be rolling or rest (did you mean rolling?), got roling");
 }
 
 TEST(Fault, OutOfRange) {

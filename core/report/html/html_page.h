@@ -20,8 +20,8 @@ inline constexpr const char* kHtmlEnd = "</body>\n</html>\n";
 /// One line of a list of facts; nothing without a value.
 std::string html_fact(std::string_view name, std::string_view value);
 
-/// What made results, when, and on what machine, folded. `commands` are what the user typed, `engines`
-/// whose results they are, "bullet 3.24".
+/// What made results, when, and on what machine, folded. `commands` are what the user typed,
+/// `engines` whose results they are, "bullet 3.24".
 std::string html_context(const Context& context, const std::vector<std::string>& commands,
                          const std::vector<std::string>& engines);
 
