@@ -266,7 +266,7 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
   command->add_flag("-q,--quiet", arguments->quiet, "No progress");
   command->footer(
       "Exit codes: 0 all runs are in the store, whatever they showed; 130 some are left.\n\n"
-      "Example:\n  slipcheck sweep scenarios/sweeps/lottery.yaml -o lottery.db --shard 1/4");
+      "Example:\n  slipcheck sweep my-sweep.yaml -o my.db --shard 1/4");
   command->callback([arguments, &exit_code] { exit_code = sweep(*arguments); });
 }
 
