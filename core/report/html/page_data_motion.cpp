@@ -7,6 +7,7 @@
 
 #include "base/match.h"
 #include "harness/observe/motion_quantities.h"
+#include "physics/solid.h"
 #include "report/charts/scene_charts.h"
 #include "report/html/page_channel.h"
 #include "report/html/page_data_parts.h"
@@ -200,6 +201,20 @@ Json surface_data(const NamedSurface& surface) {
   return data;
 }
 
+/// A body's name, radius and, unless it is a sphere, shape.
+Json body_data(const Body& body, const Scene& scene, std::size_t index) {
+  Json data = {{"name", printable(body.name)}, {"radius", page_number(body.sphere.radius, 9)}};
+  if (scene.extents.empty() || !scene.extents[index]) return data;
+  const Extent& extent = *scene.extents[index];
+  const Eigen::Quaterniond turn = turn_of(extent);
+  data["shape"] = {{"kind", scene.bodies[index].shape == Shape::block ? "block" : "cylinder"},
+                   {"size", numbers_of(extent.size)},
+                   {"turn",
+                    {page_number(turn.x(), 9), page_number(turn.y(), 9), page_number(turn.z(), 9),
+                     page_number(turn.w(), 9)}}};
+  return data;
+}
+
 }  // namespace
 
 MotionDetail motion_detail(const std::vector<SceneRecord>& scenes) {
@@ -236,9 +251,8 @@ Json motion_page_data(const SceneRecord& scene, const MotionDetail& detail) {
   if (runs.empty()) return nullptr;
 
   Json bodies = Json::array();
-  for (const Body& body : scene.scenario.bodies)
-    bodies.push_back(
-        {{"name", printable(body.name)}, {"radius", page_number(body.sphere.radius, 9)}});
+  for (std::size_t i = 0; i < scene.scenario.bodies.size(); ++i)
+    bodies.push_back(body_data(scene.scenario.bodies[i], hard, i));
   const auto* plane = std::get_if<Substrate>(&scene.scenario.surroundings);
   Json periodic;
   if (plane && plane->periodic) periodic = {plane->periodic->x(), plane->periodic->y()};

@@ -1,10 +1,11 @@
-// The balls of a replay in three dimensions. Lengths are in units of the largest radius.
+// The bodies of a replay in three dimensions. Lengths are in units of the largest radius or half edge.
 import {
   AmbientLight, ArrowHelper, CircleGeometry, Color, DataTexture, DirectionalLight, Fog, Group,
   InstancedMesh, LinearFilter, LinearMipmapLinearFilter, Matrix4, Mesh, MeshBasicMaterial,
-  MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, Quaternion, RepeatWrapping, Scene, SphereGeometry,
+  MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, RepeatWrapping, Scene, SphereGeometry,
   SRGBColorSpace, Vector3, WebGLRenderer,
 } from 'three';
+import { BodiesInSpace } from './bodies_in_space.js';
 import { look_of } from './look.js';
 import { SurfaceInSpace } from './surface_in_space.js';
 
@@ -23,7 +24,7 @@ export class ReplayWorld {
   constructor(canvas, motion) {
     this.canvas = canvas;
     this.motion = motion;
-    this.unit = Math.max(...motion.bodies.map((body) => body.radius));
+    this.unit = Math.max(...motion.bodies.map(({ radius, shape }) => Math.max(radius, ...(shape?.size ?? []).map((x) => x / 2))));
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.camera = new PerspectiveCamera(38, 1, 0.05, 5000);
@@ -40,16 +41,15 @@ export class ReplayWorld {
 
   build() {
     const count = this.motion.bodies.length;
-    const sphere = new SphereGeometry(1, count > 200 ? 16 : 40, count > 200 ? 12 : 28);
+    const bodies = (material, segments) => new BodiesInSpace(this.motion.bodies, this.unit, material, segments);
+    const fine = count > 200 ? 16 : 40;
     this.pattern = octants();
-    this.balls = new InstancedMesh(sphere, new MeshLambertMaterial({ map: this.pattern }), count);
-    this.shell = new InstancedMesh(sphere, new MeshLambertMaterial({ transparent: true, opacity: 0.28,
-      depthWrite: false }), count);
-    this.wire = new InstancedMesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({ wireframe: true,
-      transparent: true, opacity: 0.75 }), count);
+    this.balls = bodies(new MeshLambertMaterial({ map: this.pattern }), fine);
+    this.shell = bodies(new MeshLambertMaterial({ transparent: true, opacity: 0.28, depthWrite: false }), fine);
+    this.wire = bodies(new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.75 }), 16);
     this.marks = new InstancedMesh(new SphereGeometry(1, 12, 8), new MeshBasicMaterial({ depthTest: false,
       transparent: true, opacity: 0.9 }), kMostMarks);
-    const everything = [this.balls, this.shell, this.wire, this.marks];
+    const everything = [this.balls.meshes, this.shell.meshes, this.wire.meshes, this.marks].flat();
     if (this.motion.substrate) {
       this.shadows = new InstancedMesh(new CircleGeometry(1, 24), new MeshBasicMaterial({ color: 0x000000,
         transparent: true, opacity: 0.25, depthWrite: false }), count);
@@ -90,11 +90,8 @@ export class ReplayWorld {
     this.scene.background = page.clone().lerp(new Color(colours.page), 0.5);
     this.scene.fog = new Fog(this.scene.background, 1, 1000);
     const ghost = new Color(run === null ? colours.faint : look_of(run.look).colour);
-    this.motion.bodies.forEach((_, k) => {
-      // Bodies differ in tint; what is blue or orange elsewhere on the page are runs.
-      this.balls.setColorAt(k, new Color().setHSL([0.58, 0.11, 0.42, 0.92, 0.0, 0.75][k % 6], 0.35, 0.62));
-    });
-    this.balls.instanceColor.needsUpdate = true;
+    // Bodies differ in tint; what is blue or orange elsewhere on the page are runs.
+    this.balls.colour((k) => new Color().setHSL([0.58, 0.11, 0.42, 0.92, 0.0, 0.75][k % 6], 0.35, 0.62));
     this.shell.material.color.copy(ghost);
     this.wire.material.color.copy(ghost);
     this.marks.material.color.set('#e8b400');
@@ -114,8 +111,8 @@ export class ReplayWorld {
 
   show({ reference, ghost, marks, substrate, most_slip, time }) {
     for (const surface of this.surfaces) surface.place(time, this.target);
-    this.set_balls([this.balls], reference, 1);
-    this.set_balls([this.shell, this.wire], ghost ?? [], 1 + kAhead);
+    this.balls.set(reference);
+    for (const bodies of [this.shell, this.wire]) bodies.set(ghost ?? [], 1 + kAhead);
     this.set_marks(marks);
     const half = this.arrows.length / 2;
     this.set_arrows(this.arrows.slice(0, half), reference, most_slip);
@@ -135,18 +132,6 @@ export class ReplayWorld {
     this.grid.position.set(place(this.target.x, sx), place(this.target.y, sy), 0);
     this.ground.position.set(this.target.x, this.target.y, -0.01);
     return this.draw();
-  }
-
-  set_balls(meshes, bodies, larger) {
-    const matrix = new Matrix4(), at = new Vector3(), turn = new Quaternion(), size = new Vector3();
-    for (const mesh of meshes) mesh.count = bodies.length;
-    bodies.forEach(({ position, turn: q }, k) => {
-      at.set(...position.map((x) => x / this.unit));
-      size.setScalar((this.motion.bodies[k].radius / this.unit) * larger);
-      matrix.compose(at, turn.set(...q), size);
-      for (const mesh of meshes) mesh.setMatrixAt(k, matrix);
-    });
-    for (const mesh of meshes) mesh.instanceMatrix.needsUpdate = true;
   }
 
   set_marks(marks) {
