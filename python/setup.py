@@ -4,6 +4,7 @@ They are found as CMake finds packages: libslipcheck-dev of Debian, or the prefi
 CMAKE_PREFIX_PATH. SLIPCHECK_PURE=1 leaves the module out: what runs the program and reads its results needs none.
 """
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -19,6 +20,8 @@ class BuildWithCMake(build_ext):
         build.mkdir(parents=True, exist_ok=True)
         configure = ["cmake", "-S", str(Path(__file__).resolve().parent), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release",
                      f"-DPython3_EXECUTABLE={sys.executable}"]
+        if "CMAKE_GENERATOR" not in os.environ and not shutil.which("make") and shutil.which("ninja"):
+            configure += ["-G", "Ninja"]
         try:
             subprocess.run(configure, check=True)
             subprocess.run(["cmake", "--build", str(build)], check=True)

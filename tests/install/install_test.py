@@ -71,7 +71,7 @@ class Installed(unittest.TestCase):
     def test_a_project_of_its_own_builds_against_it(self):
         build = Path(self.folder.name, "example")
         source = self.prefix / "share/doc/slipcheck/docs/example-library"
-        done = run("cmake", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release")
+        done = run("cmake", "-S", source, "-B", build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertNotIn(str(SOURCE), (build / "CMakeCache.txt").read_text())
         done = run("cmake", "--build", build)
