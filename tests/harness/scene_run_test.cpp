@@ -110,6 +110,13 @@ TEST(SceneRun, AReferenceOutOfTimeEndsItselfAndNotTheOthers) {
   EXPECT_EQ(scenes[1].runs.at(0).status, EngineRecord::Status::ok);
 }
 
+/// In which a reference of two balls has an end, also where each access is looked at.
+#ifdef SLIPCHECK_SANITIZE
+constexpr std::chrono::milliseconds kLongEnough{4000};
+#else
+constexpr std::chrono::milliseconds kLongEnough{300};
+#endif
+
 TEST(SceneRun, InterruptedItKeepsWhatIsFinished) {
   use_test_engines();
   std::atomic<bool> stop = false;
@@ -118,7 +125,7 @@ TEST(SceneRun, InterruptedItKeepsWhatIsFinished) {
   options.workers = 2;
   options.stop = &stop;
   const std::jthread user([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    std::this_thread::sleep_for(kLongEnough);
     stop = true;
   });
   const auto scenes = run_scenes(
