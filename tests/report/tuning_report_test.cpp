@@ -74,7 +74,7 @@ TEST(TuningProfile, ProvenanceNamesEverythingButTheMachine) {
   EXPECT_FALSE(contains(text, context().date.substr(0, 10)));
   EXPECT_EQ(text, tuned_profile_yaml(tuned()));
   // A scene stands there once, whatever the number of rates.
-  EXPECT_EQ(text.find("ab12"), text.rfind("ab12"));
+  EXPECT_EQ(text.find("sha256: ab12"), text.rfind("sha256: ab12"));
 }
 
 TEST(TuningProfile, SaysWhatItMustBeWithin) {
