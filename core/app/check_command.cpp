@@ -12,8 +12,8 @@
 #include "app/bundled_scenes.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/limit_options.h"
 #include "app/load_files.h"
-#include "app/number_range.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
 #include "app/say.h"
@@ -39,7 +39,6 @@ struct CheckArguments {
   std::string junit, markdown, json;
   std::vector<std::string> settings;
   RunOptions options;
-  std::size_t memory_limit = 2048;  // [MiB]
   bool update = false, all = false, quiet = false;
 };
 
@@ -165,7 +164,6 @@ int check(CheckArguments& arguments) {
   const Baselines baselines = load(arguments, all, scenarios);
 
   arguments.options.stop = &interrupted();
-  arguments.options.limits.memory = arguments.memory_limit << 20;
   if (!arguments.quiet) say("{}", debug_build_warning());
   std::vector<SceneRecord> scenes;
   {
@@ -208,19 +206,7 @@ void add_running(CLI::App& command, CheckArguments& arguments) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   add_set_option(command, arguments.settings);
-  command
-      .add_option("--workers", arguments.options.workers,
-                  "Engines at work at once; 0: one for each core")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command
-      .add_option("--time-limit", arguments.options.time_limit,
-                  "Wall-clock seconds for one run of an engine, and for a scene's reference")
-      ->check(positive_number())
-      ->capture_default_str();
-  command.add_option("--memory-limit", arguments.memory_limit, "MiB for one engine")
-      ->check(CLI::Range(16, 1 << 20))
-      ->capture_default_str();
+  add_limit_options(command, arguments.options);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "app/interrupt.h"
-#include "app/number_range.h"
+#include "app/limit_options.h"
 #include "app/output.h"
 #include "engine/profile.h"
 
@@ -30,19 +30,7 @@ void add_grid_options(CLI::App& command, GridArguments& arguments, GridEngines e
                   "Runs in each ensemble, by where in a step the first contact falls")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command
-      .add_option("--workers", arguments.options.workers,
-                  "Engines at work at once; 0: one for each core")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command
-      .add_option("--time-limit", arguments.options.time_limit,
-                  "Wall-clock seconds for one run of an engine, and for a scene's reference")
-      ->check(positive_number())
-      ->capture_default_str();
-  command.add_option("--memory-limit", arguments.memory_limit, "MiB for one engine")
-      ->check(CLI::Range(16, 1 << 20))
-      ->capture_default_str();
+  add_limit_options(command, arguments.options);
   command.add_option("--out", arguments.directory,
                      "Write a folder: JSON, CSV, charts and a page that shows them");
   command.add_option("--json", arguments.json, "Write the result here; - is stdout");
@@ -54,7 +42,6 @@ void complete(GridArguments& arguments) {
   check_output("--out", arguments.directory, true);
   for (std::string& profile : arguments.engines.profiles)
     if (is_profile_path(profile)) profile = std::filesystem::absolute(profile).string();
-  arguments.options.limits.memory = arguments.memory_limit << 20;
   arguments.options.stop = &interrupted();
 }
 

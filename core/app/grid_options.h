@@ -15,7 +15,6 @@ struct GridArguments {
   std::vector<std::string> files;
   EngineGrid engines;
   RunOptions options;
-  std::size_t memory_limit = 2048;  // [MiB]
   std::string directory, json;
   bool quiet = false;
 };

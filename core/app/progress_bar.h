@@ -2,8 +2,10 @@
 
 #include <atomic>
 #include <cstddef>
+#include <optional>
 #include <string>
-#include <thread>
+
+#include "app/progress_line.h"
 
 namespace slipcheck {
 
@@ -15,19 +17,16 @@ bool is_plain_terminal(int file_descriptor);
 class ProgressBar {
  public:
   ProgressBar(std::string label, bool shown);
-  ~ProgressBar();
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
 
   /// From any thread.
   void set(std::size_t done, std::size_t total);
 
  private:
-  void draw(double seconds) const;
+  std::string line(double seconds) const;
 
   std::string label_;
   std::atomic<std::size_t> done_{0}, total_{0};
-  std::jthread ticker_;
+  std::optional<ProgressLine> line_;
 };
 
 }  // namespace slipcheck

@@ -10,8 +10,8 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/limit_options.h"
 #include "app/load_files.h"
-#include "app/number_range.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
 #include "app/result_outputs.h"
@@ -43,7 +43,6 @@ struct RunArguments {
   std::vector<double> scales;
   ResultOutputs outputs;
   RunOptions options;
-  std::size_t memory_limit = 2048;  // MiB
   bool all = false, summary = false, quiet = false;
 };
 
@@ -128,7 +127,6 @@ int run(RunArguments& arguments) {
 
   arguments.options.stop = &interrupted();
   arguments.options.record_motion = arguments.outputs.show_motion() || !arguments.directory.empty();
-  arguments.options.limits.memory = arguments.memory_limit << 20;
   if (is_debug_build() && !arguments.quiet)
     say("warning: this is a debug build; its run times say nothing\n");
   ReportContent content;
@@ -202,24 +200,12 @@ void add_run_command(CLI::App& app, int& exit_code) {
                    "In place of the scenes' rates these [Hz], with commas")
       ->delimiter(',')
       ->check(CLI::Range(1e-6, 1e12));
-  command
-      ->add_option("--workers", arguments->options.workers,
-                   "Engines at work at once; 0: one for each core")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
+  add_limit_options(*command, arguments->options);
   command
       ->add_option("--threads", arguments->options.threads,
                    "Threads that share the reference of one scene of many soft contacts, with the "
                    "same results; 0: one for each core")
       ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command
-      ->add_option("--time-limit", arguments->options.time_limit,
-                   "Wall-clock seconds for one run of an engine, and for a scene's reference")
-      ->check(positive_number())
-      ->capture_default_str();
-  command->add_option("--memory-limit", arguments->memory_limit, "MiB for one engine")
-      ->check(CLI::Range(16, 1 << 20))
       ->capture_default_str();
   add_set_option(*command, arguments->settings);
   add_general_option(*command, arguments->options.general);

@@ -18,7 +18,9 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/duration_text.h"
 #include "app/interrupt.h"
+#include "app/limit_options.h"
 #include "app/number_range.h"
 #include "app/output.h"
 #include "app/say.h"
@@ -41,7 +43,6 @@ constexpr std::uint64_t kMostTrials = 64;
 struct SweepArguments {
   std::string file, store, shard;
   double limit_time = kForever;
-  std::size_t memory_limit = 2048;  // MiB
   bool retry = false, dry_run = false, quiet = false;
   SweepOptions options;
 };
@@ -212,7 +213,6 @@ int fill(const SweepSetup& setup, const SweepArguments& arguments, SweepStore& s
 
 int sweep(SweepArguments& arguments) {
   arguments.options.stop = &interrupted();
-  arguments.options.limits.memory = arguments.memory_limit << 20;
   watch_for_interrupts();
   SweepPlan plan = SweepPlan::load(arguments.file);
   if (arguments.store.empty()) arguments.store = plan.name() + ".db";
@@ -250,19 +250,7 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
                     "Run those again that crashed, timed out or were skipped");
   command->add_flag("--dry-run", arguments->dry_run,
                     "Write nothing; tell how many runs there are and about how long they take");
-  command
-      ->add_option("--workers", arguments->options.workers,
-                   "Engines at work at once; 0: one for each core")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command
-      ->add_option("--time-limit", arguments->options.time_limit,
-                   "Wall-clock seconds for one phase of an engine, and for a scene's reference")
-      ->check(positive_number())
-      ->capture_default_str();
-  command->add_option("--memory-limit", arguments->memory_limit, "MiB for one engine")
-      ->check(CLI::Range(16, 1 << 20))
-      ->capture_default_str();
+  add_limit_options(*command, arguments->options);
   command->add_flag("-q,--quiet", arguments->quiet, "No progress");
   command->footer(
       "Exit codes: 0 all runs are in the store, whatever they showed; 130 some are left.\n\n"

@@ -2,22 +2,18 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
-#include <thread>
+
+#include "app/progress_line.h"
 
 namespace slipcheck {
-
-/// "45 s", "12 min", "3 h 20 min", "2 d 5 h".
-std::string duration_text(double seconds);
 
 /// How far a sweep has come and how long it takes yet, on stderr: a line that stays in its place on
 /// a terminal, else a line of a log every half minute.
 class SweepProgress {
  public:
   SweepProgress(std::uint64_t total, bool shown);
-  ~SweepProgress();
-  SweepProgress(const SweepProgress&) = delete;
-  SweepProgress& operator=(const SweepProgress&) = delete;
 
   /// From any thread.
   void set(std::uint64_t done);
@@ -27,7 +23,7 @@ class SweepProgress {
 
   std::uint64_t total_;
   std::atomic<std::uint64_t> done_{0};
-  std::jthread ticker_;
+  std::optional<ProgressLine> line_;
 };
 
 }  // namespace slipcheck

@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/limit_options.h"
 #include "app/number_range.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
@@ -165,15 +166,8 @@ void add_search_options(CLI::App& command, TuneArguments& arguments) {
       .add_option("--time", arguments.budget.seconds,
                   "Seconds of wall time for the search, earlier sessions included")
       ->check(positive_number());
-  command
-      .add_option("--time-limit", arguments.time_limit,
-                  "Wall-clock seconds for one run of the engine, and for a scene's reference")
-      ->check(positive_number())
-      ->capture_default_str();
-  command
-      .add_option("--workers", arguments.workers, "Engines at work at once; 0: one for each core")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
+  add_time_limit_option(command, arguments.time_limit);
+  add_workers_option(command, arguments.workers);
 }
 
 }  // namespace

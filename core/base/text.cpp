@@ -106,7 +106,12 @@ std::string printable(std::string_view text) {
 
 std::size_t display_width(std::string_view text) {
   std::size_t width = 0;
-  while (!text.empty()) width += columns(take_code_point(text));
+  while (!text.empty()) {
+    if (text.starts_with("\x1b["))  // an ink, to its letter
+      text.remove_prefix(std::min(text.find('m'), text.size() - 1) + 1);
+    else
+      width += columns(take_code_point(text));
+  }
   return width;
 }
 

@@ -13,7 +13,7 @@ std::string valid_utf8(std::string_view text);
 /// reverse the direction of writing, become U+FFFD, and line breaks and tabs blanks.
 std::string printable(std::string_view text);
 
-/// How many columns of a terminal well-formed UTF-8 takes.
+/// How many columns of a terminal well-formed UTF-8 takes; its inks (ESC [ … m) take none.
 std::size_t display_width(std::string_view text);
 
 /// Cut to a display width, with "…" for what is missing.

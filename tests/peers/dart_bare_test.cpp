@@ -37,6 +37,27 @@ void add_bare_shape(dd::BodyNode* node, const dd::ShapePtr& shape, const char* n
   made->getDynamicsAspect()->setRestitutionCoeff(e);
 }
 
+/// Adds a solid sphere, with the shapes that `give_shapes` gives it, and says how it begins.
+template <class GiveShapes>
+dd::BodyNode* add_bare_ball(::dart::simulation::World& world, const std::string& name,
+                            const Sphere& sphere, const BodyState& initial,
+                            const GiveShapes& give_shapes) {
+  const auto ball = dd::Skeleton::create(name);
+  auto [joint, node] = ball->createJointAndBodyNodePair<dd::FreeJoint>();
+  dd::Inertia inertia;
+  inertia.setMass(sphere.mass);
+  inertia.setMoment(sphere.moment_of_inertia() * Eigen::Matrix3d::Identity());
+  node->setInertia(inertia);
+  give_shapes(node);
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  place.translation() = initial.position;
+  joint->setTransform(place);
+  joint->setLinearVelocity(initial.velocity);
+  joint->setAngularVelocity(initial.angular_velocity);
+  world.addSkeleton(ball);
+  return node;
+}
+
 States run_bare_dart(const Scene& scene, double mu_ground, double e_ground, double mu_balls,
                      double e_balls, double rate, int steps) {
   const auto world = ::dart::simulation::World::create();
@@ -56,23 +77,14 @@ States run_bare_dart(const Scene& scene, double mu_ground, double e_ground, doub
   std::vector<dd::BodyNode*> balls;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Sphere& sphere = scene.bodies[i];
-    const auto ball = dd::Skeleton::create("ball" + std::to_string(i));
-    auto [joint, node] = ball->createJointAndBodyNodePair<dd::FreeJoint>();
-    dd::Inertia inertia;
-    inertia.setMass(sphere.mass);
-    inertia.setMoment(sphere.moment_of_inertia() * Eigen::Matrix3d::Identity());
-    node->setInertia(inertia);
     const auto shape = std::make_shared<dd::SphereShape>(sphere.radius);
-    add_bare_shape(node, shape, "below", mu_ground, e_ground);
-    if (scene.bodies.size() > 1)
-      add_bare_shape(node, shape, "beside", mu_balls, std::sqrt(e_balls));
-    Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
-    place.translation() = scene.initial[i].position;
-    joint->setTransform(place);
-    joint->setLinearVelocity(scene.initial[i].velocity);
-    joint->setAngularVelocity(scene.initial[i].angular_velocity);
-    world->addSkeleton(ball);
-    balls.push_back(node);
+    const auto give_shapes = [&](dd::BodyNode* node) {
+      add_bare_shape(node, shape, "below", mu_ground, e_ground);
+      if (scene.bodies.size() > 1)
+        add_bare_shape(node, shape, "beside", mu_balls, std::sqrt(e_balls));
+    };
+    balls.push_back(
+        add_bare_ball(*world, "ball" + std::to_string(i), sphere, scene.initial[i], give_shapes));
   }
   States states;
   for (int n = 0; n < steps; ++n) {
@@ -120,20 +132,12 @@ States run_bare_surfaces(const Scene& scene, double mu, double e, double belt_ve
   dd::FreeJoint* belt = surface("belt", box(1e4, 1e4, 1), {0, 0, -0.6});
   const Eigen::Isometry3d home = belt->getRelativeTransform();
   const Sphere& sphere = scene.bodies[0];
-  const auto ball = dd::Skeleton::create("ball");
-  auto [joint, node] = ball->createJointAndBodyNodePair<dd::FreeJoint>();
-  dd::Inertia inertia;
-  inertia.setMass(sphere.mass);
-  inertia.setMoment(sphere.moment_of_inertia() * Eigen::Matrix3d::Identity());
-  node->setInertia(inertia);
   const auto shape = std::make_shared<dd::SphereShape>(sphere.radius);
-  for (const char* name : {"on belt", "on peg", "on plate"})
-    add_bare_shape(node, shape, name, mu, e);
-  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
-  place.translation() = scene.initial[0].position;
-  joint->setTransform(place);
-  joint->setLinearVelocity(scene.initial[0].velocity);
-  world->addSkeleton(ball);
+  const dd::BodyNode* node =
+      add_bare_ball(*world, "ball", sphere, scene.initial[0], [&](dd::BodyNode* made) {
+        for (const char* name : {"on belt", "on peg", "on plate"})
+          add_bare_shape(made, shape, name, mu, e);
+      });
   States states;
   for (int n = 0; n < steps; ++n) {
     belt->setTransform(home);

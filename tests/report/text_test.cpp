@@ -42,6 +42,8 @@ TEST(Text, CountsColumns) {
   EXPECT_EQ(display_width("83.01 ms"), 8u);
   EXPECT_EQ(display_width("3 µm … ✓"), 8u);
   EXPECT_EQ(display_width("漢字"), 4u);
+  EXPECT_EQ(display_width("\x1b[1mm\x1b[0;31mm\x1b[0m"), 2u);
+  EXPECT_EQ(display_width("\x1b["), 0u);
   EXPECT_EQ(display_width("e\u0301"), 1u);
 }
 

@@ -125,9 +125,10 @@ std::string summary_of(const std::vector<SceneRecord>& scenes, const TableStyle&
       all.run_count > 0
           ? fmt::format("; {}: {}", counted(all.run_count, "engine run"), list(all.runs))
           : "";
-  std::string text =
-      fmt::format("{}: {}{}{}\n", counted(all.scene_count, "scene"), list(all.scenes), alone, runs);
-  for (const std::string& sentence : {summary.finding, summary.naive})
+  const std::string counts =
+      fmt::format("{}: {}{}{}", counted(all.scene_count, "scene"), list(all.scenes), alone, runs);
+  std::string text;
+  for (const std::string& sentence : {counts, summary.finding, summary.naive})
     for (const std::string& line :
          wrapped(sentence, static_cast<std::size_t>(std::max(style.width, 1))))
       if (!line.empty()) text += line + '\n';

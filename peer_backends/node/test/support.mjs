@@ -51,20 +51,28 @@ export function sceneOf(bodies, states, ground, pair) {
 
 /// Frames of so many steps: states and touches, each frame's own.
 export function framesOf(scene, settings, timeStep, count, time = 0) {
+  return framesOfStarts(scene, settings, timeStep, count, [scene.initial], time)[0];
+}
+
+/// The same from each of several starts, in one process.
+export function framesOfStarts(scene, settings, timeStep, count, starts, time = 0) {
   const { found, stderr } = replies([
     { type: 'configure', scene, settings, time_step: timeStep },
-    { type: 'start', states: scene.initial, time },
-    { type: 'step', count },
+    ...starts.flatMap((states) => [{ type: 'start', states, time }, { type: 'step', count }]),
   ]);
-  const last = found.at(-1);
-  if (last?.type !== 'frames') throw new Error(JSON.stringify(last) + stderr);
-  const size = 9 * last.bodies;
-  const all = new Float64Array(last.states.length / 8);
-  new Uint8Array(all.buffer).set(last.states);
+  const runs = found.filter(({ type }) => type === 'frames');
+  if (runs.length !== starts.length) throw new Error(JSON.stringify(found.at(-1)) + stderr);
+  return runs.map((run) => framesIn(run, count));
+}
+
+function framesIn({ bodies, states, touch_counts, touches: told }, count) {
+  const size = 9 * bodies;
+  const all = new Float64Array(states.length / 8);
+  new Uint8Array(all.buffer).set(states);
   let at = 0;
   return Array.from({ length: count }, (_, k) => {
-    const touches = Array.from({ length: last.touch_counts.readUInt32LE(4 * k) }, () => {
-      const touch = [last.touches.readUInt32LE(at), last.touches.readUInt32LE(at + 4), last.touches.readDoubleLE(at + 8)];
+    const touches = Array.from({ length: touch_counts.readUInt32LE(4 * k) }, () => {
+      const touch = [told.readUInt32LE(at), told.readUInt32LE(at + 4), told.readDoubleLE(at + 8)];
       at += 16;
       return touch;
     });
