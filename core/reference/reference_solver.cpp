@@ -305,16 +305,23 @@ std::vector<std::vector<BodyState>> ReferenceSolver::states_along(std::span<cons
 
 // --- what looks ahead ----------------------------------------------------------------------------
 
+namespace {
+
+EventSettings looking_from(double start, double slowest) {
+  EventSettings settings;
+  settings.start = start;
+  settings.slowest_rebound = 1e-2 * slowest;  // a cascade of weaker ones would never be it
+  return settings;
+}
+
+}  // namespace
+
 /// Bodies that are in these states at `start` [s].
 std::unique_ptr<LookingSolver> ReferenceSolver::looking(std::span<const BodyState> states,
                                                         double start, double tolerance,
                                                         double slowest) const {
-  if (runs_in_phases(scene().hard)) {
-    EventSettings settings;
-    settings.start = start;
-    settings.slowest_rebound = 1e-2 * slowest;  // a cascade of weaker ones would never be it
-    return std::make_unique<EventSolver>(scene().hard, states, settings);
-  }
+  if (runs_in_phases(scene().hard))
+    return std::make_unique<EventSolver>(scene().hard, states, looking_from(start, slowest));
   ContactSettings settings;
   settings.tolerance = tolerance;
   settings.start = start;
@@ -331,6 +338,15 @@ double ReferenceSolver::first_contact(double limit, double tolerance) const {
 double ReferenceSolver::next_collision(std::span<const BodyState> states, double start,
                                        double limit, double slowest) const {
   constexpr double kTolerance = 1e-8;  // engines are further off
+  const Scene& hard = scene().hard;
+  if (!hard.surfaces.empty()) {
+    if (!EventSolver::can_solve(hard)) return start;
+    try {
+      return EventSolver(hard, states, looking_from(start, slowest)).next_impact(limit, slowest);
+    } catch (const LastingContacts&) {
+      return start;
+    }
+  }
   return looking(states, start, kTolerance, slowest)->next_collision(limit, slowest);
 }
 

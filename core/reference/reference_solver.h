@@ -75,7 +75,8 @@ class ReferenceSolver {
   std::vector<std::vector<BodyState>> states_along(
       std::span<const double> times, double tolerance = SolverAccuracy{}.tolerance) const;
   /// When two bodies next meet at `slowest` [m/s] or faster, if they are in `states` at `start`
-  /// [s]; infinity where not before `limit` [s].
+  /// [s], or, beside surfaces, one comes to a surface; infinity where not before `limit` [s]. Where
+  /// that cannot be told, `start`: surfaces that turn, contacts that last.
   double next_collision(std::span<const BodyState> states, double start, double limit,
                         double slowest) const;
 

@@ -558,7 +558,7 @@ class CommandLine(unittest.TestCase):
     def test_every_bundled_scene_runs_in_the_reference(self):
         scenes = sorted(SCENES.glob("*.yaml"))
         if SANITIZED:  # a minute for 200 balls or a cascade, whose code other tests go through
-            slow = ("gas-", "three-ball-line", "ten-ball-break")
+            slow = ("gas-", "pile-", "three-ball-line", "ten-ball-break")
             scenes = [scene for scene in scenes if not scene.stem.startswith(slow)]
         # Sanitizers are slow, and this is no test of limits.
         report = json.loads(run("run", *scenes, "--json", "-", "--phases", "1",

@@ -101,6 +101,10 @@ TEST(EngineRegistry, KnownEnginesAreSortedAndTellWhatTheyTake) {
   EXPECT_EQ(from("ode"), "Debian package libode-dev");
   EXPECT_EQ(from("bullet"), "Debian package libbullet-dev");
   EXPECT_EQ(from("rapier"), "slipcheck engines add rapier");
+  // In the folder of the tests' own engine there is that one alone.
+  setenv("SLIPCHECK_ENGINE_PATH", SLIPCHECK_BINARY_DIR "/faulty", 1);
+  EXPECT_EQ(not_installed_text("faulty", "single"),
+            "faulty (single) is not installed, but double precision is");
   EXPECT_EQ(not_installed_text("ode", "double"),
             "ode (double) is not installed: Debian package libode-dev");
   EXPECT_EQ(

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 
 #include "../support/bundled.h"
 #include "../support/refusal.h"
@@ -91,6 +94,26 @@ TEST(EngineRequest, LeavesItsPrecisionToTheEngine) {
   EXPECT_EQ(named.compare.engines.at(0).engine, "rapier@0.19.3");
   EXPECT_FALSE(named.compare.engines.at(0).precision);
   EXPECT_EQ(test::faults_of([] { scenario("engines: [{engine: '@1', rate: 60}]"); }).size(), 1u);
+}
+
+TEST(EngineRequest, OfANameWithoutAVersionTakesThePrecisionThatAnyVersionHas) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "of-versions";
+  std::filesystem::create_directories(folder);
+  for (const char* version : {"1.0", "2.0"}) {
+    const auto worker = folder / fmt::format("slipcheck-engine-toy@{}-single", version);
+    std::filesystem::remove(worker);
+    std::filesystem::create_symlink(SLIPCHECK_BINARY_DIR "/faulty/slipcheck-engine-faulty-double",
+                                    worker);
+  }
+  setenv("SLIPCHECK_ENGINE_PATH", folder.c_str(), 1);
+  EngineGrid grid;
+  grid.engines = {"toy"};
+  grid.profiles = {"default"};
+  const double rate = 240;
+  const std::vector<EngineRequest> requests = requests_of(grid, std::span(&rate, 1));
+  ASSERT_EQ(requests.size(), 1u);
+  EXPECT_EQ(requests[0].engine, "toy");
+  EXPECT_EQ(requests[0].precision, EngineRequest::Precision::single_);
 }
 
 TEST(ChooseEngines, PutsEnginesInPlaceOfTheScenes) {

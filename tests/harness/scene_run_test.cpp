@@ -289,5 +289,37 @@ TEST(SceneRun, AModelWithoutASolverIsRefusedByName) {
   EXPECT_NE(what.find("materials.steel.dissipation_time"), std::string::npos) << what;
 }
 
+TEST(Surfaces, ARunGoesOnForABodyThatRollsTowardsAnEdge) {
+  // Slides on a step, rolls with 5/7 of its speed over the edge, and slides again on a belt that
+  // comes after it: friction along one line conserves the spin about it, whatever its course.
+  use_test_engines();
+  const Scenario scenario = parse_scenario(R"(slipcheck: 1
+name: step
+title: Over an edge onto a belt
+materials: {glass: {density: 2500 kg/m^3}, wood: {}, rubber: {}}
+contacts:
+  - {between: [glass, wood], friction: 0.3}
+  - {between: [glass, rubber], friction: 0.3}
+surfaces:
+  - {name: step, material: wood, rectangle: {from: [-1, 0, 0.1], to: [0.3, 0, 0.1], width: 1}}
+  - {name: belt, material: rubber, plane: {point: [0, 0, 0], normal: [0, 0, 1]}, motion: {kind: belt, velocity: [0.5, 0, 0]}}
+bodies:
+  - {name: ball, material: glass, sphere: {radius: 10 mm}, on: step, position: [0, 0, 0.11], velocity: [1, 0, 0], spin: none}
+run: {until: rolling, limit: 5}
+compare:
+  engines: [{engine: bullet, precision: double, profile: physical, rate: 1000}]
+)",
+                                           "step.yaml");
+  RunOptions options;
+  options.phases = 4;
+  const SceneRecord record = run_scenes({scenario}, options).at(0);
+  const double exact = 5.0 / 7 + 2.0 / 7 * 0.5;
+  EXPECT_NEAR(record.reference.observables.at("ball.rolling_velocity").value, exact, 1e-12);
+  const EngineRecord& run = record.runs.at(0);
+  ASSERT_EQ(run.status, RunStatus::ok) << run.reason;
+  for (const double velocity : run.observables.at("ball.rolling_velocity").values)
+    EXPECT_NEAR(velocity, exact, 1e-3);  // of what friction takes in a step
+}
+
 }  // namespace
 }  // namespace slipcheck

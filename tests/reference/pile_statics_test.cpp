@@ -70,16 +70,16 @@ TEST(PileStatics, TheProgrammeKnowsTheClosedFormOfFourSpheres) {
   EXPECT_LT(least_friction(between, test::Pyramid::outside), tan_half);
 }
 
-TEST(PileStatics, FourSpheresStandAndFallByTheirFrictionOnEachOther) {
-  expect_limit([](double mu) { return test::pile(2, mu, 1); });
-}
 TEST(PileStatics, FourSpheresStandAndFallByTheirFrictionOnTheGround) {
   expect_limit([](double mu) { return test::pile(2, 1, mu); });
+}
+#ifndef SLIPCHECK_SANITIZE  // the same code as of four
+TEST(PileStatics, FourSpheresStandAndFallByTheirFrictionOnEachOther) {
+  expect_limit([](double mu) { return test::pile(2, mu, 1); });
 }
 TEST(PileStatics, TenSpheresStandAndFallWhereTheProgrammeSays) {
   expect_limit([](double mu) { return test::pile(3, mu, mu); });
 }
-#ifndef SLIPCHECK_SANITIZE  // the same code as of ten
 TEST(PileStatics, TwentySpheresStandAndFallWhereTheProgrammeSays) {
   expect_limit([](double mu) { return test::pile(4, mu, mu); });
 }

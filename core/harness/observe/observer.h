@@ -78,6 +78,9 @@ class Observer final : public FrameSink {
 
   bool anything_slides_or_flies() const;
   bool everything_rests() const;
+  /// States now, as they would be if each body rolled on what carries it, and nothing of slip and
+  /// height were left that an engine leaves.
+  std::vector<BodyState> rolling(double time, std::vector<BodyState> states) const;
   /// When the last body stopped to slide or landed, or came to rest [s].
   double last_slide_end() const;
   double last_stop() const;

@@ -53,6 +53,27 @@ void Observer::find_base(std::size_t i, double t, const BodyState& state) {
   for (std::size_t k = 0; k < scene_->surfaces.size(); ++k) look(surface_touch(k), most);
 }
 
+std::vector<BodyState> Observer::rolling(double time, std::vector<BodyState> states) const {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    BodyState& state = states[i];
+    const int base = on_surfaces_ ? bodies_[i].base : kSubstrate;
+    const Vector3 up = on_surfaces_ ? bodies_[i].up : kUp;
+    const Vector3 ground =
+        base == kSubstrate
+            ? scene_->motion.velocity(time)
+            : scene_->surfaces[touched_surface(base)].motion.velocity(time, state.position);
+    const double radius = scene_->bodies[i].radius;
+    if (base == kSubstrate)
+      state.position.z() = radius;
+    else
+      state.position -= gap(i, time, state) * up;
+    state.velocity -= up.dot(state.velocity) * up;
+    const double spin = up.dot(state.angular_velocity);
+    state.angular_velocity = up.cross(state.velocity - ground) / radius + spin * up;
+  }
+  return states;
+}
+
 void Observer::look_at_ground_of(std::size_t i, double t0, double t1, const BodyState& now) {
   const int base = bodies_[i].base;
   if (base == kSubstrate) {

@@ -28,7 +28,9 @@ std::vector<Installed> chosen(const EngineGrid& grid) {
     std::vector<std::string> precisions = grid.precisions;
     if (precisions.empty())
       for (const EngineExecutable& each : found)
-        if (each.engine == engine) precisions.push_back(each.precision);
+        if ((each.engine == engine || engine_family(each.engine) == engine) &&
+            std::ranges::count(precisions, each.precision) == 0)
+          precisions.push_back(each.precision);
     if (precisions.empty()) precisions = {"double"};
     for (const std::string& precision : precisions) chosen.push_back({engine, precision});
   }

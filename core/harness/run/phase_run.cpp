@@ -78,22 +78,12 @@ class PlaneRun final : public PhaseRun {
     return time >= end().limit;
   }
 
-  /// Whether bodies that all roll now will meet: the reference's solver looks ahead.
+  /// Whether bodies that all roll now will meet or come to a surface: the reference's solver looks
+  /// ahead.
   bool collides_again(double time, const Frame& frame) {
     if (time <= next_look_) return true;
-    std::vector<BodyState> states = frame.bodies;
-    const Vector3 frame_velocity = scene().motion.velocity(time);
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      const double radius = scene().bodies[i].radius;
-      states[i].position.z() = radius;
-      states[i].velocity.z() = 0;
-      const double spin = states[i].angular_velocity.z();
-      states[i].angular_velocity =
-          rolling_angular_velocity(states[i].velocity - frame_velocity, radius);
-      states[i].angular_velocity.z() = spin;
-    }
-    next_look_ =
-        solver().next_collision(states, time, end().limit, 2 * observer_.weakest_collision());
+    next_look_ = solver().next_collision(observer_.rolling(time, frame.bodies), time, end().limit,
+                                         2 * observer_.weakest_collision());
     return std::isfinite(next_look_);
   }
 

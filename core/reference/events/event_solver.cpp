@@ -57,6 +57,7 @@ double speed_scale(const Scene& scene, std::span<const BodyState> states) {
 class EventSolver::Engine : public LookingSolver {
  public:
   virtual std::unique_ptr<Engine> copy() const = 0;
+  virtual double next_impact(double limit, double slowest) = 0;
 };
 
 template <class World, class Queue>
@@ -102,12 +103,11 @@ class EventSolver::EngineOf final : public Engine {
         limit, [&](const World& world) { return world.collisions() + world.landings() != so_far; });
   }
   double next_collision(double limit, double slowest) override {
-    std::size_t so_far = world_.collisions();
-    return time_of(limit, [&](const World& world) {
-      if (world.collisions() == so_far) return false;
-      so_far = world.collisions();
-      return slowest == 0 || world.last_impact_speed() >= slowest;
-    });
+    return time_of_hard(limit, slowest, [](const World& world) { return world.collisions(); });
+  }
+  double next_impact(double limit, double slowest) override {
+    return time_of_hard(limit, slowest,
+                        [](const World& world) { return world.collisions() + world.landings(); });
   }
 
   SolvedRun run(const RunEnd& end, FrameSink* sink) override {
@@ -171,6 +171,17 @@ class EventSolver::EngineOf final : public Engine {
       if (rate.is_exceeded(ahead.scheduler_.now())) break;
     }
     return kNever;
+  }
+
+  /// The same for the first of what is counted that is `slowest` [m/s] or faster.
+  template <class Count>
+  double time_of_hard(double limit, double slowest, Count count) const {
+    std::size_t so_far = count(world_);
+    return time_of(limit, [&](const World& world) {
+      if (count(world) == so_far) return false;
+      so_far = count(world);
+      return slowest == 0 || world.last_impact_speed() >= slowest;
+    });
   }
 
   bool has_ended(const RunEnd& end) {
@@ -284,6 +295,9 @@ SolvedRun EventSolver::run(const RunEnd& end, FrameSink* sink) {
 double EventSolver::first_contact(double limit) { return engine_->first_contact(limit); }
 double EventSolver::next_collision(double limit, double slowest) {
   return engine_->next_collision(limit, slowest);
+}
+double EventSolver::next_impact(double limit, double slowest) {
+  return engine_->next_impact(limit, slowest);
 }
 std::vector<BodyState> EventSolver::states() const { return engine_->states(); }
 double EventSolver::now() const { return engine_->now(); }

@@ -71,6 +71,8 @@ class EventSolver final : public LookingSolver {
   // Both leave the solver as it is.
   double first_contact(double limit) override;
   double next_collision(double limit, double slowest) override;
+  /// The same for whatever a body meets: another one, the plane or a surface.
+  double next_impact(double limit, double slowest);
 
   std::vector<BodyState> states() const override;
   double now() const override;

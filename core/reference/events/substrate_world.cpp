@@ -143,6 +143,7 @@ BodyChange SubstrateWorld<Phase, Near>::do_own_event(std::uint32_t i, double now
   BodyState state = phases_[i].at_end();
   if (phases_[i].kind() == Kind::flying) {
     show(now);
+    last_impact_speed_ = -state.velocity.z();
     land_body(i, state, now);
     if (sink_ && state.velocity.z() > 0) frame_.touches.push_back(substrate_touch(i));
     ++landings_;

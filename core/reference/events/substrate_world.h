@@ -58,9 +58,11 @@ class SubstrateWorld {
   std::size_t collisions() const { return collisions_; }  ///< of two bodies
   std::size_t collapses() const { return collapses_; }    ///< changed by the rule for collapse
   std::size_t landings() const { return landings_; }
-  double last_impact_speed() const { return last_impact_speed_; }  ///< of the last pair [m/s]
-  bool is_any_slipping() const { return slipping_ > 0; }           ///< sliding or flying
-  bool is_any_moving() const { return moving_ > 0; }  ///< not SubstratePhase::is_at_rest
+  double last_impact_speed() const {
+    return last_impact_speed_;
+  }                                                       ///< of the last pair or landing [m/s]
+  bool is_any_slipping() const { return slipping_ > 0; }  ///< sliding or flying
+  bool is_any_moving() const { return moving_ > 0; }      ///< not SubstratePhase::is_at_rest
   static constexpr bool kHasCells = Near::kHasCells;
   /// Both paths are parabolas: collision_time() is no mere bound.
   bool is_exact_pair(std::uint32_t i, std::uint32_t j) const {

@@ -116,6 +116,7 @@ void SurfaceWorld::hit_surface(std::uint32_t i, std::size_t k, BodyState& state,
   if (is_held && local.velocity.z() > slowest_) bodies_[i].support = kNone;
   if (!is_held) bodies_[i].support = restitution == 0 && place.carries ? k : kNone;
   ++landings_;
+  last_impact_speed_ = speed;
   bodies_[i].hardest_impact = std::max(bodies_[i].hardest_impact, speed);
   if (sink_)
     frame_.touches.push_back({static_cast<int>(i), place.touch, std::max(impulse, 1e-300)});
