@@ -254,7 +254,8 @@ TEST(Summary, CountsScenesAndRuns) {
   EXPECT_EQ(
       summary_of({lottery_scene(), good, alone}, kWide),
       "3 scenes: 0 within, 1 deviates, 1 undecided, 0 failed, 1 of the reference alone; 3 engine "
-      "runs: 0 within, 2 deviate, 1 undecided, 0 failed\n"
+      "runs: 0 within, 2 deviate, 1\n"
+      "undecided, 0 failed\n"
       "bullet 3.24 default is within all tolerances in 0 of 2 runs; worst: symmetric-steel, "
       "i-j.effective_restitution off by up\n"
       "to 0.141, tolerance 0.005 (bullet double default 240 Hz).\n");
