@@ -10,7 +10,7 @@
 #include "app/output.h"
 #include "report/files/files.h"
 #include "scenario/load.h"
-#include "scenario/schema.h"
+#include "studies/sweep/sweep_block.h"
 
 namespace slipcheck {
 namespace {
@@ -90,7 +90,7 @@ void write_new_scene(const std::string& name) {
   check_output("NAME", file, false);
   const std::string text = replaced(replaced(kNewScene, "{schema}", kSchemaFile), "{name}", name);
   parse_scenario(text, file.string());
-  write_file_atomically(kSchemaFile, scenario_schema().dump(2) + "\n");
+  write_file_atomically(kSchemaFile, sweep_file_schema().dump(2) + "\n");
   write_file_atomically(file, text);
   fmt::print("{}\n", file.string());
 }
@@ -107,7 +107,7 @@ void add_schema_command(CLI::App& app, int& exit_code) {
       "  slipcheck schema --profile > profile.schema.json");
   accept_quiet(*command);
   command->callback([of_profiles, &exit_code] {
-    fmt::print("{}\n", (*of_profiles ? profile_schema() : scenario_schema()).dump(2));
+    fmt::print("{}\n", (*of_profiles ? profile_schema() : sweep_file_schema()).dump(2));
     exit_code = kWithinTolerance;
   });
 

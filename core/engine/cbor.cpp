@@ -2,80 +2,150 @@
 
 #include <fmt/format.h>
 
+#include <bit>
+#include <cmath>
 #include <cstddef>
-#include <vector>
+#include <limits>
+#include <string>
+#include <utility>
 
 namespace slipcheck::protocol {
 namespace {
+
+using nlohmann::json;
 
 constexpr std::size_t kDeepest = 16;
 constexpr std::size_t kMostItems =
     4'000'000;  // of one byte each in CBOR, but of 16 and more in json
 
-// Walks over the item without recursion: nlohmann's reader recurses for every level, so that a
-// megabyte of "array of one" bytes would exhaust its stack.
-class Walker {
+/// Reads what the protocol uses, and byte strings, of which messages are made, as a whole:
+/// nlohmann's reader takes them byte by byte.
+class Reader {
  public:
-  explicit Walker(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+  explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
-  void walk() {
-    std::vector<std::uint64_t> open = {1};  // items still to come, by level
-    while (!open.empty()) {
-      if (open.back() == 0) {
-        open.pop_back();
-        continue;
-      }
-      --open.back();
-      if (++items_ > kMostItems) throw Rubbish("CBOR of too many items");
-      const std::uint64_t children = item();
-      if (children == 0) continue;
-      if (open.size() > kDeepest) throw Rubbish("CBOR nested too deeply");
-      open.push_back(children);
-    }
-    if (at_ != bytes_.size()) {
+  json read() {
+    json whole = item(1);
+    if (at_ != bytes_.size())
       throw Rubbish(fmt::format("{} bytes follow the CBOR item", bytes_.size() - at_));
-    }
+    return whole;
   }
 
  private:
-  /// Passes over one item's head and content; the number of items inside.
-  std::uint64_t item() {
-    const std::uint8_t head = next();
-    const int major = head >> 5;
-    const int info = head & 31;
-    if (info > 27) throw Rubbish(fmt::format("CBOR head 0x{:02x} is not accepted", head));
-    std::uint64_t argument = static_cast<std::uint64_t>(info);
-    if (info >= 24) {
-      argument = 0;
-      for (int i = 0; i < (1 << (info - 24)); ++i) argument = argument << 8 | next();
-    }
-    switch (major) {
-      case 2:
+  struct Head {
+    int major = 0, info = 0;
+    std::uint64_t argument = 0;
+  };
+
+  /// `level`: of the item, from 1.
+  json item(std::size_t level) {
+    if (++items_ > kMostItems) throw Rubbish("CBOR of too many items");
+    const Head head = next_head();
+    switch (head.major) {
+      case 0:
+        return head.argument;
+      case 1:
+        if (head.argument > std::uint64_t{std::numeric_limits<std::int64_t>::max()})
+          throw Rubbish("a CBOR number is below the range of 64 bits");
+        return -1 - static_cast<std::int64_t>(head.argument);
+      case 2: {
+        const auto bytes = next(head.argument);
+        return json::binary(Bytes(bytes.begin(), bytes.end()));
+      }
       case 3:
-        skip(argument);
-        return 0;
+        return text(head.argument);
       case 4:
-        return at_most_the_rest(argument);
+        return list(head.argument, level);
       case 5:
-        return 2 * at_most_the_rest(argument);
+        return object(head.argument, level);
       case 6:
         throw Rubbish("CBOR tags are not accepted");
       default:
-        return 0;
+        return simple(head);
     }
   }
 
-  std::uint8_t next() {
-    if (at_ == bytes_.size()) throw Rubbish("the CBOR item ends early");
-    return bytes_[at_++];
+  json list(std::uint64_t count, std::size_t level) {
+    check_children(count, level);
+    json items = json::array();
+    for (std::uint64_t k = 0; k < count; ++k) items.push_back(item(level + 1));
+    return items;
   }
 
-  void skip(std::uint64_t count) { at_ += static_cast<std::size_t>(at_most_the_rest(count)); }
+  json object(std::uint64_t count, std::size_t level) {
+    check_children(count, level);
+    json members = json::object();
+    for (std::uint64_t k = 0; k < count; ++k) {
+      if (++items_ > kMostItems) throw Rubbish("CBOR of too many items");
+      const Head key = next_head();
+      if (key.major != 3) throw Rubbish("a CBOR key must be a text");
+      std::string name = text(key.argument);
+      members[std::move(name)] = item(level + 1);
+    }
+    return members;
+  }
+
+  static json simple(const Head& head) {
+    switch (head.info) {
+      case 20:
+      case 21:
+        return head.info == 21;
+      case 22:
+        return nullptr;
+      case 25:
+        return half(static_cast<std::uint16_t>(head.argument));
+      case 26:
+        return double{std::bit_cast<float>(static_cast<std::uint32_t>(head.argument))};
+      case 27:
+        return std::bit_cast<double>(head.argument);
+      default:
+        throw Rubbish(fmt::format("CBOR simple value {} is not accepted", head.info));
+    }
+  }
+
+  /// RFC 8949, appendix D.
+  static double half(std::uint16_t bits) {
+    const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
+    double value =
+        exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(mantissa + 1024, exponent - 25);
+    if (exponent == 31)
+      value = mantissa == 0 ? std::numeric_limits<double>::infinity()
+                            : std::numeric_limits<double>::quiet_NaN();
+    return (bits & 0x8000) != 0 ? -value : value;
+  }
+
+  Head next_head() {
+    const std::uint8_t first = next(1)[0];
+    Head head{first >> 5, first & 31, 0};
+    if (head.info > 27) throw Rubbish(fmt::format("CBOR head 0x{:02x} is not accepted", first));
+    head.argument = static_cast<std::uint64_t>(head.info);
+    if (head.info < 24) return head;
+    head.argument = 0;
+    for (const std::uint8_t byte : next(std::uint64_t{1} << (head.info - 24)))
+      head.argument = head.argument << 8 | byte;
+    return head;
+  }
+
+  std::string text(std::uint64_t size) {
+    const auto bytes = next(size);
+    return {bytes.begin(), bytes.end()};
+  }
+
+  std::span<const std::uint8_t> next(std::uint64_t count) {
+    at_most_the_rest(count);
+    const auto bytes = bytes_.subspan(at_, static_cast<std::size_t>(count));
+    at_ += bytes.size();
+    return bytes;
+  }
+
+  void check_children(std::uint64_t count, std::size_t level) const {
+    at_most_the_rest(count);
+    if (count > 0 && level > kDeepest) throw Rubbish("CBOR nested too deeply");
+  }
 
   /// Each item takes a byte at least.
-  std::uint64_t at_most_the_rest(std::uint64_t count) const {
+  void at_most_the_rest(std::uint64_t count) const {
     if (count > bytes_.size() - at_) throw Rubbish("the CBOR item ends early");
-    return count;
   }
 
   std::span<const std::uint8_t> bytes_;
@@ -85,13 +155,6 @@ class Walker {
 
 }  // namespace
 
-nlohmann::json read_cbor(std::span<const std::uint8_t> bytes) {
-  Walker(bytes).walk();
-  try {
-    return nlohmann::json::from_cbor(bytes.begin(), bytes.end());
-  } catch (const nlohmann::json::exception& error) {
-    throw Rubbish(error.what());
-  }
-}
+nlohmann::json read_cbor(std::span<const std::uint8_t> bytes) { return Reader(bytes).read(); }
 
 }  // namespace slipcheck::protocol

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -116,7 +117,19 @@ void check_pairs(const std::vector<Touch>& touches) {
       fmt::format("a touch of {} and {} twice in a frame", first, name_of_second(second)));
 }
 
-Frames frames_of(const JsonNode& node) {
+/// As many as asked for, with what `spare` has of them.
+std::vector<Frame> taken_from(std::vector<Frame>& spare, std::size_t count) {
+  std::vector<Frame> frames;
+  frames.reserve(count);
+  const std::size_t old = std::min(count, spare.size());
+  const auto first = spare.end() - static_cast<std::ptrdiff_t>(old);
+  frames.insert(frames.end(), std::move_iterator(first), std::move_iterator(spare.end()));
+  spare.erase(first, spare.end());
+  frames.resize(count);
+  return frames;
+}
+
+Frames frames_of(const JsonNode& node, std::vector<Frame>& spare) {
   const std::size_t count = node["count"].count(kMaxMessage);
   const std::size_t bodies = node["bodies"].count(kMaxMessage);
   const Bytes& states = node["states"].bytes();
@@ -132,17 +145,18 @@ Frames frames_of(const JsonNode& node) {
 
   Frames reply;
   reply.cpu_seconds = node["cpu_seconds"].number(0);
-  reply.frames.resize(count);
+  reply.frames = taken_from(spare, count);
   const std::uint8_t* state = states.data();
   std::size_t touch = 0;
   for (std::size_t n = 0; n < count; ++n) {
     Frame& frame = reply.frames[n];
-    frame.bodies.reserve(bodies);
-    for (std::size_t i = 0; i < bodies; ++i, state += kStateBytes) {
-      frame.bodies.push_back(read_state(state));
-    }
+    frame.part = 1;
+    frame.bodies.resize(bodies);
+    for (std::size_t i = 0; i < bodies; ++i, state += kStateBytes)
+      frame.bodies[i] = read_state(state);
     const std::size_t here = read_u32(touch_counts.data() + 4 * n);
     if (here > (touches.size() - touch) / kTouchBytes) throw Rubbish("touches end early");
+    frame.touches.clear();
     frame.touches.reserve(here);
     for (std::size_t k = 0; k < here; ++k, touch += kTouchBytes) {
       frame.touches.push_back(read_touch(touches.data() + touch, bodies));
@@ -274,19 +288,19 @@ Bytes encoded(const Message& message) {
 }
 
 template <class Message>
-Message decoded(const JsonNode& node) {
+Message decoded(const JsonNode& node, std::vector<Frame>& spare) {
   if constexpr (std::is_same_v<Message, Frames>)
-    return frames_of(node);
+    return frames_of(node, spare);
   else
     return read_finite<Message>(node);
 }
 
 /// Tells by its type which message it is.
 template <class... Messages>
-void decode(const JsonNode& node, std::variant<Messages...>& message) {
+void decode(const JsonNode& node, std::variant<Messages...>& message, std::vector<Frame>& spare) {
   const std::string type = node["type"].text();
   const bool is_known =
-      ((type == Messages::kType && (message = decoded<Messages>(node), true)) || ...);
+      ((type == Messages::kType && (message = decoded<Messages>(node, spare), true)) || ...);
   if (!is_known) node["type"].fault("must be a type of message");
 }
 
@@ -315,17 +329,23 @@ Request decode_request(std::span<const std::uint8_t> body) {
   static const std::string kPlace = "request";
   const json message = read_cbor(body);
   Request request;
-  decode(JsonNode(message, kPlace), request);
+  std::vector<Frame> spare;
+  decode(JsonNode(message, kPlace), request, spare);
   return request;
 }
 
-Reply decode_reply(std::span<const std::uint8_t> body) {
+Reply decode_reply(std::span<const std::uint8_t> body, std::vector<Frame>& spare) {
   static const std::string kPlace = "reply";
   json message = read_cbor(body);
   make_harmless(message);
   Reply reply;
-  decode(JsonNode(message, kPlace), reply);
+  decode(JsonNode(message, kPlace), reply, spare);
   return reply;
+}
+
+Reply decode_reply(std::span<const std::uint8_t> body) {
+  std::vector<Frame> spare;
+  return decode_reply(body, spare);
 }
 
 }  // namespace slipcheck::protocol

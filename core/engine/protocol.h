@@ -97,5 +97,8 @@ std::size_t body_length(std::span<const std::uint8_t, kPrefix> prefix);
 /// else. States may hold any float64: an engine that blows up is no breach of the protocol.
 Request decode_request(std::span<const std::uint8_t> body);
 Reply decode_reply(std::span<const std::uint8_t> body);
+/// The same; frames are taken from the end of `spare` as far as there are any, whatever they hold,
+/// and need no storage of their own then.
+Reply decode_reply(std::span<const std::uint8_t> body, std::vector<Frame>& spare);
 
 }  // namespace slipcheck::protocol

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -44,7 +45,7 @@ Expected RemoteEngine::ask(const protocol::Request& request) {
   const protocol::Bytes body = process_.exchange(protocol::encode(request), deadline_);
   protocol::Reply reply;
   try {
-    reply = protocol::decode_reply(body);
+    reply = protocol::decode_reply(body, spare_);
   } catch (const protocol::Rubbish& rubbish) {
     process_.fail(Status::crashed, fmt::format("spoke rubbish: {}", rubbish.what()));
   }
@@ -105,7 +106,7 @@ double RemoteEngine::advance(std::size_t steps, const std::function<void(const F
   const std::size_t most = steps_at_once(bodies_);
   while (steps > 0) {
     const std::size_t count = std::min(steps, most);
-    const auto reply = ask<protocol::Frames>(protocol::Step{count});
+    auto reply = ask<protocol::Frames>(protocol::Step{count});
     const auto ends = std::ranges::count(reply.frames, 1.0, &Frame::part);
     if (static_cast<std::size_t>(ends) != count || reply.frames.front().bodies.size() != bodies_) {
       process_.fail(Status::crashed, "spoke rubbish: not the frames asked for");
@@ -118,6 +119,7 @@ double RemoteEngine::advance(std::size_t steps, const std::function<void(const F
                                     touched_surface(touch.second), surfaces_));
     cpu_seconds += reply.cpu_seconds;
     for (const Frame& frame : reply.frames) callback(frame);
+    std::ranges::move(reply.frames, std::back_inserter(spare_));
     steps -= count;
   }
   return cpu_seconds;

@@ -59,6 +59,7 @@ class RemoteEngine {
   EngineInfo info_;
   std::size_t bodies_ = 0, surfaces_ = 0;
   double run_limit_;
+  std::vector<Frame> spare_;  ///< whose storage the next frames take
   WorkerProcess::Clock::time_point deadline_ = WorkerProcess::Clock::time_point::max();
 };
 

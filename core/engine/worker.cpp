@@ -89,6 +89,11 @@ class Worker {
     }
   }
 
+  /// A reply that was sent.
+  void take_back(protocol::Reply&& reply) {
+    if (auto* frames = std::get_if<protocol::Frames>(&reply)) frames_ = std::move(frames->frames);
+  }
+
  private:
   protocol::Reply handle(const protocol::Hello&) {
     return protocol::Welcome{protocol::kVersion, engine_.info()};
@@ -113,14 +118,21 @@ class Worker {
   protocol::Reply handle(const protocol::Step& request) {
     if (!started_) return protocol::Failed{"step before start"};
     protocol::Frames reply;
-    reply.frames.reserve(request.count);
+    reply.frames = std::move(frames_);
+    std::size_t count = 0;
+    // Frames of an earlier reply lend their storage.
+    const auto next = [&]() -> Frame& {
+      return count++ < reply.frames.size() ? reply.frames[count - 1] : reply.frames.emplace_back();
+    };
     const double before = engine_.cpu_seconds();
     for (std::size_t k = 0; k < request.count; ++k) {
       engine_.step();
-      const std::span<const Frame> parts = engine_.parts();
-      reply.frames.insert(reply.frames.end(), parts.begin(), parts.end());
-      engine_.read(reply.frames.emplace_back());
+      for (const Frame& part : engine_.parts()) next() = part;
+      Frame& frame = next();
+      frame.part = 1;
+      engine_.read(frame);
     }
+    reply.frames.resize(count);
     reply.cpu_seconds = engine_.cpu_seconds() - before;
     return reply;
   }
@@ -164,6 +176,7 @@ class Worker {
   Engine& engine_;
   std::size_t bodies_ = 0;  // 0: not configured
   bool started_ = false;
+  std::vector<Frame> frames_;  // for the next reply
 };
 
 Bytes encode_or_fail(const protocol::Reply& reply) {
@@ -201,7 +214,9 @@ int run_worker(Engine& engine) {
     while (const std::optional<Bytes> body = connection.receive()) {
       const protocol::Request request = protocol::decode_request(*body);
       if (std::holds_alternative<protocol::Quit>(request)) return leave();
-      if (!connection.send(encode_or_fail(worker.answer(request)))) return leave();
+      protocol::Reply reply = worker.answer(request);
+      if (!connection.send(encode_or_fail(reply))) return leave();
+      worker.take_back(std::move(reply));
     }
     return leave();
   } catch (const protocol::Rubbish& rubbish) {  // nothing after it can be trusted

@@ -131,6 +131,7 @@ Bytes WorkerProcess::exchange(const Bytes& message, Clock::time_point deadline) 
   if (by_reply) deadline = begin + limit;
 
   Exchange exchange{message, 0, {}};
+  send_some(exchange);  // the worker waits for it
   while (!exchange.complete()) {
     if (stop_ != nullptr && *stop_) {
       kill_and_reap();

@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING, Any
 from .errors import ProgramError, SceneError, UnsupportedScene
 from .program import bundled_scene, program_path, run
 from .results import Results
+from .store import Store
 
 if TYPE_CHECKING:
     from .reference import Collisions, Scene, Solution, Value
 
 __version__ = "0.1.0"
-__all__ = ["Collisions", "ProgramError", "Results", "Scene", "SceneError", "Solution", "UnsupportedScene", "Value",
+__all__ = ["Collisions", "ProgramError", "Results", "Scene", "SceneError", "Solution", "Store", "UnsupportedScene", "Value",
            "bundled_scene", "program_path", "run"]
 
 

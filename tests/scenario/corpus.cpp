@@ -14,6 +14,8 @@
 #include "scenario/rules/scene_rules.h"
 #include "scenario/yaml_tree.h"
 #include "scenes.h"
+#include "studies/sweep/scene_path.h"
+#include "studies/sweep/sweep_block.h"
 
 namespace slipcheck {
 namespace {
@@ -38,6 +40,17 @@ bodies: [{name: a, material: m, sphere: {radius: 1, inertia: shell}, mass: 1, po
 fill: {prefix: h, count: 1, material: m, radius: 1, area: [0, 0, 1, 1], arrange: lattice},
 run: {until: 3 s, limit: 4, discard: auto, most_events: 1, collapse: {model: contact_time, contact_time: 1}}, compare: {reference: steps, steps_per_contact: 50, engines: [{engine: e, rate: 1, expect: {a-substrate.restitution: {min: [1, 2], max: [1, 2]}, a.sliding_time: {median: [1 s, 2]}, g1.final_velocity.x: none, all.height: {max: [1, 2]}}},
   {engine: e, rate: 1, expect: {status: crashed}}], tolerance: {final_velocity.x: 1 mm/s}}})";
+
+/// All that a block of a sweep may say, below the least of a scene.
+const std::string kSweep = R"({slipcheck: 1, name: s, title: S, gravity: 1,
+materials: {m: {density: 1}}, contacts: [{between: [m, substrate], friction: 1}], substrate: {},
+bodies: [{name: a, material: m, sphere: {radius: 1}, position: [0, 0]}], run: {until: rolling, limit: 1},
+sweep: {
+  grid: {engine: bullet, rate: {from: 60, to: 240, count: 3, scale: logarithmic, whole: true}, gravity: [1, 2 m/s2],
+         phases: 4, settings.split_impulse: true, bodies.a.velocity: [[0, 1], [1, 2]]},
+  list: [{materials.m.density: 1, profile: default}, {materials.m.density: 2, profile: physical}],
+  latin_hypercube: {points: 4, seed: 2, ranges: {scale: [0.1, 10], settings.erp: {from: 0.1, to: 0.2}}},
+  sobol: {points: 4, ranges: {run.limit: [1 s, 2 s]}}}})";
 
 /// A plain scalar as YAML 1.2 reads it.
 json scalar(const YamlNode& node) {
@@ -92,8 +105,16 @@ void judge(const json& scene) {
   static std::size_t number = 0;
   if (number++ % g_every != 0) return;
   Reading reading("scene", UnitSystem::si);
+  YamlPointer root = to_yaml(scene);
+  if (is_mapping(*root))
+    if (const YamlNode* block = root->find("sweep")) {
+      const auto step = reading.key("sweep", block->location, *block);
+      SweepBlock sweep;
+      sweep_rule().read(*block, reading, sweep);
+      root = without_key(root, "sweep");
+    }
   WrittenScene written;
-  scene_rule().read(*to_yaml(scene), reading, written);
+  scene_rule().read(*root, reading, written);
   const bool accepted = reading.faults().empty();
   std::cout << json{{"scene", scene},
                     {"accepted", accepted},
@@ -151,7 +172,7 @@ int main(int argc, char** argv) {
   using namespace slipcheck;
   if (argc > 1) g_every = std::stoul(argv[1]);
   for (const std::string& text : {slipcheck::testing::kExample, slipcheck::testing::kHard,
-                                  slipcheck::testing::kContainer, kRest}) {
+                                  slipcheck::testing::kContainer, kRest, kSweep}) {
     json scene = read(text);
     judge(scene);
     change_everywhere(scene, scene);

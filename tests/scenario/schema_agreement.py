@@ -12,9 +12,10 @@ import sys
 
 import jsonschema
 
-# What the table of keys refuses but a schema cannot say: an order, and the limits of a number that
-# is written as a text.
-BEYOND_A_SCHEMA = re.compile(r'must have the (smaller radius|lower limit) first|must be (>|<)=? .*got "')
+# What the table of keys refuses but a schema cannot say: an order, the limits of a number that is written as a text, and of
+# a sweep that two numbers go together and rows name the same.
+BEYOND_A_SCHEMA = re.compile(r'must have the (smaller radius|lower limit) first|must be (>|<)=? .*got "|'
+                             r'must be from |must have one unit|must be > 0 on a log|must name (once|all) ')
 
 
 def main():

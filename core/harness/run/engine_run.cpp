@@ -23,10 +23,23 @@ std::vector<double> starts_of(const EnsembleTask& task, double step) {
   return phase_starts(boxed ? step : task.reference->first_contact, step, task.phases);
 }
 
-/// Few enough steps for little waste after the end, many enough for few messages.
-std::size_t steps_at_once(double expected_time, double step) {
-  return static_cast<std::size_t>(std::clamp(expected_time / step / 16, 16.0, 4096.0));
-}
+/// How many steps are asked for at once: most of those that the reference lets expect with the
+/// first message, as a message costs as much as many steps, and then few, for little waste after
+/// the end.
+class Chunks {
+ public:
+  Chunks(double expected_time, double step)
+      : first_(whole(expected_time / step * 7 / 8)), next_(whole(expected_time / step / 16)) {}
+
+  /// `taken`: steps of the run so far.
+  std::size_t after(std::size_t taken) const { return taken < first_ ? first_ : next_; }
+
+ private:
+  static std::size_t whole(double steps) {
+    return static_cast<std::size_t>(std::clamp(steps, 16.0, 4096.0));
+  }
+  std::size_t first_, next_;
+};
 
 std::vector<BodyState> similar_states(std::vector<BodyState> states, const Similarity& similarity) {
   for (BodyState& state : states) state = similarity.of(state);
@@ -69,7 +82,7 @@ void run_phases(RemoteEngine& engine, const EnsembleTask& task, const EngineReco
   share.version = engine.info().version;
 
   const std::vector<double> starts = starts_of(task, step);
-  const std::size_t chunk = steps_at_once(task.reference->run.end_time, step);
+  const Chunks chunks(task.reference->run.end_time, step);
   Similarity similarity{record.scale};
   std::optional<std::size_t> configured;  // for this heading
   try {
@@ -88,11 +101,14 @@ void run_phases(RemoteEngine& engine, const EnsembleTask& task, const EngineReco
       const std::vector<BodyState> states = task.solver->states_at(start);
       const std::unique_ptr<PhaseRun> run = make_phase_run(task, step, start, states);
       engine.start(similar_states(states, similarity), start * similarity.time());
+      std::size_t taken = 0;
       while (!run->ended() || run->wants_more()) {
+        const std::size_t chunk = chunks.after(taken);
         share.cpu_seconds +=
             engine.advance(chunk, [&](const Frame& frame) { show(frame, similarity, *run); });
-        share.steps += chunk;
+        taken += chunk;
       }
+      share.steps += taken;
       if (!run->reached()) ++share.unfinished;
       share.seen.push_back(run->values());
     }

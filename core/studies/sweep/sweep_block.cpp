@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "scenario/record_keys.h"
+#include "scenario/schema.h"
 #include "studies/sweep/scene_path.h"
 #include "studies/sweep/sweep_samples.h"
 
@@ -23,6 +25,17 @@ using nlohmann::json;
 constexpr const char* kSpanRule =
     "must be [from, to], or {from: , to: } with scale: linear or logarithmic and whole: true or "
     "false";
+
+/// What varies beside paths into the scene and settings.NAME, with what editors say of it.
+constexpr std::array<std::pair<const char*, const char*>, 7> kVaried = {{
+    {"engine", "slipcheck list engines"},
+    {"version", "of the engine"},
+    {"precision", "single or double"},
+    {"profile", "the engine's settings: a name or a file"},
+    {"rate", "steps per second [Hz], > 0"},
+    {"scale", "lengths over those of the scene, > 0"},
+    {"phases", "runs of an ensemble, 1 to 100000"},
+}};
 
 struct WrittenNumber {
   double value = 0;
@@ -192,6 +205,39 @@ struct Sampled {
   SweepPart part;
 };
 
+/// Names that vary, each with such a value, and those that editors are to know.
+json names_schema(const json& value) {
+  json names = {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", value}};
+  for (const auto& [name, about] : kVaried) {
+    names["properties"][name] = value;
+    names["properties"][name]["description"] = about;
+  }
+  return names;
+}
+
+/// What could stand in the file; which is right the name says.
+json value_schema() {
+  return {{"type", {"number", "string", "boolean", "array", "object", "null"}}};
+}
+
+json number_schema() { return {{"type", {"number", "string"}}}; }
+
+json grid_schema() {
+  const json one = {{"type", {"number", "string", "boolean"}}};
+  const json several = {{"type", "array"}, {"minItems", 1}, {"items", value_schema()}};
+  return names_schema({{"anyOf", {one, several, span_keys(true).schema()}}});
+}
+
+json rows_schema() {
+  return {{"type", "array"}, {"minItems", 1}, {"items", names_schema(value_schema())}};
+}
+
+json ranges_schema() {
+  const json pair = {
+      {"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", number_schema()}};
+  return names_schema({{"anyOf", {pair, span_keys(false).schema()}}});
+}
+
 Rule<SweepPart> ranges_rule() {
   return {[](const YamlNode& node, Reading& reading, SweepPart& part) {
             return for_each_name(node, reading, [&](SweepName name, const YamlPointer& value) {
@@ -199,9 +245,7 @@ Rule<SweepPart> ranges_rule() {
               return read_written_span(*value, reading, part.spans.emplace_back());
             });
           },
-          [] {
-            return json{{"type", "object"}, {"minProperties", 1}};
-          }};
+          ranges_schema};
 }
 
 Rule<Sampled> sampled_rule(bool seeded) {
@@ -255,11 +299,21 @@ YamlPointer SweepPart::value(std::size_t row, std::size_t name) const {
   return spans[name].at(cube[row * names.size() + name]);
 }
 
+nlohmann::json sweep_file_schema() {
+  json schema = scenario_schema();
+  json& sweep = schema["properties"]["sweep"];
+  sweep = sweep_rule().schema();
+  sweep["description"] = "what varies, for slipcheck sweep (slipcheck run refuses it)";
+  return schema;
+}
+
 Rule<SweepBlock> sweep_rule() {
-  const auto by = [](auto read) { return Rule<SweepBlock>{read, [] { return json::object(); }}; };
+  const auto by = [](auto read, auto schema) { return Rule<SweepBlock>{read, schema}; };
   Record<SweepBlock> block;
-  block.whole("grid", by(read_grid), optional, "by name: all combinations of their values")
-      .whole("list", by(read_list), optional, "rows of names with a value each")
+  block
+      .whole("grid", by(read_grid, grid_schema), optional,
+             "by name: all combinations of their values")
+      .whole("list", by(read_list, rows_schema), optional, "rows of names with a value each")
       .whole("latin_hypercube", part_rule("latin_hypercube"), optional,
              "points in a box, one in each slice")
       .whole("sobol", part_rule("sobol"), optional, "points that fill a box evenly")

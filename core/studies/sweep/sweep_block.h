@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -53,5 +54,8 @@ struct SweepBlock {
 
 /// Reads the block; a grid is one part for each of its names.
 Rule<SweepBlock> sweep_rule();
+
+/// The format of scenarios with the block of a sweep, as a JSON Schema (draft-07).
+nlohmann::json sweep_file_schema();
 
 }  // namespace slipcheck
