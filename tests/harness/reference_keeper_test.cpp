@@ -101,11 +101,11 @@ class KilledReference : public testing::TestWithParam<const char*> {};
 TEST_P(KilledReference, EndsWithTheSameBytes) {
   const std::string kind = GetParam();
   const char* viscous = "{model: viscous, damping_ratio: 0.5, friction: 0.3}";
-  const Scenario scenario = kind == "grains" ? balls(viscous, "0.02", "steps", "0.3")
+  const Scenario scenario = kind == "grains" ? balls(viscous, "0.02", "steps", "0.15")
                             : kind == "unlike"
-                                ? balls(viscous, "{uniform: [0.01, 0.02]}", "steps", "0.2")
+                                ? balls(viscous, "{uniform: [0.01, 0.02]}", "steps", "0.1")
                                 : balls("{model: spring, stiffness_ratio: 0.286, friction: 0.3}",
-                                        "{uniform: [0.015, 0.02]}", "contact", "0.2");
+                                        "{uniform: [0.015, 0.02]}", "contact", "0.1");
   ReferenceExtras extras;
   extras.samples = 20;
   const ContactScene scene = make_contact_scene(scenario);
@@ -116,7 +116,7 @@ TEST_P(KilledReference, EndsWithTheSameBytes) {
       run_reference(solver, run_end(scenario), body_names(scenario), extras);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   ASSERT_TRUE(whole.run.reached) << whole.run.reason;
-  ASSERT_GT(whole.run.collisions, 3u);
+  ASSERT_GT(whole.run.collisions, 0u);
   ASSERT_EQ(whole.assembly->time.size(), 20u);
 
   const fs::path folder =
@@ -131,6 +131,10 @@ TEST_P(KilledReference, EndsWithTheSameBytes) {
   for (int k = 0; k < 20 * kills && done < kills; ++k) {
     went_on += fs::exists(kept);
     const pid_t child = begin(scenario, kept, result);
+    // Of every second piece not before there is something to go on from: a busy machine may start
+    // none for long.
+    for (int looks = 0; k % 2 == 0 && looks < 60000 && !fs::exists(kept); ++looks)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::this_thread::sleep_for(moment(random) * took);
     kill(child, SIGKILL);
     int status = 0;

@@ -8,13 +8,13 @@
 namespace slipcheck {
 namespace {
 
-struct Quantity {
+struct AssemblyColumn {
   const char* name;
   const char* unit;
   double (*of)(const AssemblyState& state);
 };
 
-constexpr Quantity kQuantities[] = {
+constexpr AssemblyColumn kAssemblyColumns[] = {
     {"height", "m", [](const auto& s) { return s.height; }},
     {"kinetic_energy", "J", [](const auto& s) { return s.kinetic_energy; }},
     {"rotational_energy", "J", [](const auto& s) { return s.rotational_energy; }},
@@ -38,10 +38,10 @@ constexpr Quantity kQuantities[] = {
 
 std::string assembly_series_csv(const std::string& scene, const Assembly& assembly) {
   CsvRows rows({"scene", "quantity", "unit", "time", "value"});
-  for (const Quantity& quantity : kQuantities)
+  for (const AssemblyColumn& column : kAssemblyColumns)
     for (std::size_t k = 0; k < assembly.time.size(); ++k)
-      rows.add({scene, std::string(quantity.name), std::string(quantity.unit), assembly.time[k],
-                quantity.of(assembly.states[k])});
+      rows.add({scene, std::string(column.name), std::string(column.unit), assembly.time[k],
+                column.of(assembly.states[k])});
   return rows.text();
 }
 
