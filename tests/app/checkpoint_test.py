@@ -35,6 +35,18 @@ fill: {{prefix: g, count: {count}, material: m, radius: {radius}, area: [0, 0, 1
 run: {{until: {until}}}
 compare: {{reference: {solver}, engines: [], tolerance: {{final_position: 1 %}}}}
 """
+HARD = """slipcheck: 1
+name: grains
+title: A ball that slides
+gravity: 9.81
+materials: {m: {density: 1000}}
+contacts:
+  - {between: [m, substrate], friction: 0.1}
+bodies:
+  - {name: i, material: m, sphere: {radius: 0.02}, position: [0, 0], velocity: [1, 0]}
+run: {until: 0.1}
+compare: {engines: []}
+"""
 VISCOUS = "{model: viscous, damping_ratio: 0.5, friction: 0.3}"
 SPRING = "{model: spring, stiffness_ratio: 0.286, friction: 0.3}"
 SHARE = 0.2 if SANITIZED else 1
@@ -128,7 +140,7 @@ class Checkpoints(unittest.TestCase):
     def keep_something(self, name):
         kept = self.path / "kept" / f"{name}.checkpoint"
         # Out of time is an end that keeps what there is.
-        code, said = self.run_to_end(name, "--time-limit", "0.3", "--checkpoint", "kept",
+        code, said = self.run_to_end(name, "--time-limit", "3", "--checkpoint", "kept",
                                      "--checkpoint-every", "0")
         self.assertTrue(kept.exists(), said)
         self.assertIn("--resume goes on from there", said)
@@ -159,13 +171,35 @@ class Checkpoints(unittest.TestCase):
             (self.path / "pile.yaml").read_text().replace("speed: 1,", "speed: 1.1,"))
         self.assertIn("is of another scene than pile is now", self.refusal("pile", *resume))
 
+    def test_samples_and_trajectory_go_on(self):
+        options = ("--samples", "20", "--trajectory", "xyz")
+        self.assertEqual(self.run_to_end("grains", "--assembly", "whole", *options)[0], 0)
+        many = ("--assembly", "pieces", *options, "--checkpoint", "kept", "--checkpoint-every",
+                "0.01", "--resume")
+        kept = self.path / "kept" / "grains.checkpoint"
+        for after in (0.05, 0.2):
+            process = subprocess.Popen(self.command("grains", *many), cwd=self.path)
+            begin = time.monotonic()
+            while process.poll() is None and not kept.exists() and time.monotonic() - begin < 60:
+                time.sleep(0.001)
+            time.sleep(after)
+            process.kill()
+            process.wait()
+        self.assertEqual(self.run_to_end("grains", *many)[0], 0)
+        for name in ("grains.series.csv", "grains.distributions.csv", "grains.xyz"):
+            self.assertEqual((self.path / "pieces" / name).read_bytes(),
+                             (self.path / "whole" / name).read_bytes(), name)
+        rows = (self.path / "whole" / "grains.series.csv").read_text().splitlines()
+        self.assertEqual(rows[0], "scene,quantity,unit,time,value")
+        self.assertEqual(sum(",kinetic_energy,J," in row for row in rows), 20)
+        frames = (self.path / "whole" / "grains.xyz").read_text()
+        self.assertEqual(frames.count("Properties="), 20)
+        self.assertEqual(len(frames.splitlines()), 20 * 62)
+        self.assertIn("--trajectory: needs --assembly",
+                      self.refusal("grains", "--trajectory", "xyz"))
+
     def test_says_what_cannot_be_kept(self):
-        (self.path / "grains.yaml").write_text(
-            SCENES["grains"].replace("model: linear, restitution: 0.8, collision_time: 1e-3",
-                                     "model: hard, restitution: 0.8")
-            .replace("    tangential: " + VISCOUS, "").replace("},\n }", "}}")
-            .replace("reference: steps", "reference: event")
-            .replace(f",\n     tangential: {VISCOUS}", "").replace("until: ", "until: 0.0001 #"))
+        (self.path / "grains.yaml").write_text(HARD)
         code, said = self.run_to_end("grains", "--checkpoint", "kept")
         self.assertEqual(code, 0, said)
         told = json.loads((self.path / "out.json").read_text())["reference"]["warnings"]
