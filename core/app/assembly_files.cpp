@@ -1,5 +1,6 @@
 #include "app/assembly_files.h"
 
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <utility>
@@ -60,8 +61,9 @@ void AssemblyFiles::write(const std::vector<SceneRecord>& scenes) const {
     const std::string stem = file_stem(name, taken);
     if (!scene.reference.assembly) continue;
     const Assembly& seen = *scene.reference.assembly;
-    write_file_atomically(folder / (stem + ".series.csv"), assembly_series_csv(name, seen));
-    write_file_atomically(folder / (stem + ".distributions.csv"),
+    write_file_atomically(fs::path(folder) / (stem + ".series.csv"),
+                          assembly_series_csv(name, seen));
+    write_file_atomically(fs::path(folder) / (stem + ".distributions.csv"),
                           assembly_distributions_csv(name, seen));
   }
 }

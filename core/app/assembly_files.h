@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,9 +11,9 @@ namespace slipcheck {
 
 /// What --assembly asks for.
 struct AssemblyFiles {
-  std::filesystem::path folder;  ///< empty: nothing
-  std::size_t samples = 200;     ///< of a run, >= 2
-  std::string trajectory;        ///< "xyz", "vtk" or empty
+  std::string folder;         ///< empty: nothing
+  std::size_t samples = 200;  ///< of a run, >= 2
+  std::string trajectory;     ///< "xyz", "vtk" or empty
 
   /// Adds them by the scenes' names, for RunOptions, and makes the folder. The scenarios are
   /// copied. Throws BadOption.

@@ -84,7 +84,7 @@ std::string state_in(const fs::path& file, const Scenario& scenario, const std::
 
 fs::path CheckpointFiles::file_of(const Scenario& scenario) const {
   std::set<std::string> taken;
-  return folder / (file_stem(scenario.name, taken) + ".checkpoint");
+  return fs::path(folder) / (file_stem(scenario.name, taken) + ".checkpoint");
 }
 
 bool CheckpointFiles::exists(const Scenario& scenario) const {

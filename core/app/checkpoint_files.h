@@ -18,10 +18,10 @@ namespace slipcheck {
 /// and then the state. PROGRAM: version, commit and build, as the numbers lie in it as in that
 /// program's memory; SCENE: SHA-256 of what the scene says and how it is solved.
 struct CheckpointFiles {
-  std::filesystem::path folder;  ///< empty: nothing is kept
-  double every = 600;            ///< wall time from one to the next [s], >= 0
-  bool resume = false;           ///< go on from what is there
-  bool general = false;          ///< as of ReferenceSettings
+  std::string folder;    ///< empty: nothing is kept
+  double every = 600;    ///< wall time from one to the next [s], >= 0
+  bool resume = false;   ///< go on from what is there
+  bool general = false;  ///< as of ReferenceSettings
 
   std::filesystem::path file_of(const Scenario& scenario) const;
   /// Adds them by the scenes' names, for RunOptions, and makes the folder. Throws BadOption, before
