@@ -8,10 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/assembly_files.h"
+#include "app/checkpoint_files.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/limit_options.h"
 #include "app/load_files.h"
+#include "app/number_range.h"
 #include "app/output.h"
 #include "app/progress_bar.h"
 #include "app/result_outputs.h"
@@ -43,6 +46,8 @@ struct RunArguments {
   std::vector<double> scales;
   ResultOutputs outputs;
   RunOptions options;
+  CheckpointFiles checkpoints;
+  AssemblyFiles assembly;
   bool all = false, summary = false, quiet = false;
 };
 
@@ -75,6 +80,7 @@ void write_results(const RunArguments& arguments, const ReportContent& content) 
   write_json(arguments.json, [&] { return json_of(content.scenes).dump(2) + "\n"; });
   write_outputs(arguments.outputs, content);
   if (!arguments.directory.empty()) write_folder(arguments.directory, content);
+  arguments.assembly.write(content.scenes);
 }
 
 void print_warnings(const std::vector<SceneRecord>& scenes) {
@@ -116,7 +122,21 @@ std::string command_of(const RunArguments& arguments) {
   return command;
 }
 
+/// Of what has come to its end; the others can go on.
+void remove_checkpoints(const CheckpointFiles& files, const std::vector<SceneRecord>& scenes) {
+  for (const SceneRecord& scene : scenes) {
+    if (files.folder.empty() || !files.exists(scene.scenario)) continue;
+    if (!scene.reference.run.failed)
+      files.remove(scene.scenario);
+    else
+      say("{}: its state is kept in {}; --resume goes on from there\n", scene.scenario.name,
+          files.file_of(scene.scenario).string());
+  }
+}
+
 int run(RunArguments& arguments) {
+  if (arguments.checkpoints.resume && arguments.checkpoints.folder.empty())
+    throw BadOption("--resume: needs --checkpoint, the folder to go on from");
   check_output("--json", arguments.json, false);
   check_outputs(arguments.outputs);
   check_output("--out", arguments.directory, true);
@@ -125,6 +145,9 @@ int run(RunArguments& arguments) {
   std::vector<Scenario> scenarios = load_files(arguments.files);
   choose(arguments, scenarios);
 
+  arguments.checkpoints.general = arguments.options.general;
+  arguments.assembly.add_to(arguments.options.extras, scenarios);
+  arguments.checkpoints.add_to(arguments.options.extras, scenarios);
   arguments.options.stop = &interrupted();
   arguments.options.record_motion = arguments.outputs.show_motion() || !arguments.directory.empty();
   if (is_debug_build() && !arguments.quiet)
@@ -138,6 +161,7 @@ int run(RunArguments& arguments) {
   }
   content.commands = {command_of(arguments)};
   write_results(arguments, content);
+  remove_checkpoints(arguments.checkpoints, content.scenes);
   const std::vector<SceneRecord>& scenes = content.scenes;
   if (!arguments.quiet) {
     if (arguments.json != "-") {
@@ -207,6 +231,30 @@ void add_run_command(CLI::App& app, int& exit_code) {
                    "same results; 0: one for each core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
+  command->add_option("--assembly", arguments->assembly.folder,
+                      "Write what soft scenes of many bodies show as a whole into this folder: "
+                      "series and distributions as CSV");
+  command
+      ->add_option("--samples", arguments->assembly.samples,
+                   "That --assembly takes of a run, evenly over its time")
+      ->check(CLI::Range(2, 1000000))
+      ->capture_default_str();
+  command
+      ->add_option("--trajectory", arguments->assembly.trajectory,
+                   "Write each sample's bodies into that folder too, as the run goes on: xyz for "
+                   "OVITO, vtk for ParaView")
+      ->check(CLI::IsMember({"xyz", "vtk"}));
+  command->add_option("--checkpoint", arguments->checkpoints.folder,
+                      "Keep the state of long references in this folder on their way: of contacts "
+                      "that last, in steps");
+  command
+      ->add_option("--checkpoint-every", arguments->checkpoints.every,
+                   "Wall-clock seconds from one checkpoint to the next")
+      ->check(number_range(0.0, 1e9))
+      ->capture_default_str();
+  command->add_flag("--resume", arguments->checkpoints.resume,
+                    "Go on from what --checkpoint has kept, with the same results; without any "
+                    "from the start");
   add_set_option(*command, arguments->settings);
   add_general_option(*command, arguments->options.general);
   command->add_flag("--all", arguments->all,
@@ -221,6 +269,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       "  slipcheck run scenarios/*.yaml --engines all --rates 240,1000 --headings 8\n"
       "  slipcheck run scenarios/symmetric-steel.yaml --scales 0.01,1,100\n"
       "  slipcheck run scene.yaml --set erp2=0.4 --html what-if.html\n"
+      "  slipcheck run pile.yaml --time-limit 1e6 --checkpoint pile.kept --resume\n"
       "  slipcheck run scene.yaml --json - | jq .verdict");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -215,16 +215,17 @@ double ends_on(const RunEnd& end, double step) {
 
 }  // namespace
 
-/// `scene` at time 0; `end` sets the length of its steps.
+/// `scene` at time 0; `end` sets the length of its steps. `prepares`: as of PileSettings.
 std::unique_ptr<Solver> ReferenceSolver::at_start(const ContactScene& scene,
-                                                  const SolverAccuracy& accuracy,
-                                                  const RunEnd& end) const {
+                                                  const SolverAccuracy& accuracy, const RunEnd& end,
+                                                  bool prepares) const {
   const std::vector<BodyState>& initial = scene.hard.initial;
   if (is_piled()) {
     PileSettings settings;
     settings.collision_time = accuracy.softness * collision_time_;
     settings.general = settings_.general;
     settings.threads = settings_.threads;
+    settings.prepare = prepares;
     const double per_contact = is_stepped()      ? settings_.steps_per_contact
                                : scene.is_hard() ? kStepsPerHard
                                                  : kStepsPerSoft;
@@ -266,8 +267,27 @@ SolvedRun ReferenceSolver::run_varied(const RunEnd& end, FrameSink* sink,
   return ReferenceSolver(varied, settings_).run(end, reversing ? &*reversing : sink, accuracy);
 }
 
-SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
-                               const SolverAccuracy& accuracy) const {
+namespace {
+
+/// Reads a state where there is one, and has it kept from then on.
+void keep_on_its_way(KeptSolver& solver, StepsAsEvents* events, RunKeeper& keeper) {
+  const auto exchange = [&solver, events](StateArchive& archive) {
+    archive(solver);
+    if (events) archive(*events);
+  };
+  if (StateArchive* archive = keeper.resumed()) {
+    exchange(*archive);
+    archive->finish();
+  }
+  solver.set_between_frames([&keeper, exchange] {
+    if (keeper.is_due()) keeper.keep(exchange);
+  });
+}
+
+}  // namespace
+
+SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink, const SolverAccuracy& accuracy,
+                               RunKeeper* keeper) const {
   if (accuracy.reversed || accuracy.other_rule) return run_varied(end, sink, accuracy);
   std::optional<ContactScene> softer;
   if (softened_to() > 0 && !is_piled() && accuracy.softness != 1)
@@ -279,7 +299,10 @@ SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink,
   }
   std::optional<StepsAsEvents> events;
   if (is_stepped() && !is_piled() && sink) events.emplace(*sink);
-  const std::unique_ptr<Solver> solver = at_start(softer ? *softer : scene(), accuracy, end);
+  const std::unique_ptr<Solver> solver =
+      at_start(softer ? *softer : scene(), accuracy, end, !(keeper && keeper->resumed()));
+  if (keeper)
+    keep_on_its_way(dynamic_cast<KeptSolver&>(*solver), events ? &*events : nullptr, *keeper);
   SolvedRun solved = solver->run(end, events ? &*events : sink);
   if (is_stepped() && solved.failed) return solved;
   const std::vector<BodyState> states = solver->states();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/kept_solver.h"
 #include "reference/reference_settings.h"
 #include "reference/solver.h"
 #include "scene/contact_scene.h"
@@ -64,7 +65,12 @@ class ReferenceSolver {
   /// What is solved.
   const ContactScene& scene() const { return made_ ? *made_ : *scene_; }
 
-  SolvedRun run(const RunEnd& end, FrameSink* sink, const SolverAccuracy& accuracy = {}) const;
+  /// Another process can go on with a run: it goes in steps.
+  bool keeps_state() const { return is_piled() || is_stepped(); }
+  /// keeper: null, or where keeps_state() and the bodies are not reversed what keeps the run on
+  /// its way. Throws BadState for what is no state of such a run.
+  SolvedRun run(const RunEnd& end, FrameSink* sink, const SolverAccuracy& accuracy = {},
+                RunKeeper* keeper = nullptr) const;
   /// The time [s] of the first contact of two bodies or landing, or infinity where none comes
   /// before `limit` [s], and in a box.
   double first_contact(double limit, double tolerance = SolverAccuracy{}.tolerance) const;
@@ -86,7 +92,7 @@ class ReferenceSolver {
   void choose_piles();
   void harden();
   std::unique_ptr<Solver> at_start(const ContactScene& scene, const SolverAccuracy& accuracy,
-                                   const RunEnd& end) const;
+                                   const RunEnd& end, bool prepares = true) const;
   std::unique_ptr<LookingSolver> looking(std::span<const BodyState> states, double start,
                                          double tolerance, double slowest = 0) const;
   SolvedRun run_varied(const RunEnd& end, FrameSink* sink, SolverAccuracy accuracy) const;

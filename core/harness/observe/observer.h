@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/state_archive.h"
 #include "harness/observe/observables.h"
 #include "physics/frame.h"
 #include "scene/scene.h"
@@ -72,6 +73,9 @@ class Observer final : public FrameSink {
   void take(double time, const Frame& frame) override;
   /// Of hard contacts on a still substrate: what happens to a body then shows in its own events.
   bool take_partial(double time, const PartialFrame& frame) override;
+
+  /// What it goes on with, of the same scene.
+  void exchange(StateArchive& archive);
 
   /// What closes slower than this is no collision [m/s].
   double weakest_collision() const { return kOfSceneSpeed * closing_scale_; }
@@ -241,6 +245,10 @@ class Observer final : public FrameSink {
   bool can_rest(std::size_t i, double time) const;
   double vertical_noise() const;
   std::size_t pair_of(int first, int second);  ///< an index of pairs_
+  static std::uint64_t pair_key(int first, int second) {
+    return (std::uint64_t{static_cast<std::uint32_t>(first)} << 32) |
+           static_cast<std::uint32_t>(second);
+  }
   /// From b's nearest image to a.
   Vector3 apart(const BodyState& a, const BodyState& b) const;
   double overlap(const Pair& pair, double t, const std::vector<BodyState>& states) const;

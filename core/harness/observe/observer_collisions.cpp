@@ -44,9 +44,7 @@ double Observer::overlap(const Pair& pair, double t, const std::vector<BodyState
 }
 
 std::size_t Observer::pair_of(int first, int second) {
-  const std::uint64_t key =
-      (std::uint64_t{index(first)} << 32) | static_cast<std::uint32_t>(second);
-  const auto [known, is_new] = pair_numbers_.try_emplace(key, pairs_.size());
+  const auto [known, is_new] = pair_numbers_.try_emplace(pair_key(first, second), pairs_.size());
   if (is_new) {
     Pair& pair = pairs_.emplace_back();
     pair.first = first;

@@ -12,10 +12,10 @@ namespace {
 
 /// Where contacts last that were taken as instants, and nobody asked for that, the solver that
 /// resolves them takes over from the start.
-ReferenceResult reference_of(PreparedScene& scene) {
+ReferenceResult reference_of(PreparedScene& scene, const ReferenceExtras& extras) {
   if (scene.contact->hard.box) return run_box_reference(scene.solver, scene.scenario);
   const auto solve = [&] {
-    return run_reference(scene.solver, run_end(scene.scenario), body_names(scene.scenario));
+    return run_reference(scene.solver, run_end(scene.scenario), body_names(scene.scenario), extras);
   };
   ReferenceResult result = solve();
   ReferenceSettings settings = scene.solver.settings();
@@ -39,10 +39,11 @@ ReferenceResult failed_reference(const PreparedScene& scene, std::string reason)
   return result;
 }
 
-ReferenceResult guarded_reference(PreparedScene& scene, double time_limit) {
+ReferenceResult guarded_reference(PreparedScene& scene, double time_limit,
+                                  const ReferenceExtras& extras) {
   try {
     const StopScope limit(time_limit);
-    return reference_of(scene);
+    return reference_of(scene, extras);
   } catch (const std::exception& fault) {
     return failed_reference(scene, fault.what());
   }
@@ -52,7 +53,8 @@ ReferenceResult guarded_reference(PreparedScene& scene, double time_limit) {
 
 std::vector<PreparedScene> prepare_scenes(std::vector<Scenario> scenarios, bool general,
                                           std::size_t threads, double time_limit,
-                                          std::size_t in_scene) {
+                                          std::size_t in_scene,
+                                          const std::map<std::string, ReferenceExtras>* extras) {
   std::vector<PreparedScene> scenes;
   scenes.reserve(scenarios.size());
   for (Scenario& scenario : scenarios) {
@@ -61,7 +63,11 @@ std::vector<PreparedScene> prepare_scenes(std::vector<Scenario> scenarios, bool 
     scenes.push_back({std::move(scenario), std::move(contact), solver, {}});
   }
   in_parallel(scenes.size(), threads, [&](std::size_t k) {
-    scenes[k].reference = guarded_reference(scenes[k], time_limit);
+    ReferenceExtras wanted;
+    if (extras)
+      if (const auto named = extras->find(scenes[k].scenario.name); named != extras->end())
+        wanted = named->second;
+    scenes[k].reference = guarded_reference(scenes[k], time_limit, wanted);
   });
   return scenes;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "harness/run/reference_run.h"
@@ -26,8 +28,11 @@ struct PreparedScene {
 ///
 /// A reference that throws, is interrupted or runs out of time has failed, with the reason in its
 /// run; it shows nothing, and the other scenes go on.
+///
+/// extras: null, or by the scenes' names what else is wanted, as of run_reference().
 std::vector<PreparedScene> prepare_scenes(
     std::vector<Scenario> scenarios, bool general = false, std::size_t threads = 1,
-    double time_limit = std::numeric_limits<double>::infinity(), std::size_t in_scene = 1);
+    double time_limit = std::numeric_limits<double>::infinity(), std::size_t in_scene = 1,
+    const std::map<std::string, ReferenceExtras>* extras = nullptr);
 
 }  // namespace slipcheck

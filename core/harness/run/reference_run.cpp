@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "harness/compare/closed_form_values.h"
+#include "harness/observe/assembly_observer.h"
 #include "harness/observe/observer.h"
 #include "harness/run/cpu_time.h"
 #include "reference/initial_contacts.h"
@@ -29,19 +30,46 @@ class RoundingMode {
   int before_;
 };
 
-struct Solved {
-  SolvedRun run;
-  Observables seen;
+/// Shows several the same frames; all or none of a partial one.
+class EachSink final : public FrameSink {
+ public:
+  explicit EachSink(std::vector<FrameSink*> sinks) : sinks_(std::move(sinks)) {}
+  void take(double time, const Frame& frame) override {
+    for (FrameSink* sink : sinks_) sink->take(time, frame);
+  }
+
+ private:
+  std::vector<FrameSink*> sinks_;
 };
 
-Solved solve(const ReferenceSolver& solver, const RunEnd& end, int rounding,
-             const SolverAccuracy& accuracy) {
+/// keeper: null, or what keeps it on its way. extras: null, or whose samples are taken.
+ObservedRun solve(const ReferenceSolver& solver, const RunEnd& end, int rounding,
+                  const SolverAccuracy& accuracy, ReferenceKeeper* keeper = nullptr,
+                  const ReferenceExtras* extras = nullptr) {
+  if (keeper)
+    if (const ObservedRun* before = keeper->next()) return *before;
   const RoundingMode mode(rounding);
   const Scene& scene = solver.scene().hard;
   Observer observer(scene, 0, speed_scale(solver.scene()), solver.is_resolved());
-  Solved solved;
-  solved.run = solver.run(end, &observer, accuracy);
+  std::optional<AssemblyObserver> assembly;
+  if (extras) assembly.emplace(solver.scene(), end.last(), extras->samples, extras->states);
+  std::vector<FrameSink*> sinks = {&observer};
+  if (assembly) sinks.push_back(&*assembly);
+  EachSink each(sinks);
+  FrameSink& sink = assembly ? static_cast<FrameSink&>(each) : observer;
+  if (keeper)
+    keeper->begin([&](StateArchive& archive) {
+      archive(observer);
+      if (assembly) archive(*assembly);
+      if (assembly && extras->exchange_states) extras->exchange_states(archive);
+    });
+  ObservedRun solved;
+  const double begin = thread_cpu_seconds();
+  solved.run = solver.run(end, &sink, accuracy, keeper);
+  solved.cpu_seconds = thread_cpu_seconds() - begin + (keeper ? keeper->cpu_before() : 0);
   solved.seen = observer.finish(solved.run.end_time);
+  if (assembly) solved.assembly = assembly->assembly();
+  if (keeper) keeper->finish(solved);
   return solved;
 }
 
@@ -63,12 +91,12 @@ bool is_time(const std::string& name) {
 
 /// The run that the values come from and those that tell their uncertainty.
 struct SolvedRuns {
-  Solved value;
+  ObservedRun value;
   std::vector<Observables> others;
-  double cpu_seconds = 0;
 };
 
-SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double tolerance) {
+SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double tolerance,
+                     ReferenceKeeper* keeper, const ReferenceExtras* extras) {
   SolvedRuns runs;
   if (solver.is_exact()) {
     runs.others.push_back(solve(solver, end, FE_UPWARD, {tolerance, 1.5}).seen);
@@ -78,21 +106,19 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
           solve(solver, end, FE_TONEAREST, {.tolerance = tolerance, .softness = 2}).seen);
   } else if (solver.is_piled()) {
     for (const double factor : {2.0, 1.37})
-      runs.others.push_back(solve(solver, end, FE_TONEAREST, {.step = factor}).seen);
+      runs.others.push_back(solve(solver, end, FE_TONEAREST, {.step = factor}, keeper).seen);
     if (solver.softened_to() > 0)
-      runs.others.push_back(solve(solver, end, FE_TONEAREST, {.softness = 2}).seen);
+      runs.others.push_back(solve(solver, end, FE_TONEAREST, {.softness = 2}, keeper).seen);
   } else if (solver.is_stepped()) {
     // Where in a step contacts begin and end scatters the error; two other lengths of step show it.
     for (const double factor : {2.0, 1.37})
-      runs.others.push_back(solve(solver, end, FE_TONEAREST, {tolerance, 1, factor}).seen);
+      runs.others.push_back(solve(solver, end, FE_TONEAREST, {tolerance, 1, factor}, keeper).seen);
   } else {
     runs.others.push_back(solve(solver, end, FE_TONEAREST,
                                 {.tolerance = 10 * tolerance, .cut_offs = 1.5, .softness = 2})
                               .seen);
   }
-  const double begin = thread_cpu_seconds();
-  runs.value = solve(solver, end, FE_TONEAREST, {tolerance, 1});
-  runs.cpu_seconds = thread_cpu_seconds() - begin;
+  runs.value = solve(solver, end, FE_TONEAREST, {tolerance, 1}, keeper, extras);
   if (runs.value.run.collapses == 0) return runs;
   // Where a rule took part, its size, another rule and another order of what comes at one instant
   // tell what it decided; and so do contacts that last, which need none, where friction with the
@@ -108,6 +134,13 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
     runs.others.push_back(solve(resolved, end, FE_TONEAREST, {.tolerance = 1e-8}).seen);
   }
   return runs;
+}
+
+/// Every two bodies that meet push each other by a law that their states tell.
+bool is_soft_assembly(const ReferenceSolver& solver) {
+  return solver.keeps_state() && std::ranges::all_of(solver.scene().soft, [](const auto& contact) {
+           return contact.has_value();
+         });
 }
 
 /// Of each of these values, which may be NaN. Takes the other runs apart: of many bodies they are
@@ -136,23 +169,30 @@ std::vector<double> uncertainty_of(const std::vector<double>& values, const Refe
 }  // namespace
 
 ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
-                              const std::vector<std::string>& names) {
+                              const std::vector<std::string>& names,
+                              const ReferenceExtras& extras) {
   const Scene& scene = solver.scene().hard;
   ReferenceResult result;
   result.solver = solver.name();
   double tolerance = SolverAccuracy{}.tolerance;
-  SolvedRuns runs = solve_all(solver, end, tolerance);
+  std::optional<ReferenceKeeper> keeping;
+  if (extras.checkpoints && solver.keeps_state()) keeping.emplace(*extras.checkpoints);
+  ReferenceKeeper* const keeper = keeping ? &*keeping : nullptr;
+  const bool samples = extras.samples > 0 && is_soft_assembly(solver) && end.last() > 0;
+  const ReferenceExtras* const sampled = samples ? &extras : nullptr;
+  SolvedRuns runs = solve_all(solver, end, tolerance, keeper, sampled);
   // A scene whose scales lie too far apart for its last digits.
   while (runs.value.run.failed && !solver.is_exact() && !solver.is_piled() && tolerance < 1e-9) {
     tolerance *= 10;
-    runs = solve_all(solver, end, tolerance);
+    runs = solve_all(solver, end, tolerance, keeper, sampled);
   }
   if (tolerance > SolverAccuracy{}.tolerance)
     result.warnings.push_back("integrated at a relative tolerance of 1e" +
                               std::to_string(std::lround(std::log10(tolerance))));
-  const Solved& solved = runs.value;
-  result.cpu_seconds = runs.cpu_seconds;
+  const ObservedRun& solved = runs.value;
+  result.cpu_seconds = solved.cpu_seconds;
   result.run = solved.run;
+  result.assembly = solved.assembly;
   result.scales = natural_scales(solver.scene(), solved.run.end_time);
   // What the integrator cannot run has no contact to put phases to; the warning below says so.
   result.first_contact = solved.run.failed ? std::numeric_limits<double>::infinity()
@@ -201,6 +241,15 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
   if (solver.settings().threads != 1 && !solver.shares_steps())
     result.warnings.emplace_back(
         "one thread: only scenes of many bodies in soft contacts are shared between several");
+  if (extras.samples > 0 && !samples)
+    result.warnings.emplace_back(
+        "no samples of the whole: only scenes of soft contacts between all bodies, in steps, have "
+        "them");
+  if (extras.checkpoints && !keeper)
+    result.warnings.emplace_back(
+        "no state was kept on the way: only scenes of contacts that last, in steps, can go on");
+  if (keeper && !keeper->trouble().empty())
+    result.warnings.push_back("its state could not be kept on the way: " + keeper->trouble());
   for (const std::string& warning : solver.scene().warnings) result.warnings.push_back(warning);
   if (!result.run.reached) result.warnings.push_back("the run did not end: " + result.run.reason);
   if (result.run.collapses > 0)

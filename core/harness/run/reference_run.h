@@ -5,14 +5,27 @@
 #include <string>
 #include <vector>
 
+#include "harness/observe/assembly_observer.h"
 #include "harness/observe/box_observer.h"
 #include "harness/observe/motion.h"
 #include "harness/observe/natural_scales.h"
+#include "harness/run/reference_keeper.h"
 #include "reference/reference_solver.h"
 #include "scenario/scenario.h"
 #include "scene/scene.h"
 
 namespace slipcheck {
+
+/// What else is wanted of a reference, where its solver keeps_state(); a warning says where it
+/// cannot be had.
+struct ReferenceExtras {
+  std::optional<Checkpoints> checkpoints = {};  ///< how it is kept on its way
+  /// Of what many bodies show as a whole (AssemblyObserver), >= 2; 0: none.
+  std::size_t samples = 0;
+  AssemblyObserver::States states = {};  ///< takes each sample's states
+  /// Writes or reads what `states` goes on with.
+  std::function<void(StateArchive&)> exchange_states = {};
+};
 
 struct UncertainValue {
   double value = 0;
@@ -38,6 +51,7 @@ struct ReferenceResult {
   NaturalScales scales;             ///< of the scene; none of one in a box
   std::optional<BoxReference> box;  ///< of a scene in a box
   std::optional<RecordedMotion> motion;  ///< where it is recorded
+  std::optional<Assembly> assembly;      ///< where it was asked for
   std::vector<std::string> warnings;
 };
 
@@ -47,7 +61,8 @@ struct ReferenceResult {
 /// never less than two units in the last place. What depends on rounding (a rack of balls struck at
 /// once) shows.
 ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
-                              const std::vector<std::string>& body_names);
+                              const std::vector<std::string>& body_names,
+                              const ReferenceExtras& extras = {});
 
 /// What computed a NaN has no result: the run has failed, its reason names what is NaN, and nothing
 /// else of it is shown. Does nothing where `names` is empty.

@@ -64,8 +64,9 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
   const StopScope scope(options.stop);
   std::vector<std::vector<EngineRecord>> runs =
       requested_runs(scenarios, options.limits, options.stop, options.settings, options.general);
-  std::vector<PreparedScene> prepared = prepare_scenes(
-      std::move(scenarios), options.general, options.workers, options.time_limit, options.threads);
+  std::vector<PreparedScene> prepared =
+      prepare_scenes(std::move(scenarios), options.general, options.workers, options.time_limit,
+                     options.threads, options.extras.empty() ? nullptr : &options.extras);
   std::vector<EngineTask> tasks;
   for (std::size_t s = 0; s < prepared.size(); ++s)
     for (EngineRecord& record : runs[s])

@@ -3,7 +3,9 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/worker_process.h"
@@ -24,6 +26,8 @@ struct RunOptions {
   std::size_t threads = 1;  ///< that share one scene's reference, as of ReferenceSettings
   /// Of wall time for one phase of an engine, and for the reference of a scene [s], > 0.
   double time_limit = 60;
+  /// By the scenes' names: what else is wanted of their references, as of prepare_scenes().
+  std::map<std::string, ReferenceExtras> extras;
   WorkerLimits limits;
   /// Once set, what has not begun is skipped and what is at work ends within a second.
   const std::atomic<bool>* stop = nullptr;

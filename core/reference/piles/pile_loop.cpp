@@ -83,6 +83,11 @@ class PileLoopOf final : public PileLoop {
                 : "any number of contacts at once, in steps of fixed length"};
   }
 
+  void exchange(StateArchive& archive) override {
+    archive(slabs_, shares_, gone_, forces_known_, budget_);
+    if (archive.reads()) find_laws();
+  }
+
  private:
   using Step = PileStep<kLinear, kTurns>;
   using Contact = PileContact<kTurns>;
@@ -98,6 +103,7 @@ class PileLoopOf final : public PileLoop {
     std::vector<std::uint32_t> free;  ///< of these
     typename Step::Sum sum;
 
+    void exchange(StateArchive& archive) { archive(contacts, free); }
     void keep(PileNear& near, const Contact& contact) {
       if (free.empty()) {
         near.contact = static_cast<std::uint32_t>(contacts.size());
@@ -318,6 +324,18 @@ class PileLoopOf final : public PileLoop {
           gone_.push_back(touch_of(each.first, each.second, each.contact->impulse));
     shares_ = std::move(found);
     budget_ = slabs_.skin();
+  }
+
+  /// Numbers of laws are no state, and pointers to them none of this process.
+  void find_laws() {
+    for (std::size_t s = 0; s < shares_.size(); ++s) {
+      for (Contact& c : shares_[s].contacts) c.law = nullptr;  // a free one has none
+      for (PileNear& near : slabs_.lists()[s]) {
+        near.law = table_.number(slabs_.bodies()[near.first], number_of(near));
+        if (near.contact != PileNear::kNone)
+          shares_[s].contacts[near.contact].law = &table_[near.law];
+      }
+    }
   }
 
   /// Those that touch or have an impulse to be shown, by the first.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/state_archive.h"
 #include "base/thread_team.h"
 #include "physics/frame.h"
 #include "reference/piles/pile_body.h"
@@ -84,6 +85,8 @@ class PileLoop {
   /// All of so many bodies touch the substrate and do not slide on it.
   virtual bool rolls_on_substrate(std::size_t bodies) const = 0;
   virtual std::vector<std::string> features() const = 0;
+  /// What it goes on with, beside the world.
+  virtual void exchange(StateArchive& archive) = 0;
 };
 
 /// The loop without what the scene lacks; `general`: with all there is. Both must outlive it.

@@ -42,6 +42,9 @@ class PileSlabs {
   const std::vector<std::vector<PileNear>>& lists() const { return lists_; }
   /// The scene's numbers of the bodies, by place.
   const std::vector<std::uint32_t>& bodies() const { return bodies_; }
+  void exchange(StateArchive& archive) {
+    archive(lists_, bodies_, searches_, skin_, surfaces_speed_, largest_radius_);
+  }
   double skin() const { return skin_; }                      ///< [m]
   double surfaces_speed() const { return surfaces_speed_; }  ///< of the fastest [m/s]
   double largest_radius() const { return largest_radius_; }  ///< [m]

@@ -11,6 +11,7 @@
 #include "reference/near_pairs.h"
 #include "reference/piles/pile_law.h"
 #include "reference/piles/pile_loop.h"
+#include "reference/piles/pile_rest.h"
 #include "reference/steps/step_solver.h"
 
 namespace slipcheck {
@@ -24,45 +25,6 @@ bool is_autonomous(const Scene& scene) {
            return each.motion.is_still();
          });
 }
-
-/// Tells when nothing moves any more: no body by more than rounding, for long.
-class RestWatch {
- public:
-  explicit RestWatch(double window) : window_(window) {}
-
-  /// Whether all is at rest since `window` before this time [s].
-  bool sees_rest(double time, std::span<const PileBody> bodies) {
-    if (places_.size() != bodies.size() || !is_where_it_was(bodies)) {
-      places_.clear();
-      for (const PileBody& b : bodies) places_.push_back({b.position, b.turned});
-      since_ = time;
-    }
-    return time - since_ >= window_;
-  }
-
- private:
-  struct Place {
-    Vector3 position, turned;
-  };
-
-  bool is_where_it_was(std::span<const PileBody> bodies) const {
-    constexpr double kStill = 1e-12;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const PileBody& b = bodies[i];
-      const double rounding = 16 * kEpsilon * b.position.cwiseAbs().maxCoeff();
-      const double turns = 16 * kEpsilon * b.turned.cwiseAbs().maxCoeff();
-      if (!((b.position - places_[i].position).cwiseAbs().maxCoeff() <=
-            kStill * b.radius + rounding) ||
-          !((b.turned - places_[i].turned).cwiseAbs().maxCoeff() <= kStill + turns))
-        return false;
-    }
-    return true;
-  }
-
-  double window_;
-  double since_ = 0;
-  std::vector<Place> places_;
-};
 
 /// Bodies that touch another one, the substrate or a surface from the start, within kTypedGap.
 std::vector<bool> carried_bodies(const Scene& scene, std::span<const PileBody> bodies) {
@@ -125,12 +87,13 @@ class PileSolver::Impl {
     if (settings.prepare && starts_at_rest()) failure_ = prepare();
   }
 
-  SolvedRun run(const RunEnd& end, FrameSink* sink) {
+  /// look: called between two frames.
+  SolvedRun run(const RunEnd& end, FrameSink* sink, const std::function<void()>& look) {
     SolvedRun run;
     run.failed = !failure_.empty();
     run.reason = failure_;
     try {
-      if (!run.failed && has_ended(end, sink))
+      if (!run.failed && has_ended(end, sink, look))
         run.reached = true;
       else if (!run.failed)
         run.stop_at_limit(end.until);
@@ -169,6 +132,15 @@ class PileSolver::Impl {
       told.push_back("hard contacts as linear ones that last, with springs against sliding");
     if (is_prepared_) told.push_back("weights put on slowly before the start");
     return told;
+  }
+
+  void exchange(StateArchive& archive) {
+    archive(failure_, is_prepared_, initial_energy_, initial_elastic_, largest_kinetic_,
+            quiet_since_, next_meeting_, watch_, next_look_);
+    archive(world_.step, world_.n, world_.started, world_.bodies, world_.place, world_.ledger,
+            world_.collisions, world_.slid);
+    loop_->exchange(archive);
+    goes_on_ = archive.reads();
   }
 
   double step() const { return world_.step; }
@@ -279,27 +251,19 @@ class PileSolver::Impl {
   }
 
   /// Goes on to the end; whether it came there before the limit.
-  bool has_ended(const RunEnd& end, FrameSink* sink) {
+  bool has_ended(const RunEnd& end, FrameSink* sink, const std::function<void()>& look) {
     world_.watched = sink != nullptr;
-    loop_->find_forces(world_);
-    if (!initial_energy_) {
-      world_.ledger = {};  // what touches from the start came with its energy
-      initial_energy_ = energy();
-      initial_elastic_ = loop_->elastic_energy();
-    }
-    show(sink);
+    if (!std::exchange(goes_on_, false)) begin(sink);
     const auto last =
         static_cast<std::uint64_t>(std::ceil(end.last() / world_.step * (1 - 4 * kEpsilon)));
     const std::uint64_t chunk = sink ? settings_.steps_per_frame : kLook;
-    RestWatch watch(rest_window());
     const bool may_rest = settings_.skip_rest && is_autonomous(scene_->hard);
-    std::uint64_t next_look = world_.n;
     while (true) {
-      if (world_.n >= next_look) {
-        next_look = world_.n + kLook;
+      if (world_.n >= next_look_) {
+        next_look_ = world_.n + kLook;
         largest_kinetic_ = std::max(largest_kinetic_, kinetic_energy());
         if (end.until == Run::Until::rolling && rolls_for_ever(end.limit)) return true;
-        if (may_rest && watch.sees_rest(world_.time(), world_.bodies)) {
+        if (may_rest && watch_.sees_rest(world_.time(), world_.bodies)) {
           if (end.until != Run::Until::time) return true;
           skip_to(last, sink);
           return true;
@@ -309,7 +273,20 @@ class PileSolver::Impl {
       loop_->advance(world_, std::min(chunk, last - world_.n));
       loop_->find_forces(world_);
       show(sink);
+      look();
     }
+  }
+
+  void begin(FrameSink* sink) {
+    loop_->find_forces(world_);
+    if (!initial_energy_) {
+      world_.ledger = {};  // what touches from the start came with its energy
+      initial_energy_ = energy();
+      initial_elastic_ = loop_->elastic_energy();
+    }
+    show(sink);
+    watch_ = PileRest(rest_window());
+    next_look_ = world_.n;
   }
 
   /// Longer than an unstable equilibrium takes to grow from rounding to what is seen, and than what
@@ -362,6 +339,9 @@ class PileSolver::Impl {
   std::optional<double> initial_energy_;
   double initial_elastic_ = 0, largest_kinetic_ = 0;
   double quiet_since_ = 0, next_meeting_ = 0;
+  PileRest watch_;
+  std::uint64_t next_look_ = 0;
+  bool goes_on_ = false;  ///< behind a frame that was shown
 };
 
 PileSolver::PileSolver(const ContactScene& scene, std::span<const BodyState> initial,
@@ -370,7 +350,10 @@ PileSolver::PileSolver(const ContactScene& scene, std::span<const BodyState> ini
 PileSolver::~PileSolver() = default;
 PileSolver::PileSolver(PileSolver&&) noexcept = default;
 
-SolvedRun PileSolver::run(const RunEnd& end, FrameSink* sink) { return impl_->run(end, sink); }
+SolvedRun PileSolver::run(const RunEnd& end, FrameSink* sink) {
+  return impl_->run(end, sink, [this] { look_between_frames(); });
+}
+void PileSolver::exchange(StateArchive& archive) { impl_->exchange(archive); }
 std::vector<BodyState> PileSolver::states() const { return impl_->states(); }
 double PileSolver::now() const { return impl_->now(); }
 std::vector<std::string> PileSolver::features() const { return impl_->features(); }

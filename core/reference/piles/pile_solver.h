@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/solver.h"
+#include "reference/kept_solver.h"
 #include "scene/contact_scene.h"
 
 namespace slipcheck {
@@ -18,7 +18,8 @@ struct PileSettings {
   double collision_time = 0;  ///< of hard contacts [s]; 0: pile_collision_time()
   /// Shows a frame every so many steps, >= 1, and at the end.
   std::size_t steps_per_frame = 1;
-  /// Bodies that rest at the start where others or surfaces carry them are loaded slowly first.
+  /// Bodies that rest at the start where others or surfaces carry them are loaded slowly first;
+  /// not in a solver that is to read a state.
   bool prepare = true;
   bool skip_rest = true;  ///< the rest of a run in which nothing changes any more
   bool general = false;   ///< takes the loop that leaves out nothing
@@ -43,7 +44,7 @@ struct PileSettings {
 /// Where nothing but the state changes (still surfaces), and for 10 √(R/g) no body
 /// moves or turns by more than 1e-12 of its radius, all is at rest for ever: the rest of the run is
 /// skipped.
-class PileSolver final : public Solver {
+class PileSolver final : public KeptSolver {
  public:
   /// The scene must outlive the solver. Throws Unsupported for what PileLaws has not.
   PileSolver(const ContactScene& scene, std::span<const BodyState> initial,
@@ -57,6 +58,7 @@ class PileSolver final : public Solver {
   std::vector<BodyState> states() const override;
   double now() const override;
   std::vector<std::string> features() const override;
+  void exchange(StateArchive& archive) override;
 
   double step() const;            ///< h [s]
   double collision_time() const;  ///< of hard contacts [s]; 0 where there are none

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/state_archive.h"
 #include "physics/contact/normal_force.h"
 #include "physics/sphere.h"
 #include "scene/scene.h"
@@ -46,9 +47,13 @@ struct GrainArrays {
     for_each_real([n](auto& values) { values.resize(n); });
     kind.resize(n);
   }
+  void exchange(StateArchive& archive) {
+    for_each_real(archive);
+    archive(kind);
+  }
   /// All quantities but the kind.
   template <class F>
-  void for_each_real(F f) {
+  void for_each_real(F&& f) {
     for (auto* values : {&x, &y, &vx, &vy, &wx, &wy, &wz, &dvx, &dvy, &dwx, &dwy, &dwz, &sticks})
       f(*values);
   }

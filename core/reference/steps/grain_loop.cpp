@@ -34,6 +34,13 @@ bool GrainLoop::is_met(const StepWorld&, StepStop stop) const {
 
 void GrainLoop::show(const StepWorld&, Frame& frame) { solver_->show(frame); }
 
+/// The bodies stay as they were at the start: the solver has its own.
+void GrainLoop::exchange(StateArchive& archive, StepWorld& world) {
+  find_forces(world);
+  archive(world);
+  solver_->exchange(archive);
+}
+
 std::vector<std::string> GrainLoop::features() const {
   const GrainFeatures has = grain_features(*scene_, scene_->hard.initial);
   return {

@@ -21,6 +21,7 @@ class GrainLoop final : public StepKernel {
   bool is_met(const StepWorld& world, StepStop stop) const override;
   void show(const StepWorld& world, Frame& frame) override;
   std::vector<std::string> features() const override;
+  void exchange(StateArchive& archive, StepWorld& world) override;
 
  private:
   const ContactScene* scene_;

@@ -20,6 +20,8 @@ class GrainNeighbours {
   /// [m] and in ascending order. The width given to sort() must be that of skin and two radii.
   void find(const GrainArrays& grains, const GrainPlane& plane, double skin);
 
+  /// The list; the rest is made anew with it.
+  void exchange(StateArchive& archive) { archive(first_, second_); }
   const std::vector<std::uint32_t>& first() const { return first_; }
   const std::vector<std::uint32_t>& second() const { return second_; }  ///< > first()
 

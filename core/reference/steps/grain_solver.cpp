@@ -95,6 +95,11 @@ class GrainSolver::Impl {
     }
   }
 
+  void exchange(StateArchive& archive) {
+    archive(grains_, image_x_, image_y_, body_, n_, collisions_, fastest_, skin_, moved_, joining_,
+            last_length_, neighbours_, touching_);
+  }
+
   double now() const { return static_cast<double>(n_) * step_; }
   std::size_t steps() const { return n_; }
   std::size_t collisions() const { return collisions_; }
@@ -391,5 +396,6 @@ std::size_t GrainSolver::touching() const { return impl_->touching(); }
 bool GrainSolver::all_stick(bool rests) const { return impl_->all_stick(rests); }
 std::string GrainSolver::instruction_set() { return GrainKernels::instruction_set(); }
 void GrainSolver::show(Frame& frame) { impl_->show(frame); }
+void GrainSolver::exchange(StateArchive& archive) { impl_->exchange(archive); }
 
 }  // namespace slipcheck

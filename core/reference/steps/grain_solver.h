@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "base/state_archive.h"
 #include "physics/frame.h"
 #include "scene/contact_scene.h"
 
@@ -40,6 +41,8 @@ class GrainSolver {
   bool all_stick(bool rests) const;
   /// The world now, and what touched in the step around it.
   void show(Frame& frame);
+  /// What it goes on with.
+  void exchange(StateArchive& archive);
 
  private:
   class Impl;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/state_archive.h"
 #include "physics/frame.h"
 #include "reference/steps/step_body.h"
 #include "scene/contact_scene.h"
@@ -24,6 +25,9 @@ struct StepWorld {
   std::size_t touching = 0;    ///< pairs in contact
   std::size_t collisions = 0;  ///< contacts of two bodies that began
 
+  void exchange(StateArchive& archive) {
+    archive(bodies, around, step, n, slowest_rebound, forces_known, touching, collisions);
+  }
   double time() const { return static_cast<double>(n) * step; }
   /// From the velocities' time, half a step back, to the next half step.
   double kick_length() const { return n == 0 ? 0.5 * step : step; }
@@ -49,6 +53,8 @@ class StepKernel {
   virtual void show(const StepWorld& world, Frame& frame) = 0;
   /// What the loop was made for, in a few words each: "linear normal force", ...
   virtual std::vector<std::string> features() const = 0;
+  /// The world, but for what its bodies point at, and what the loop goes on with.
+  virtual void exchange(StateArchive& archive, StepWorld& world) = 0;
 };
 
 struct StepSettings;

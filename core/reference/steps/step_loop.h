@@ -71,6 +71,11 @@ class StepLoop final : public StepKernel {
 
   std::vector<std::string> features() const override { return features_; }
 
+  void exchange(StateArchive& archive, StepWorld& world) override {
+    archive(world, pairs_);
+    if (neighbours_) archive(*neighbours_);
+  }
+
   void show(const StepWorld& world, Frame& frame) override {
     frame.bodies.resize(world.bodies.size());
     frame.touches.clear();

@@ -31,6 +31,7 @@ class StepNeighbours {
   StepNeighbours(const Vector2& periodic, std::size_t threads)
       : periodic_(periodic), team_(threads) {}
 
+  void exchange(StateArchive& archive) { archive(all_, left_, largest_); }
   const std::vector<StepNeighbour>& all() const { return all_; }
   /// Whether none but these can touch now.
   bool cover() const { return left_ >= 0; }

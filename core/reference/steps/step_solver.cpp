@@ -70,10 +70,11 @@ class StepSolver::Impl {
       world_.bodies.push_back(make_body(hard, i, initial[i], world_.slowest_rebound));
   }
 
-  SolvedRun run(const RunEnd& end, FrameSink* sink) {
+  /// look: called between two frames.
+  SolvedRun run(const RunEnd& end, FrameSink* sink, const std::function<void()>& look) {
     SolvedRun run;
     try {
-      if (has_ended(end, sink))
+      if (has_ended(end, sink, look))
         run.reached = true;
       else
         run.stop_at_limit(end.until);
@@ -91,6 +92,16 @@ class StepSolver::Impl {
     kernel_->find_forces(world_);
     kernel_->show(world_, frame_);
     return frame_.bodies;
+  }
+
+  void exchange(StateArchive& archive) {
+    archive(quiet_from_);
+    kernel_->exchange(archive, world_);
+    goes_on_ = archive.reads();
+    for (std::size_t i = 0; goes_on_ && i < world_.bodies.size(); ++i) {
+      world_.bodies[i].sphere = &scene_->hard.bodies[i];
+      world_.bodies[i].contact = &scene_->hard.on_substrate(i);
+    }
   }
 
   double now() const { return world_.time(); }
@@ -123,30 +134,31 @@ class StepSolver::Impl {
 
  private:
   /// Goes on to the end; whether it came there before the limit.
-  bool has_ended(const RunEnd& end, FrameSink* sink) {
+  bool has_ended(const RunEnd& end, FrameSink* sink, const std::function<void()>& look) {
     const bool to_a_time = end.until == Run::Until::time;
     const auto last =
         static_cast<std::size_t>(std::ceil(end.last() / world_.step * (1 - 4 * kEpsilon)));
     const StepStop wanted = to_a_time                          ? StepStop::never
                             : end.until == Run::Until::rolling ? StepStop::rolling
                                                                : StepStop::rest;
-    std::size_t quiet_from = world_.n;  // before that, bodies are known to collide yet
+    if (!std::exchange(goes_on_, false)) quiet_from_ = world_.n;
     while (true) {
       kernel_->find_forces(world_);
       if (sink) {
         kernel_->show(world_, frame_);
         sink->take(world_.time(), frame_);
       }
-      if (wanted != StepStop::never && world_.n >= quiet_from && kernel_->is_met(world_, wanted)) {
+      if (wanted != StepStop::never && world_.n >= quiet_from_ && kernel_->is_met(world_, wanted)) {
         const double meeting = next_collision(end.limit - world_.time());
         if (meeting == kNever) return true;
-        quiet_from = world_.n + 1 + static_cast<std::size_t>(meeting / world_.step);
+        quiet_from_ = world_.n + 1 + static_cast<std::size_t>(meeting / world_.step);
       }
       if (world_.n >= last) return to_a_time;
-      const bool is_watched = world_.n >= quiet_from;
+      const bool is_watched = world_.n >= quiet_from_;
       std::size_t steps = sink ? 1 : last - world_.n;
-      if (!is_watched) steps = std::min(steps, quiet_from - world_.n);
+      if (!is_watched) steps = std::min(steps, quiet_from_ - world_.n);
       kernel_->advance(world_, steps, is_watched ? wanted : StepStop::never);
+      look();
     }
   }
 
@@ -188,6 +200,8 @@ class StepSolver::Impl {
   std::unique_ptr<StepKernel> kernel_;
   StepWorld world_;
   Frame frame_;
+  std::size_t quiet_from_ = 0;  ///< step; before it bodies are known to collide yet
+  bool goes_on_ = false;        ///< behind a frame that was shown
 };
 
 StepSolver::StepSolver(const ContactScene& scene, std::span<const BodyState> initial,
@@ -196,7 +210,10 @@ StepSolver::StepSolver(const ContactScene& scene, std::span<const BodyState> ini
 StepSolver::~StepSolver() = default;
 StepSolver::StepSolver(StepSolver&&) noexcept = default;
 
-SolvedRun StepSolver::run(const RunEnd& end, FrameSink* sink) { return impl_->run(end, sink); }
+SolvedRun StepSolver::run(const RunEnd& end, FrameSink* sink) {
+  return impl_->run(end, sink, [this] { look_between_frames(); });
+}
+void StepSolver::exchange(StateArchive& archive) { impl_->exchange(archive); }
 std::vector<BodyState> StepSolver::states() const { return impl_->states(); }
 double StepSolver::now() const { return impl_->now(); }
 double StepSolver::energy() const { return impl_->energy(); }

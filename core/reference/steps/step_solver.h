@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "physics/frame.h"
-#include "reference/solver.h"
+#include "reference/kept_solver.h"
 #include "scene/contact_scene.h"
 
 namespace slipcheck {
@@ -45,7 +45,7 @@ class StepTooLong : public std::runtime_error {
 /// The normal and tangential law and whether the substrate is one without friction, a level plane
 /// at rest with Coulomb friction or more are chosen once, into a loop that has no trace of what the
 /// scene lacks; many bodies in a plane go to GrainLoop.
-class StepSolver final : public Solver {
+class StepSolver final : public KeptSolver {
  public:
   /// The scene must outlive the solver. Throws Unsupported where bodies could meet whose contact is
   /// hard.
@@ -64,6 +64,7 @@ class StepSolver final : public Solver {
   /// Kinetic energy and that of gravity and of elastic contacts, now [J].
   double energy() const;
   std::vector<std::string> features() const override;
+  void exchange(StateArchive& archive) override;
 
  private:
   class Impl;

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/state_archive.h"
 #include "physics/frame.h"
 
 namespace slipcheck {
@@ -24,6 +25,8 @@ class StepsAsEvents final : public FrameSink {
     before_ = frame.touches;
     next_.take(time, shown_);
   }
+
+  void exchange(StateArchive& archive) { archive(before_, long_before_); }
 
  private:
   void add(const Touch& touch) {

@@ -19,6 +19,7 @@ ReportCharts report_charts(const ReportContent& content, ChartExtent extent) {
     if (auto motion = motion_chart(scene, taken)) motions.push_back(std::move(*motion));
     std::vector<Chart>& all = charts.scenes.emplace_back();
     if (auto series = series_chart(scene, taken)) all.push_back(std::move(*series));
+    for (Chart& assembly : assembly_charts(scene, taken)) all.push_back(std::move(assembly));
     for (Chart& phases : phase_charts(scene, extent, taken)) all.push_back(std::move(phases));
   }
   const auto looks = method_looks(content.precision);

@@ -32,4 +32,8 @@ bool fits_scene(const Scene& scene, const RecordedMotion& motion);
 /// "series-<scene>": what a box showed at each sample, with the mean and its 95 % interval.
 std::optional<Chart> series_chart(const SceneRecord& scene, std::set<std::string>& taken);
 
+/// "assembly-<scene>" and "distributions-<scene>": what many bodies showed as a whole, over time
+/// and over the second half of the run; none where that was not asked for.
+std::vector<Chart> assembly_charts(const SceneRecord& scene, std::set<std::string>& taken);
+
 }  // namespace slipcheck

@@ -55,14 +55,17 @@ void add_vectors(xml_node parent, const char* name, std::size_t count, const Val
   add_array(parent, "Float64", name, count, values).append_attribute("NumberOfComponents") = 3;
 }
 
-std::string poly_data(const Scenario& scenario, const MotionFrame& frame) {
+}  // namespace
+
+std::string vtk_frame_of(const Scenario& scenario, double time,
+                         const std::vector<BodyState>& bodies) {
   Document file("PolyData");
   xml_node data = file.root.append_child("PolyData");
   add_array(data.append_child("FieldData"), "Float64", "TimeValue", 1, [&](std::size_t) {
-    return frame.time;
+    return time;
   }).append_attribute("NumberOfTuples") = 1;
 
-  const std::size_t count = frame.bodies.size();
+  const std::size_t count = bodies.size();
   xml_node piece = data.append_child("Piece");
   piece.append_attribute("NumberOfPoints") = count;
   piece.append_attribute("NumberOfVerts") = count;
@@ -70,7 +73,6 @@ std::string poly_data(const Scenario& scenario, const MotionFrame& frame) {
   xml_node at_points = piece.append_child("PointData");
   at_points.append_attribute("Scalars") = "radius";
   at_points.append_attribute("Vectors") = "velocity";
-  const auto& bodies = frame.bodies;
   add_vectors(at_points, "velocity", count, [&](std::size_t i) { return bodies[i].velocity; });
   add_vectors(at_points, "angular_velocity", count,
               [&](std::size_t i) { return bodies[i].angular_velocity; });
@@ -87,23 +89,33 @@ std::string poly_data(const Scenario& scenario, const MotionFrame& frame) {
   return file.text();
 }
 
-}  // namespace
+std::string vtk_frame_name(const std::string& stem, std::size_t frame) {
+  return fmt::format("{}_{:04}.vtp", stem, frame);
+}
+
+std::string vtk_collection_of(const std::vector<double>& times, const std::string& stem) {
+  Document file("Collection");
+  xml_node collection = file.root.append_child("Collection");
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    xml_node entry = collection.append_child("DataSet");
+    entry.append_attribute("timestep") = fmt::format("{}", times[k]).c_str();
+    entry.append_attribute("part") = 0;
+    entry.append_attribute("file") = vtk_frame_name(stem, k).c_str();
+  }
+  return file.text();
+}
 
 std::vector<std::pair<std::string, std::string>> vtk_files_of(const Scenario& scenario,
                                                               const RecordedMotion& motion,
                                                               const std::string& stem) {
-  Document file("Collection");
-  xml_node collection = file.root.append_child("Collection");
   std::vector<std::pair<std::string, std::string>> files(1);
-  for (std::size_t k = 0; k < motion.frames.size(); ++k) {
-    const std::string name = fmt::format("{}_{:04}.vtp", stem, k);
-    xml_node entry = collection.append_child("DataSet");
-    entry.append_attribute("timestep") = fmt::format("{}", motion.frames[k].time).c_str();
-    entry.append_attribute("part") = 0;
-    entry.append_attribute("file") = name.c_str();
-    files.emplace_back(name, poly_data(scenario, motion.frames[k]));
+  std::vector<double> times;
+  for (const MotionFrame& frame : motion.frames) {
+    files.emplace_back(vtk_frame_name(stem, times.size()),
+                       vtk_frame_of(scenario, frame.time, frame.bodies));
+    times.push_back(frame.time);
   }
-  files[0] = {stem + ".pvd", file.text()};
+  files[0] = {stem + ".pvd", vtk_collection_of(times, stem)};
   return files;
 }
 

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/compare/record.h"
+
+namespace slipcheck {
+
+/// What --assembly asks for.
+struct AssemblyFiles {
+  std::string folder;         ///< empty: nothing
+  std::size_t samples = 200;  ///< of a run, >= 2
+  std::string trajectory;     ///< "xyz", "vtk" or empty
+
+  /// Adds them by the scenes' names, for RunOptions, and makes the folder. The scenarios are
+  /// copied. Throws BadOption.
+  void add_to(std::map<std::string, ReferenceExtras>& extras,
+              const std::vector<Scenario>& scenarios) const;
+  /// The tables of what was seen: NAME.series.csv and NAME.distributions.csv.
+  void write(const std::vector<SceneRecord>& scenes) const;
+};
+
+}  // namespace slipcheck
