@@ -19,6 +19,7 @@
 #include "app/say.h"
 #include "app/set_option.h"
 #include "app/update_baselines.h"
+#include "base/regular_file.h"
 #include "harness/run/scene_run.h"
 #include "report/files/check_files.h"
 #include "report/files/files.h"
@@ -58,6 +59,11 @@ void check_arguments(const CheckArguments& arguments) {
   if (arguments.update) {
     check_output("--baselines", arguments.baselines, true);
     check_output("--changes", arguments.changes, false);
+    try {
+      changes_text(arguments.changes);
+    } catch (const UnreadFile& bad) {
+      throw BadOption(fmt::format("--changes: {}, got {}", bad.what(), arguments.changes));
+    }
   }
 }
 

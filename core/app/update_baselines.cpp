@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <system_error>
 
+#include "base/regular_file.h"
 #include "report/files/files.h"
 #include "report/rows/context.h"
 #include "report/terminal/text.h"
@@ -44,13 +44,13 @@ std::string named(const char* word, const std::vector<std::string>& scenes) {
   return fmt::format("{} {} ({})", scenes.size(), word, fmt::join(scenes, ", "));
 }
 
-/// The text of a file; empty where there is none.
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 }  // namespace
+
+std::string changes_text(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return {};
+  return read_regular_file(file, {std::size_t{64} << 20, "lists of changes"});
+}
 
 std::string changes_line(const BaselineUpdate& update, const CheckReport& report,
                          const std::string& engines, const std::string& why) {
@@ -84,7 +84,7 @@ void write_update(const BaselineUpdate& update, const fs::path& folder, const fs
   fs::create_directories(folder);
   for (const auto& [file, text] : update.files) write_file_atomically(file, text);
   for (const fs::path& file : update.left_over) fs::remove(file);
-  std::string text = text_of(changes);
+  std::string text = changes_text(changes);
   if (text.empty()) text = kChangesHead;
   if (!text.ends_with('\n')) text += '\n';
   write_file_atomically(changes, text + line + '\n');

@@ -214,7 +214,8 @@ class BasicFieldReader {
   void operator()(const std::string& key, Value& value, const std::string& = {}) {
     if constexpr (json_fields::kIsOptional<Value>) {
       value.reset();
-      if (has(key)) read(node_[key], value.emplace());
+      // Clang 16 does not see that a nested record can be made from nothing.
+      if (has(key)) read(node_[key], value.emplace(typename Value::value_type{}));
     } else {
       read(node_[key], value);
     }

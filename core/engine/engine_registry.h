@@ -44,7 +44,7 @@ bool is_older_version(std::string_view one, std::string_view other);
 /// from there.
 std::vector<std::filesystem::path> engine_directories();
 
-/// Every executable slipcheck-engine-<engine>-<precision> in these directories, sorted by engine
+/// Every executable `slipcheck-engine-<engine>-<precision>` in these directories, sorted by engine
 /// and precision; of two with the same name the first directory's.
 std::vector<EngineExecutable> find_engines(const std::vector<std::filesystem::path>& directories);
 /// Those of engine_directories(), and those that npm has brought (npm_engines.h).

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
 #include "base/json_node.h"
+#include "base/regular_file.h"
 
 namespace slipcheck {
 
@@ -31,6 +30,15 @@ NpmEngine npm_engine(const std::string& name, const JsonNode& node) {
   return engine;
 }
 
+std::string catalogue_text(const std::string& file) {
+  constexpr FileLimit kLimit{std::size_t{1} << 20, "catalogues of engines"};
+  try {
+    return read_regular_file(file, kLimit);
+  } catch (const UnreadFile& bad) {
+    throw BadJson(file + ": " + bad.what());
+  }
+}
+
 fs::path folder_of_environment(const char* variable, const char* below) {
   const char* path = std::getenv(variable);
   if (path == nullptr || *path == '\0') return {};
@@ -51,9 +59,7 @@ std::vector<NpmEngine> npm_engines() {
   const fs::path folder = npm_worker_folder();
   if (folder.empty()) return {};
   const std::string file = (folder / "catalog.json").string();
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  const JsonNode::Json json = JsonNode::parse(text, file);
+  const JsonNode::Json json = JsonNode::parse(catalogue_text(file), file);
   std::vector<NpmEngine> engines;
   for (const auto& [name, node] : JsonNode(json, file).members())
     engines.push_back(npm_engine(name, node));

@@ -40,8 +40,8 @@ std::vector<Fault> check_profile(const Profile& profile, const EngineInfo& info)
 bool is_profile_path(const std::string& profile);
 
 /// The file of a profile: a path as it stands, taken from `directory` where it is relative; a name
-/// as one of the files shipped beside the engine's executable, in profiles/<engine>/. Nothing where
-/// no file is shipped under the name.
+/// as one of the files shipped beside the engine's executable, in `profiles/<engine>/`. Nothing
+/// where no file is shipped under the name.
 std::optional<std::filesystem::path> find_profile(const EngineExecutable& executable,
                                                   const std::string& profile,
                                                   const std::filesystem::path& directory);

@@ -20,9 +20,11 @@
 #include <thread>
 #include <utility>
 
+#include "base/running_clock.h"
 #include "engine/engine_text.h"
 #include "engine/protocol.h"
 #include "engine/spawn.h"
+#include "engine/worker_guard.h"
 
 namespace slipcheck {
 
@@ -99,6 +101,7 @@ WorkerProcess::WorkerProcess(WorkerCommand command, const WorkerLimits& limits,
     // limit between two looks.
     const Child child = spawn(command_, kLimitsData ? 2 * limits_.memory : 0);
     pid_ = child.pid;
+    guard_group(pid_);
     in_ = child.in;
     out_ = child.out;
     err_ = child.err;
@@ -116,7 +119,7 @@ WorkerProcess::~WorkerProcess() {
 }
 
 WorkerProcess::Clock::time_point WorkerProcess::now() {
-  const auto real = Clock::now();
+  const auto real = running_time();
   if (real - looked_ > kStopped) lost_ += real - looked_;
   looked_ = real;
   return real - lost_;
@@ -205,20 +208,21 @@ void WorkerProcess::check_memory() {
   fail_because_gone();
 }
 
-bool WorkerProcess::has_exited(milliseconds patience) const {
-  const auto until = Clock::now() + patience;
+bool WorkerProcess::has_exited(milliseconds patience) {
+  const auto until = now() + patience;
   while (true) {
     siginfo_t info{};
     // WNOWAIT: as long as it is not reaped, its number and its group's belong to nobody else.
     waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT);
     if (info.si_pid == pid_) return true;
-    if (Clock::now() >= until) return false;
+    if (now() >= until) return false;
     std::this_thread::sleep_for(milliseconds(1));
   }
 }
 
 int WorkerProcess::kill_and_reap() {
   kill(-pid_, SIGKILL);
+  release_group(pid_);
   int status = 0;
   rusage usage{};
   while (wait4(pid_, &status, 0, &usage) < 0 && errno == EINTR) {

@@ -42,8 +42,9 @@ struct WorkerEnd {
 
 /// A worker seen from the harness: a child process in a process group of its own, with pipes to its
 /// standard streams. Every way in which it can fail ends in WorkerFailure with a reason; the
-/// child is always killed with its group and reaped. Not for use by two threads at once, and
-/// the worker lives no longer than the thread that made it (PR_SET_PDEATHSIG is by thread).
+/// child is always killed with its group and reaped, by a guard where this program is killed
+/// itself. Not for use by two threads at once, and the worker lives no longer than the thread that
+/// made it (PR_SET_PDEATHSIG is by thread).
 class WorkerProcess {
  public:
   using Clock = std::chrono::steady_clock;
@@ -89,7 +90,7 @@ class WorkerProcess {
   void drain_errors();
   void send_some(Exchange& exchange);
   void receive_some(Exchange& exchange);
-  bool has_exited(std::chrono::milliseconds patience) const;
+  bool has_exited(std::chrono::milliseconds patience);
   int kill_and_reap();
   std::string last_words() const;
 

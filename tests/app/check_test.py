@@ -241,6 +241,9 @@ class Check(unittest.TestCase):
         self.assertIn("status was ok, is crashed", (self.path / "check.xml").read_text())
 
     def test_bad_input_is_exit_2_with_the_rule_and_writes_nothing(self):
+        pipe = Path(tempfile.mkdtemp(dir=self.path.parent)) / "changes"  # that nobody writes to
+        self.addCleanup(shutil.rmtree, pipe.parent)
+        os.mkfifo(pipe)
         before = self.contents()
         outputs = ["--junit", self.path / "no.xml", "--json", self.path / "no.json"]
         for arguments, message in (
@@ -256,6 +259,7 @@ class Check(unittest.TestCase):
                 (["--set", "erp=0.1", "--update"], "--set: must not stand beside --update"),
                 (["--why", "because"], "--why: must stand beside --update"),
                 (["--markdown", self.path / "none/check.md"], "--markdown: its directory must"),
+                (["--changes", pipe, "--update"], f"--changes: must be a regular file, got {pipe}"),
                 ([self.path / "none.yaml"], "none.yaml")):
             with self.subTest(arguments):
                 # The last --phases counts.

@@ -119,6 +119,23 @@ TEST(BulletCoefficients, AMultibodysRestitutionMakesUpForTheStepsGravity) {
   EXPECT_EQ(PairCoefficients(scene, {}, 1e-2).restitution(0, kSubstrate, v), 0.8);
 }
 
+TEST(BulletCoefficients, AMultibodysRestitutionMakesUpForGravityOnTheSideThatItPullsTo) {
+  // A step's gravity drives a ball into the floor with v + g dt, away from the lid with v − g dt,
+  // and past a wall.
+  Scene scene = scene_of(steel_ball(0.05), {rolling_along_x(0.05, 0, 1)}, {});
+  Box box;
+  box.width = 1;
+  box.on_floor = box.on_wall = box.on_lid = {PairContact{0.8, 0, 0}};
+  scene.box = box;
+  BulletSettings settings;
+  settings.body = BodyKind::multibody;
+  const PairCoefficients map(scene, settings, 1e-2);
+  const double v = 0.3, kick = kGravity * 1e-2;
+  EXPECT_NEAR(map.restitution(0, kFloor, v) * (v + kick), 0.8 * v, 1e-15);
+  EXPECT_NEAR(map.restitution(0, kLid, v) * (v - kick), 0.8 * v, 1e-15);
+  EXPECT_EQ(map.restitution(0, kWall, v), 0.8);
+}
+
 TEST(BulletCoefficients, FactorsMultiplyWhatTheMapsGive) {
   SubstrateContact ground = ground_with_friction(0.2);
   ground.rolling = RollingFriction(0.01);

@@ -5,11 +5,13 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <fstream>
 
 #include "../support/in_folder.h"
+#include "../support/refusal.h"
 #include "engine/npm_install.h"
 #include "engine/remote_engine.h"
 
@@ -99,6 +101,14 @@ echo '{}' > package-lock.json
 
   Variable path_, workers_, engines_;
 };
+
+TEST_F(NpmEnginesTest, ACatalogueThatIsNoFileIsRefusedAndNotWaitedFor) {
+  const fs::path file = folder_ / "workers/node/catalog.json";
+  fs::remove(file);
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  EXPECT_EQ(test::refusal_of<BadJson>([] { npm_engines(); }),
+            file.string() + ": must be a regular file");
+}
 
 TEST_F(NpmEnginesTest, AnEngineIsInstalledInAVersionIntoAFolderOfItsOwnAndFound) {
   const EngineExecutable ball = install_engine(npm_choice("ball@0.9.0"));

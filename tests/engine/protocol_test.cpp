@@ -219,6 +219,38 @@ TEST(Protocol, ABadReplyIsNamed) {
                  "reply: reason: must be valid UTF-8, got \"\uFFFD\"");
 }
 
+TEST(Protocol, PartsOfAStepGrowAndTheLastIsItsEnd) {
+  const auto decoded = [](const std::vector<double>& parts) {
+    nlohmann::json reply = good_frames();
+    Bytes bytes;
+    for (const double part : parts) append_f64(bytes, part);
+    const std::size_t count = std::max<std::size_t>(parts.size(), 1);
+    Bytes counts;
+    for (std::size_t n = 0; n < count; ++n) append_u32(counts, n == 0 ? 1 : 0);
+    reply["count"] = count;
+    reply["states"] = nlohmann::json::binary(Bytes(count * 2 * kStateBytes));
+    reply["touch_counts"] = nlohmann::json::binary(counts);
+    reply["parts"] = nlohmann::json::binary(bytes);
+    return decode_reply(nlohmann::json::to_cbor(reply));
+  };
+  const auto refusal = [&](const std::vector<double>& parts) {
+    return test::refusal_of<Rubbish>([&] { decoded(parts); });
+  };
+  const Reply good = decoded({0.25, 0.75, 1, 1, 0.5, 1});
+  const std::vector<double> expected = {0.25, 0.75, 1, 1, 0.5, 1};
+  const auto& frames = std::get<Frames>(good).frames;
+  ASSERT_EQ(frames.size(), expected.size());
+  for (std::size_t n = 0; n < frames.size(); ++n) EXPECT_EQ(frames[n].part, expected[n]);
+  EXPECT_EQ(refusal({0.25}), "the last step has no end");
+  EXPECT_EQ(refusal({1, 0.5}), "the last step has no end");
+  EXPECT_EQ(refusal({0.5, 0.25, 1}), "a part of a step is 0.25, not in (0.5, 1]");
+  EXPECT_EQ(refusal({0.5, 0.5, 1}), "a part of a step is 0.5, not in (0.5, 1]");
+  EXPECT_EQ(refusal({0, 1}), "a part of a step is 0, not in (0, 1]");
+  EXPECT_EQ(refusal({1.5}), "a part of a step is 1.5, not in (0, 1]");
+  EXPECT_EQ(refusal({std::nan("")}), "a part of a step is nan, not in (0, 1]");
+  EXPECT_EQ(refusal({}), "parts is not 8 bytes for each frame");
+}
+
 TEST(Protocol, APairTouchesOnceInAFrame) {
   Frames frames;
   frames.frames.resize(1);

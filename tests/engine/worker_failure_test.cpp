@@ -13,10 +13,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <initializer_list>
 #include <sstream>
 #include <thread>
 
 #include "../support/refusal.h"
+#include "base/stop_scope.h"
 #include "engine/remote_engine.h"
 #include "some_scene.h"
 
@@ -266,6 +269,122 @@ TEST_F(WorkerFailureTest, AWorkerIsNotToBlameForItsHarnessBeingStopped) {
   waitpid(harness, &status, 0);
   EXPECT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+/// What a fork of this program does; the number that it ends with.
+template <class Action>
+int in_fork(const Action& action, const std::function<void(pid_t)>& meanwhile) {
+  const pid_t child = fork();
+  if (child == 0) {
+    int code = 0;
+    try {
+      code = action();
+    } catch (...) {
+      code = 100;
+    }
+    _exit(code);
+  }
+  meanwhile(child);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+void stop_for(double seconds, std::initializer_list<pid_t> processes) {
+  for (const pid_t each : processes) kill(each, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  for (const pid_t each : processes) kill(each, SIGCONT);
+}
+
+TEST_F(WorkerFailureTest, TimeLimitsStandStillWhileTheProgramIsStopped) {
+  const auto calculate = [](double seconds) {
+    const StopScope limit(1.5);
+    const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+    while (Clock::now() < end) {
+      heed_stop();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return 0;
+  };
+  // Of 4 s it is stopped for 3.5 s.
+  EXPECT_EQ(in_fork([&] { return calculate(4); },
+                    [](pid_t child) {
+                      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+                      stop_for(3.5, {child});
+                    }),
+            0);
+  const auto running = [&] {
+    try {
+      return calculate(4);
+    } catch (const OutOfTime&) {
+      return 3;
+    }
+  };
+  EXPECT_EQ(in_fork(running, [](pid_t) {}), 3);
+}
+
+TEST_F(WorkerFailureTest, PatienceStandsStillWhileTheProgramIsStopped) {
+  int pipe_ends[2];
+  ASSERT_EQ(pipe(pipe_ends), 0);
+  // The worker ends 0.5 s after it was let go, has 1.2 s for that, and both are stopped for 3 s.
+  const auto let_go = [&] {
+    WorkerProcess worker({"/bin/sh", {"-c", "sleep 0.5"}}, {});
+    const pid_t pid = worker.pid();
+    if (write(pipe_ends[1], &pid, sizeof pid) != sizeof pid) return 101;
+    return worker.finish({}, true, 1.2).exited ? 0 : 1;
+  };
+  EXPECT_EQ(in_fork(let_go,
+                    [&](pid_t child) {
+                      pid_t worker = 0;
+                      ASSERT_EQ(read(pipe_ends[0], &worker, sizeof worker), ssize_t{sizeof worker});
+                      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+                      stop_for(3, {child, -worker});
+                    }),
+            0);
+  close(pipe_ends[0]);
+  close(pipe_ends[1]);
+}
+
+/// Whether there is a process of this number that is more than a zombie.
+bool lives(pid_t pid) {
+  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+  std::string number, name, state;
+  stat >> number >> name >> state;
+  return !state.empty() && state != "Z" && state != "X";
+}
+
+TEST_F(WorkerFailureTest, WhatAWorkerHasStartedDiesWithAHarnessThatIsKilled) {
+  int pipe_ends[2];
+  ASSERT_EQ(pipe(pipe_ends), 0);
+  const std::string file = testing::TempDir() + "grandchild-" + std::to_string(getpid());
+  const auto hold = [&] {
+    // The last line tells that the child has been started.
+    WorkerProcess worker({"/bin/sh", {"-c", "sleep 1000 & echo $! > " + file + "; wait"}}, {});
+    while (!std::filesystem::exists(file) || std::filesystem::file_size(file) == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    const char ready = 1;
+    if (write(pipe_ends[1], &ready, 1) != 1) return 101;
+    pause();
+    return 102;
+  };
+  pid_t grandchild = 0;
+  EXPECT_EQ(in_fork(hold,
+                    [&](pid_t child) {
+                      char ready = 0;
+                      ASSERT_EQ(read(pipe_ends[0], &ready, 1), 1);
+                      std::ifstream(file) >> grandchild;
+                      EXPECT_TRUE(lives(grandchild));
+                      kill(child, SIGKILL);
+                    }),
+            -SIGKILL);
+  const auto until = Clock::now() + std::chrono::seconds(10);
+  while (lives(grandchild) && Clock::now() < until)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_FALSE(lives(grandchild));
+  close(pipe_ends[0]);
+  close(pipe_ends[1]);
+  std::filesystem::remove(file);
 }
 
 TEST_F(WorkerFailureTest, WhatIsNoExecutableCannotStart) {

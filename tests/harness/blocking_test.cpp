@@ -106,6 +106,17 @@ TEST(Blocking, WhatIsNotFiniteStaysSo) {
   EXPECT_FALSE(seen.plateau);
 }
 
+TEST(Blocking, HalfWidthIsStudentsOfOneDegreeOfFreedomLessThanBlocks) {
+  // t of 5, 9 and 29 degrees, Abramowitz and Stegun, table 26.10.
+  const std::pair<std::size_t, double> factors[] = {{6, 2.571}, {10, 2.262}, {30, 2.045}};
+  for (const auto& [blocks, factor] : factors) {
+    BlockedMean mean;
+    mean.standard_error = 2;
+    mean.blocks = blocks;
+    EXPECT_NEAR(mean.half_width95(), 2 * factor, 0.002) << blocks;
+  }
+}
+
 TEST(Blocking, StudentsFactorAsInTables) {
   // Abramowitz and Stegun, table 26.10; the series is cut off, 0.3 % at 3 degrees.
   EXPECT_NEAR(student_factor95(3), 3.182, 0.01);

@@ -232,6 +232,40 @@ TEST(Undecided, OneUncertainComponentDoesNotHideAnother) {
             Verdict::undecided);
 }
 
+TEST(Undecided, TheWorstPhaseMayBeTheShortestVector) {
+  // The direction is unknown, the length is 1 ± 1e-9: 0.5 m/s in one phase is beyond 10 %, though
+  // the others' length is right; and so is 1.5 m/s.
+  const std::string name = "i.final_velocity";
+  const ReferenceResult truth = reference(
+      {{name, {1, 1e-9}}, {name + ".x", {1, 1}}, {name + ".y", {0, 1}}, {name + ".z", {0, 0}}});
+  const auto verdict = [&](double odd) {
+    const auto ensemble = ensemble_values(
+        {vector_values(name, 1, 0), vector_values(name, odd, 0), vector_values(name, 0, 1)});
+    return deviations(with_tolerance("final_velocity", 0.1), truth, ensemble).at(name).verdict;
+  };
+  EXPECT_EQ(verdict(0.5), Verdict::deviates);
+  EXPECT_EQ(verdict(1.5), Verdict::deviates);
+  EXPECT_EQ(verdict(0.95), Verdict::undecided);
+}
+
+TEST(Deviations, ZeroIsWhatTenUncertaintiesHoldOrABoxsOne) {
+  // The spread over rounding modes tells an order of magnitude, the bound of a box is one.
+  const auto judged = [](double value, double engine, bool in_box) {
+    ReferenceResult truth = reference({{"i.sliding_distance", {value, 1e-15}}});
+    if (in_box) truth.box = BoxReference{.steady = true, .series = {}};
+    return deviations(with_tolerance("sliding_distance", 0.01), truth,
+                      ensemble_values({{{"i.sliding_distance", engine}}}))
+        .at("i.sliding_distance");
+  };
+  EXPECT_TRUE(judged(9.9e-15, 1e-15, false).is_zero);
+  EXPECT_EQ(judged(9.9e-15, 1e-15, false).verdict, Verdict::within);
+  EXPECT_FALSE(judged(10.1e-15, 1e-15, false).is_zero);
+  EXPECT_EQ(judged(10.1e-15, 1e-15, false).verdict, Verdict::undecided);
+  EXPECT_EQ(judged(5e-15, 15.1e-15, false).verdict, Verdict::deviates);
+  EXPECT_TRUE(judged(0.9e-15, 1e-15, true).is_zero);
+  EXPECT_FALSE(judged(1.1e-15, 1.5e-15, true).is_zero);
+}
+
 TEST(Undecided, AZeroThatIsMoreThanRounding) {
   const auto found = deviations(with_tolerance("sliding_distance", 0.01),
                                 reference({{"i.sliding_distance", {1e-4, 1e-3}}}),

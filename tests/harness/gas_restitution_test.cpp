@@ -43,6 +43,57 @@ TEST(GasRestitution, OfOnePairIsKondics) {
   EXPECT_NEAR(window.free_path, gap / 2, 1e-12);
 }
 
+/// The pair of the first test, but around the edge of a periodic cell: the same numbers.
+TEST(GasRestitution, AcrossAPeriodicEdgeIsTheSame) {
+  const double e = 0.9;
+  Scene scene = test::head_on(0.15, -0.15, e);
+  scene.periodic = {0.03, 0.02};
+  for (std::size_t i = 0; i < 2; ++i) {  // now 1 cm apart around the edge, and they come nearer
+    scene.initial[i].position.x() += i == 0 ? 0.015 : -0.015;
+  }
+  Scene two = scene;
+  for (std::size_t i = 0; i < 2; ++i) {
+    two.bodies.push_back(scene.bodies[i]);
+    two.material.push_back(scene.material[i]);
+    two.initial.push_back(scene.initial[i]);
+    two.initial.back().position.y() += 0.01;
+  }
+  GasRestitution both(two, 2, 1e-12);
+  // They slide for 83 ms from 20 ms on, and are back where they began, around the cell, after 160.
+  EventSolver(two, two.initial).run(until_time(0.15), &both);
+  ASSERT_EQ(both.windows().size(), 1u);
+  const HeadOnCollision rule{scene.bodies[0].inverse_shape_factor(), e, 0};
+  EXPECT_NEAR(both.windows()[0].restitution, e, 1e-13);
+  EXPECT_NEAR(both.windows()[0].isolated, rule.effective_restitution(), 1e-12);
+}
+
+/// Two pairs of different restitution and speed, u_k and c_k = e_k u_k: ⟨e⟩ = Σc/Σu, and its
+/// standard error that of a ratio of two means, √Σ(c_k − ⟨e⟩ u_k)²/Σu.
+TEST(GasRestitution, ItsErrorIsThatOfARatioOfTwoMeans) {
+  Scene scene = test::head_on(0.15, -0.15, 0.9);
+  scene.material = {0, 0, 1, 1};
+  scene.substrate.push_back(scene.substrate[0]);
+  scene.pairs.assign(4, scene.pairs[0]);
+  scene.pairs[3].restitution = 0.6;
+  for (std::size_t i = 0; i < 2; ++i) {
+    scene.bodies.push_back(scene.bodies[i]);
+    const double v = i == 0 ? 0.1 : -0.1;
+    scene.initial.push_back(test::rolling_at(scene.initial[i].position.x(), 1, v, 0));
+  }
+  GasRestitution seen(scene, 2, 1e-12);
+  EventSolver(scene, scene.initial).run({Run::Until::rolling, 0, 10}, &seen);
+  ASSERT_EQ(seen.windows().size(), 1u);
+  const double A = scene.bodies[0].inverse_shape_factor();
+  const double u[] = {0.3, 0.2};
+  const double c[] = {0.3 * HeadOnCollision{A, 0.9, 0}.effective_restitution(),
+                      0.2 * HeadOnCollision{A, 0.6, 0}.effective_restitution()};
+  const double mean = (c[0] + c[1]) / 0.5;
+  const double error = std::hypot(c[0] - mean * u[0], c[1] - mean * u[1]) / 0.5;
+  EXPECT_GT(error, 0.01);
+  EXPECT_NEAR(seen.windows()[0].effective, mean, 1e-12);
+  EXPECT_NEAR(seen.windows()[0].effective_error, error, 1e-12);
+}
+
 /// A ball that waits right behind the struck one takes its velocity before it has slid: the first
 /// collision comes to e_n, the isolated one would have come to (A e_n − 1)/(1+A), and the average
 /// lies between.

@@ -79,6 +79,27 @@ TEST(Convergence, ConstantWithScatterDoesNotConverge) {
   EXPECT_EQ(of({0.3, 0.05, 0.2, 0.02, 0.12}).kind, Kind::does_not_converge);
 }
 
+TEST(Convergence, AnOrderWithinTwoOfItsStandardErrorsIsNone) {
+  // As in ScatterGoesIntoTheError: ln error = −k p ln 2 ± s has the order p and σ_p =
+  // √(0.432/30)/ln 2 · s/0.3. The ends have the same sign, and so have those of the last three:
+  // only σ_p tells.
+  for (const double s : {0.3, 1.2}) {
+    const double sigma = std::sqrt(0.432 / 30) / std::log(2) * s / 0.3;
+    for (const double share : {1.6, 1.9, 2.1, 3.0}) {
+      const double p = share * sigma;
+      if (p <= 0.26) continue;  // no order at all
+      std::vector<double> knobs, errors;
+      for (int k = 0; k < 5; ++k) {
+        knobs.push_back(std::exp2(-k));
+        errors.push_back(std::exp2(-k * p) * std::exp(k % 2 == 0 ? s : -s));
+      }
+      EXPECT_EQ(of(errors, {0, 0}, knobs).kind,
+                share > 2 ? Kind::converges : Kind::does_not_converge)
+          << s << ' ' << share;
+    }
+  }
+}
+
 TEST(Convergence, GrowthDoesNotConverge) {
   EXPECT_EQ(of(at_steps([](double h) { return 1e-6 / h; })).kind, Kind::does_not_converge);
   // Nor where it first falls: rounding that adds up.

@@ -119,6 +119,33 @@ INSTANTIATE_TEST_SUITE_P(
                          ContactEnd::zero_force, false, true}),
     name_of);
 
+/// K's App. C: spheres that meet too slowly to slide part as heavier ones do, of (1+A)/A m. Static
+/// friction holds them: what each has to bear, F/((1+A) m) with F = ω' v m' and A = 5/2, is twice
+/// what kinetic friction could.
+TEST(GrainSolver, SpheresThatStaticFrictionHoldsPartAsHeavierOnes) {
+  constexpr double kA = 2.5, kG = 9.81, kMuK = 0.1, kMuS = 0.5;
+  const double reduced = 0.5 * kMass, heavier = reduced * (1 + kA) / kA;
+  const auto law =
+      LinearContact::with_collision_time(reduced, 0.9, kCollisionTime, ContactEnd::zero_overlap);
+  const LinearContact rolling(heavier, law.stiffness(), law.damping_rate() * reduced / heavier,
+                              ContactEnd::zero_overlap);
+  const double frequency = M_PI / rolling.collision_time();
+  const double force = 2 * kMuK * kG * (1 + kA) * kMass;
+  const double v = 0.5 * force / (heavier * frequency);  // of each
+  ASSERT_LT(force, 0.5 * kMuS * kG * (1 + kA) * kMass);
+  ContactScene scene =
+      colliding(v, -v, 0.9, kCollisionTime, NoTangentialForce{}, kRadius + v * kStep);
+  scene.hard.confined = true;
+  ASSERT_EQ(grain_refusal(scene, scene.hard.initial), "");
+  GrainSolver grains(scene, scene.hard.initial, kStep);
+  grains.advance(static_cast<std::size_t>(1.2 * rolling.collision_time() / kStep) + 3);
+  Frame after;
+  grains.show(after);
+  ASSERT_EQ(grains.collisions(), 1u);
+  // Second order in a step, (π/60)².
+  EXPECT_NEAR(closing(after.bodies) / (-2 * v), rolling.restitution(), 0.01);
+}
+
 ContactScene periodic_gas(std::size_t n, double fraction, bool on_plane, double restitution) {
   ContactScene scene = with_contact(smooth_gas(n, fraction, {restitution, 0.0, -1.0}), {});
   SoftContact& contact = *scene.soft[0];

@@ -389,6 +389,24 @@ TEST(AsperityPassivity, WeakDampingOnlyMovesTheBound) {
     }
 }
 
+TEST(AsperityPassivity, TheBoundOfAnyPowerIsWhereTheSlipsEnergyIsKept) {
+  // Powers other than Hertz's: the overlap grows with g^(2/(1+α)). The slip is integrated at the
+  // bound, and at 2 % of the speed below and above it.
+  const RoughIce b;
+  for (const double alpha : {1.0, 2.0, 2.5})
+    for (const double viscosity : {0.0, 1e-3}) {
+      const double modulus = b.rho * std::pow(1e-5, 1.5 - alpha);
+      const NormalForce force =
+          PowerForce{modulus, viscosity * std::sqrt(b.mass * modulus), alpha, 0.5 * (alpha - 1)};
+      const ContactEnd end = ContactEnd::zero_overlap;
+      const double bound = b.passive_speed(force, end);
+      ASSERT_TRUE(std::isfinite(bound) && bound > 0) << alpha;
+      EXPECT_NEAR(std::abs(b.slip(force, end, bound)), 1, viscosity > 0 ? 1e-4 : 1e-6) << alpha;
+      EXPECT_GT(std::abs(b.slip(force, end, 1.02 * bound)), 1) << alpha;
+      EXPECT_LT(std::abs(b.slip(force, end, 0.98 * bound)), 1) << alpha;
+    }
+}
+
 TEST(AsperityPassivity, AnAttractionAtTheEndAddsEnergyAllTheSame) {
   const RoughIce b;
   const ViscoelasticForce damped{b.rho, 4.6e-5};

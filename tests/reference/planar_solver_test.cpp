@@ -393,6 +393,23 @@ TEST(InelasticCollapse, TheLimitOnEventsEndsWhatNoRuleDoes) {
       << run.reason;
 }
 
+/// A ball on the still floor of a box: impacts 2 e v/g apart are elastic once t_c is longer.
+TEST(InelasticCollapse, TheContactTimeIsTheTimeBelowWhichAnImpactIsElastic) {
+  const double e = 0.5, height = 0.01, g = 9.81;
+  const double speed = std::sqrt(2 * g * height), first = speed / g, between = 2 * e * speed / g;
+  for (const double share : {0.6, 0.99, 1.01}) {
+    Scene scene = test::shaken_box(1, 0, contact(e));
+    scene.initial[0].position = {5e-3, 0, 0.5e-3 + height};
+    scene.initial[0].velocity = Vector3::Zero();
+    scene.collapse = {CollapseRule::Model::contact_time, between * share};
+    PlanarSolver solver(scene, scene.initial);
+    solver.run(until_time(first + 1.001 * between), nullptr);
+    // Just after the second impact: e² v of what hit the floor first, or e v.
+    const double left = (share < 1 ? e * e : e) * speed - g * 0.001 * between;
+    EXPECT_NEAR(solver.states()[0].velocity.z(), left, 1e-12) << share;
+  }
+}
+
 /// The TC model only acts on bodies that collide twice within t_c: a dilute gas does not see it.
 TEST(InelasticCollapse, TheContactTimeDoesNotChangeADiluteGas) {
   Scene scene = test::smooth_gas(30, 0.05, contact(0.9));

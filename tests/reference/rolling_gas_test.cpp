@@ -89,6 +89,30 @@ TEST(RollingGas, CellsFindTheCollisionsOfAllPairs) {
   expect_same(collisions_of(scene, 0.5), collisions_of(scene, 0.5, without_cells()), 200, 1e-9);
 }
 
+/// side² balls in a triangular lattice of `spacing` [m], each moved a little.
+Scene dense_gas(std::size_t side, double spacing, double speed, unsigned seed) {
+  Scene scene = test::steel_scene(side * side);
+  std::mt19937_64 random(seed);
+  const auto u = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
+  const double jitter = 0.3 * (spacing - 0.004);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::size_t row = i / side;
+    const double x = spacing * (static_cast<double>(i % side) + (row % 2 == 0 ? 0.0 : 0.5));
+    const double y = spacing * std::sqrt(0.75) * static_cast<double>(row);
+    scene.initial[i] =
+        test::rolling_at(x + jitter * u(), y + jitter * u(), speed * u(), speed * u());
+  }
+  return scene;
+}
+
+TEST(RollingGas, CellsFindTheCollisionsOfAllPairsWhereABodyHasLessRoomThanItsDiameter) {
+  // In a triangular lattice of 2.02 R a ball has √0.75 · 2.02² R² = (1.88 R)²: cells must be larger
+  // than this, or two that touch are not in neighbouring ones.
+  const Scene scene = dense_gas(9, 2.02 * 0.002, 0.05, 12);
+  // Some 5 collisions a ball: 1e-17 s grow as above.
+  expect_same(collisions_of(scene, 0.004), collisions_of(scene, 0.004, without_cells()), 100, 1e-9);
+}
+
 TEST(RollingGas, CellsFindTheCollisionsOfAllPairsWhereRollingFrictionDependsOnTheSpeed) {
   Scene scene = gas(8, 0.0055, 0.3, {0, 0}, 2);
   scene.substrate[0].rolling = RollingFriction({{0, 0.001}, {0.1, 0.004}, {0.5, 0.01}});
@@ -265,6 +289,20 @@ TEST(RollingGas, CollisionsInQuickSuccessionDoNotDissipateUnderTheContactTimeMod
   EXPECT_NEAR(seen.impact[1], 0.02 * 0.15, 1e-15);
 }
 
+TEST(RollingGas, ContactTimeIsTheTimeBelowWhichACollisionIsElastic) {
+  // As above: the second collision follows the first after 2 e v/(μ_k g), of which e v/(μ_k g)
+  // apart and as long back again, on parabolas.
+  const double e = 0.02, between = 2 * e * 0.15 / (0.1 * 9.81), first = (0.01 - 0.004) / 0.3;
+  for (const double share : {0.6, 0.99, 1.01}) {
+    Scene scene = test::head_on(0.15, -0.15, e);
+    scene.collapse = {CollapseRule::Model::contact_time, between * share};
+    EventSolver solver(scene, scene.initial);
+    const SolvedRun run = solver.run(until_time(first + 1.001 * between), nullptr);
+    ASSERT_EQ(run.collisions, 2u);
+    EXPECT_EQ(run.collapses, share < 1 ? 0u : 1u) << share;
+  }
+}
+
 TEST(RollingGas, ClusterComesToRestAtOnceUnderTheLargestVelocityModel) {
   // Three balls in a row, without friction: 0 runs into 1 and 2, which nearly touch. Once 0 and 1
   // meet again, the three have collapsed: what is left of approach is 1e-6 of it.
@@ -321,6 +359,67 @@ TEST(RollingGas, BallsOnATiltedPlaneWithRollingFrictionMoveAsIntegrated) {
   scene.gravity = 9.81 * std::cos(0.05);
   scene.substrate[0].rolling = RollingFriction(0.005);
   expect_as_integrated(scene, 0.03, 10, 1e-11);
+}
+
+/// A ball that rolls down a slope from rest and one that rolling friction holds on it, `gap` [m]
+/// apart.
+Scene ball_above_a_held_one(double angle, double gap) {
+  Scene scene = test::steel_scene(2);
+  scene.downhill = {9.81 * std::sin(angle), 0};
+  scene.gravity = 9.81 * std::cos(angle);
+  scene.material = {0, 1};
+  scene.substrate.push_back(scene.substrate[0]);
+  scene.substrate[1].rolling = RollingFriction(0.2);
+  scene.pairs.assign(4, scene.pairs[0]);
+  scene.initial = {test::rolling_at(0, 0, 0, 0), test::rolling_at(0.004 + gap, 0, 0, 0)};
+  return scene;
+}
+
+TEST(RollingGas, ABallThatRollsDownASlopeMeetsAHeldOneWhenItMust) {
+  // Rolling takes (5/7) g sin θ, K (24): the gap is gone after √(2 d/a), whichever is the first.
+  const double angle = 0.05, gap = 0.013, a = 5.0 / 7 * 9.81 * std::sin(angle);
+  Scene scene = ball_above_a_held_one(angle, gap);
+  for (const int turn : {0, 1}) {
+    EventSolver solver(scene, scene.initial);
+    EXPECT_NEAR(solver.next_collision(10, 0), std::sqrt(2 * gap / a), 1e-14) << turn;
+    std::swap(scene.initial[0], scene.initial[1]);
+    std::swap(scene.material[0], scene.material[1]);
+  }
+}
+
+TEST(RollingGas, ABallOnASlopeHitsAHeldOneAgainAndAgainAsIntegrated) {
+  // In the end it leans on the other one, after ever weaker collisions: the first three of them.
+  const Scene scene = ball_above_a_held_one(0.05, 0.002);
+  Collisions a, b;
+  EventSolver events(scene, scene.initial);
+  double end = 0;
+  for (int k = 0; k < 3; ++k) {
+    end = events.next_collision(10, 0) + 1e-6;
+    ASSERT_TRUE(events.run(until_time(end), &a).reached);
+  }
+  const ContactScene contacts = with_hard_contacts(scene);
+  ContactSolver integrated(contacts, scene.initial);
+  ASSERT_TRUE(integrated.run(until_time(end), &b).reached);
+  // CVODE's error, 1e-13 relative a step, over some hundred steps.
+  expect_same(a, b, 3, 1e-10);
+}
+
+TEST(RollingGas, RestOnATiltedPlaneWaitsForTheSpin) {
+  // Rolling friction holds the ball where it is; its spin about the vertical, against which
+  // drilling friction has the torque l m g cos θ, dies after ω q R²/(l g cos θ).
+  const double angle = 0.02, spin = 30, length = 1e-5;
+  Scene scene = test::steel_scene(1);
+  scene.downhill = {9.81 * std::sin(angle), 0};
+  scene.gravity = 9.81 * std::cos(angle);
+  scene.substrate[0].rolling = RollingFriction(0.2);
+  scene.substrate[0].drilling_length = length;
+  scene.initial[0] = test::rolling_at(0, 0, 0, 0);
+  scene.initial[0].angular_velocity.z() = spin;
+  EventSolver solver(scene, scene.initial);
+  const SolvedRun run = solver.run({Run::Until::rest, 0, 60}, nullptr);
+  ASSERT_TRUE(run.reached) << run.reason;
+  EXPECT_NEAR(run.end_time, spin * 0.4 * 4e-6 / (length * scene.gravity), 1e-12);
+  EXPECT_EQ(solver.states()[0].angular_velocity.z(), 0);
 }
 
 TEST(RollingGas, GasOnAnOscillatingPlaneRunsInCellsAsInAllPairs) {

@@ -234,6 +234,57 @@ TEST(Check, SoftBodiesMayOverlapByLessThanTheSmallerRadius) {
   expect_fault(with(overlap, "# periodic", "periodic"), place + "0.05 cm, got [-0.05, 0]");
 }
 
+/// How many of two bodies with these radii and places are refused.
+std::size_t overlaps_of(double radius_a, const Vector3& a, double radius_b, const Vector3& b,
+                        const std::optional<Vector2>& periodic = {}, const OverlapRule& rule = {}) {
+  std::vector<Body> bodies(2);
+  bodies[0].sphere.radius = radius_a;
+  bodies[1].sphere.radius = radius_b;
+  bodies[0].initial.position = a;
+  bodies[1].initial.position = b;
+  Reading reading("s.yaml", UnitSystem::si);
+  check_overlaps(bodies, {"bodies[0]", "bodies[1]"}, periodic, reading, rule);
+  return reading.faults().size();
+}
+
+TEST(Check, OverlapsOfUnlikeRadii) {
+  // Soft bodies may overlap by less than the smaller radius, here 0.1, whichever comes first.
+  const OverlapRule soft = [](const Body&, const Body&) { return std::nullopt; };
+  for (const auto& [one, other] : {std::pair{0.1, 0.5}, {0.5, 0.1}}) {
+    EXPECT_EQ(overlaps_of(one, {0, 0, 0}, other, {0.501, 0, 0}, {}, soft), 0u);
+    EXPECT_EQ(overlaps_of(one, {0, 0, 0}, other, {0.499, 0, 0}, {}, soft), 1u);
+    EXPECT_EQ(overlaps_of(one, {0, 0, 0}, other, {0.599, 0, 0}), 1u);
+    EXPECT_EQ(overlaps_of(one, {0, 0, 0}, other, {0.601, 0, 0}), 0u);
+  }
+}
+
+TEST(Check, OverlapsOfUnlikeRadiiAcrossAPeriodicEdge) {
+  // A small body reaches over no edge that it is 0.35 away from, and meets a large one beyond it.
+  const Vector2 cell(4, 5);
+  for (const bool small_first : {true, false})
+    for (const int axis : {0, 1})
+      for (const double gap : {-0.001, 0.001}) {
+        Vector3 near(1, 1, 0), far(1, 1, 0);
+        near[axis] = 0.35;
+        far[axis] = cell[axis] - (0.6 - 0.35 + gap);
+        const std::size_t count = small_first ? overlaps_of(0.1, near, 0.5, far, cell)
+                                              : overlaps_of(0.5, far, 0.1, near, cell);
+        EXPECT_EQ(count, gap < 0 ? 1u : 0u) << axis << gap;
+        // The large one at the near end.
+        near[axis] = 0.3;
+        far[axis] = cell[axis] - (0.6 - 0.3 + gap);
+        EXPECT_EQ(overlaps_of(0.5, near, 0.1, far, cell), gap < 0 ? 1u : 0u) << axis << gap;
+      }
+  // Across the corner, from either side.
+  for (const double gap : {-0.001, 0.001}) {
+    const double off = (0.6 + gap) / std::sqrt(2);
+    EXPECT_EQ(overlaps_of(0.1, {0.2, 0.2, 0}, 0.5, {4 + 0.2 - off, 5 + 0.2 - off, 0}, cell),
+              gap < 0 ? 1u : 0u);
+    EXPECT_EQ(overlaps_of(0.1, {0.2, 4.8, 0}, 0.5, {4 + 0.2 - off, 4.8 + off - 5, 0}, cell),
+              gap < 0 ? 1u : 0u);
+  }
+}
+
 TEST(Check, OverlapsOfManyBodies) {
   std::vector<Body> bodies;
   std::vector<std::string> paths;

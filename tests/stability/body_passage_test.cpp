@@ -74,6 +74,32 @@ TEST(BodyPassage, AnOverlapThatTheReferenceHasTooIsNone) {
   }
 }
 
+TEST(BodyPassage, APairThatCreepsTogetherIsFoundInTime) {
+  // Both come nearer by a fifth of a radius a frame, and from a distance beyond what is looked at
+  // first: who counts only one frame's way, or only one body's, never looks again.
+  const PreparedScene scene = prepared(
+      plain_scene(ball("a", "[0, 0]", "[0, 0, 0]") + ball("b", "[0.045, 0.001]", "[0, 0, 0]"),
+                  "friction: 0", "{until: 1}"));
+  const ReferencePath path(scene);
+  OutcomeWatch watch(path, {}, 0.01);
+  std::vector<BodyState> s = path.states().front();
+  watch.begin(0, s);
+  int frames = 0;
+  // Until their centres are nearer than 2 R − R.
+  while (s[1].position.x() - s[0].position.x() > 0.0105) {
+    s[0].position.x() += 0.002;
+    s[1].position.x() -= 0.002;
+    watch.take(0.01 * ++frames, frame_of(s));
+    EXPECT_LT(outcome_of(watch), Outcome::tunnelled) << frames;
+    if (s[1].position.x() - s[0].position.x() < 0.0145) break;
+  }
+  ASSERT_GT(frames, 5);
+  s[0].position.x() += 0.002;
+  s[1].position.x() -= 0.002;
+  watch.take(0.01 * ++frames, frame_of(s));
+  EXPECT_EQ(outcome_of(watch), Outcome::tunnelled);
+}
+
 TEST(BodyPassage, NearPairsAreFoundHoweverFarTheyCome) {
   // A third ball is shot through the pair from far away in one step.
   const PreparedScene scene =

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "physics/numbers.h"
+#include "reference/events/event_solver.h"
 
 namespace slipcheck {
 
