@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <chrono>
 
 #include "scenario/rules/overlap.h"
 #include "scenes.h"
@@ -295,13 +294,11 @@ TEST(Check, OverlapsOfManyBodies) {
     paths.push_back(fmt::format("bodies[{}]", i));
   }
   Reading reading("s.yaml", UnitSystem::si);
-  const auto start = std::chrono::steady_clock::now();
   check_overlaps(bodies, paths, Vector2(317, 317), reading);
   EXPECT_TRUE(reading.faults().empty());
   bodies[50'000].initial.position.x() += 0.1;
   check_overlaps(bodies, paths, Vector2(317, 317), reading);
   EXPECT_EQ(reading.faults().size(), 1u);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
 TEST(Check, Places) {
