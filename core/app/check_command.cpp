@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -173,7 +172,7 @@ int check(CheckArguments& arguments) {
   if (!arguments.quiet) say("{}", debug_build_warning());
   std::vector<SceneRecord> scenes;
   {
-    ProgressBar bar("checking", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
+    ProgressBar bar("checking", !arguments.quiet);
     arguments.options.progress = [&](std::size_t done, std::size_t total) { bar.set(done, total); };
     scenes = run_scenes(std::move(scenarios), arguments.options);
   }

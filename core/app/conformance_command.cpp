@@ -95,7 +95,7 @@ int ask_all(const ConformanceArguments& arguments) {
   watch_for_interrupts();
   std::vector<ConformanceReport> reports;
   for (const WorkerCommand& worker : workers) {
-    ProgressBar bar("asking", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
+    ProgressBar bar("asking", !arguments.quiet);
     ConformanceOptions options;
     options.limits.reply = arguments.reply_limit;
     options.stop = &interrupted();

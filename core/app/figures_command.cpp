@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -58,7 +57,7 @@ int draw(const FiguresArguments& arguments) {
   watch_for_interrupts();
   std::vector<PaperFigure> figures;
   {
-    ProgressBar bar("drawing", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
+    ProgressBar bar("drawing", !arguments.quiet);
     for (const PaperFigureMaker& maker : makers) {
       if (interrupted()) break;
       bar.set(figures.size(), makers.size());

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -57,7 +56,7 @@ int cool(GasArguments& arguments) {
   if (!arguments.quiet) say("{}", debug_build_warning());
   GasRun run;
   {
-    ProgressBar bar("cooling", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
+    ProgressBar bar("cooling", !arguments.quiet);
     options.progress = [&](double collisions) {
       bar.set(static_cast<std::size_t>(std::min(collisions, options.collisions)),
               static_cast<std::size_t>(std::ceil(options.collisions)));

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -70,7 +69,7 @@ int measure(PrecisionArguments& arguments) {
   if (!common.quiet) say("{}", debug_build_warning());
   std::vector<PrecisionScene> scenes;
   {
-    ProgressBar bar("measuring", !common.quiet && is_plain_terminal(STDERR_FILENO));
+    ProgressBar bar("measuring", !common.quiet);
     common.options.progress = [&](std::size_t done, std::size_t total) { bar.set(done, total); };
     scenes = run_precision(std::move(scenarios), arguments.grid, common.options);
   }

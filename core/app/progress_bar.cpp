@@ -15,8 +15,10 @@ bool is_plain_terminal(int file_descriptor) {
   return isatty(file_descriptor) == 1 && (!no_colour || *no_colour == '\0');
 }
 
-ProgressBar::ProgressBar(std::string label, bool shown) : label_(std::move(label)) {
-  if (shown) line_.emplace([this](double seconds) { return line(seconds); }, LinePlace::stays);
+ProgressBar::ProgressBar(std::string label, bool shown)
+    : place_(is_plain_terminal(STDERR_FILENO) ? LinePlace::stays : LinePlace::follows),
+      label_(std::move(label)) {
+  if (shown) line_.emplace([this](double seconds) { return line(seconds); }, place_);
 }
 
 void ProgressBar::set(std::size_t done, std::size_t total) {
@@ -25,11 +27,13 @@ void ProgressBar::set(std::size_t done, std::size_t total) {
 }
 
 std::string ProgressBar::line(double seconds) const {
-  constexpr std::size_t width = 30;
   const std::size_t total = total_, done = done_;
+  const std::string took = duration_text(seconds) + time_left_text(seconds, done, total);
+  if (place_ == LinePlace::follows) return fmt::format("{} {}/{}  {}", label_, done, total, took);
+  constexpr std::size_t width = 30;
   const std::size_t filled = total > 0 ? width * done / total : 0;
-  return fmt::format("{} [{:█<{}}{:·<{}}] {}/{}  {}{}", label_, "", filled, "", width - filled,
-                     done, total, duration_text(seconds), time_left_text(seconds, done, total));
+  return fmt::format("{} [{:█<{}}{:·<{}}] {}/{}  {}", label_, "", filled, "", width - filled, done,
+                     total, took);
 }
 
 }  // namespace slipcheck

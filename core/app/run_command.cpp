@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -155,7 +154,7 @@ int run(RunArguments& arguments) {
   ReportContent content;
   content.context = context();
   {
-    ProgressBar bar("running", !arguments.quiet && is_plain_terminal(STDERR_FILENO));
+    ProgressBar bar("running", !arguments.quiet);
     arguments.options.progress = [&](std::size_t done, std::size_t total) { bar.set(done, total); };
     content.scenes = run_scenes(std::move(scenarios), arguments.options);
   }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -79,14 +78,13 @@ void write_folder(const fs::path& directory, const StabilityArguments& arguments
 StabilityResults run_all(StabilityArguments& arguments, std::vector<Scenario> cases) {
   GridArguments& common = arguments.common;
   StabilityResults results;
-  const bool shown = !common.quiet && is_plain_terminal(STDERR_FILENO);
   {
-    ProgressBar bar("catalogue", shown);
+    ProgressBar bar("catalogue", !common.quiet);
     common.options.progress = [&](std::size_t done, std::size_t total) { bar.set(done, total); };
     results.cases = run_stability(std::move(cases), arguments.grid, common.options);
   }
   if (arguments.limits == "yes" && !interrupted()) {
-    ProgressBar bar("limits", shown);
+    ProgressBar bar("limits", !common.quiet);
     common.options.progress = [&](std::size_t done, std::size_t total) { bar.set(done, total); };
     LimitGrid grid;
     grid.engines = common.engines;

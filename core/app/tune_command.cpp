@@ -30,7 +30,7 @@ class Progress {
       : quiet_(arguments.quiet),
         on_terminal_(!quiet_ && is_plain_terminal(STDERR_FILENO)),
         space_(&space),
-        bar_("tuning, evaluations", on_terminal_) {}
+        bar_("tuning, evaluations", !quiet_) {}
 
   void spent(const TuningEvaluator& evaluator) {
     bar_.set(static_cast<std::size_t>(evaluator.spent()),

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -109,7 +108,7 @@ int compare(VersionsArguments& arguments) {
   if (!common.quiet) say("{}", debug_build_warning());
   VersionComparison& comparison = arguments.comparison;
   {
-    ProgressBar bar("comparing", !common.quiet && is_plain_terminal(STDERR_FILENO));
+    ProgressBar bar("comparing", !common.quiet);
     common.options.progress = [&](std::size_t done, std::size_t total) { bar.set(done, total); };
     comparison.scenes = run_scenes(std::move(scenarios), common.options);
   }

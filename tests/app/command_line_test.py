@@ -580,7 +580,7 @@ class CommandLine(unittest.TestCase):
         texts = []
         for name in ("one", "two"):
             folder = self.path / name / "figures"
-            result = run("figures", folder, "--only", "K7,K6")
+            result = run("figures", folder, "--only", "K7,K6", "--quiet")
             self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
             self.assertEqual(sorted(file.name for file in folder.iterdir()),
                              ["K6.csv", "K6.svg", "K7.csv", "K7.svg"])

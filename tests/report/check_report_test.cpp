@@ -197,7 +197,7 @@ TEST(CheckMarkdown, FitsAComment) {
   const SceneCheck pair = report.scenes[0];
   for (int k = 0; k < 300; ++k) report.scenes.push_back(pair);
   const std::string text = markdown_of(report);
-  EXPECT_LE(text.size(), 60000u);
+  EXPECT_LE(text.size(), 8000u);
   EXPECT_NE(text.find("more rows; there is no room for them here"), std::string::npos);
   EXPECT_NE(text.find("now 3.25"), std::string::npos);
   const std::string small = markdown_of(pair_report());

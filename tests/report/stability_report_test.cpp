@@ -230,9 +230,10 @@ TEST(StabilityPage, SaysEverything) {
                                  "2/ω0", "creeps by more than 1.00 %", "1000 times as fast"})
     EXPECT_TRUE(contains(html, part)) << part;
   // Cases by methods, the reference first; E: energy growing.
-  EXPECT_TRUE(contains(html,
-                       "<tr><th><a href=\"#case-1\">speed-1e4</a></th><td class=\"o0\">A</td>"
-                       "<td class=\"o3\">E</td>"));
+  EXPECT_TRUE(
+      contains(html,
+               "<tr><th scope=\"row\"><a href=\"#case-1\">speed-1e4</a></th><td class=\"o0\">A</td>"
+               "<td class=\"o3\">E</td>"));
   EXPECT_TRUE(contains(html, "<details id=\"case-1\"><summary>speed-1e4 "));
   // The map's upper row, of restitution 1.
   EXPECT_TRUE(

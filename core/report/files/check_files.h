@@ -17,8 +17,8 @@ nlohmann::ordered_json json_of(const CheckReport& report);
 /// scene, run, observable, old and new value and what is allowed.
 std::vector<TestOutcome> test_outcomes(const CheckReport& report);
 
-/// What a pull request's comment or a job's summary says of a check, within `most` bytes (GitHub's
-/// limit of a comment); what does not fit is counted.
-std::string markdown_of(const CheckReport& report, std::size_t most = 60000);
+/// What a pull request's comment or a job's summary says of a check, within `most` bytes, as of a
+/// run (markdown.h); what does not fit is counted.
+std::string markdown_of(const CheckReport& report, std::size_t most = 8000);
 
 }  // namespace slipcheck

@@ -81,16 +81,17 @@ std::string catalogue_part(const std::vector<StabilityCase>& cases,
                            const StabilityOverview& overview) {
   std::string html =
       "<div class=\"table\" role=\"region\" aria-label=\"The catalogue\" tabindex=\"0\"><table "
-      "class=\"map\"><thead><tr><th>case</th><th>reference</th>";
+      "class=\"map\"><caption>The catalogue: cases by methods, each as its worst phase comes "
+      "out</caption><thead><tr><th scope=\"col\">case</th><th scope=\"col\">reference</th>";
   for (const StabilityMethod& method : overview.methods)
-    html += fmt::format("<th>{}</th>", escaped(method.label()));
+    html += fmt::format("<th scope=\"col\">{}</th>", escaped(method.label()));
   html += "</tr></thead><tbody>\n";
   const auto cell = [&](Outcome outcome) {
     const Cell made = outcome_cell(outcome);
     html += fmt::format("<td class=\"{}\">{}</td>", made.css_class, made.text);
   };
   for (const StabilityRow& row : overview.rows) {
-    html += fmt::format("<tr><th><a href=\"#{}\">{}</a></th>",
+    html += fmt::format("<tr><th scope=\"row\"><a href=\"#{}\">{}</a></th>",
                         case_id(static_cast<std::size_t>(row.scene - cases.data())),
                         escaped(row.label));
     cell(outcome_of(row.scene->reference));
