@@ -195,11 +195,10 @@ int fill(const SweepSetup& setup, const SweepArguments& arguments, SweepStore& s
             store.add(run);
             progress.set(++made);
           });
-      store.commit();
     } catch (const SqliteFailure& failure) {
       throw std::runtime_error(fmt::format(
           "{}: cannot be written: {}; {} runs are in it, and the same command goes on with it",
-          arguments.store, failure.what(), store.size()));
+          arguments.store, failure.what(), before + made));
     }
   }
   const std::uint64_t left = pending.count() - made;

@@ -5,10 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <fstream>
-#include <thread>
 
 #include "../support/in_folder.h"
 #include "../support/refusal.h"
@@ -82,7 +80,6 @@ TEST_F(Store, FailuresAreDoneUnlessTheyAreTriedAgain) {
   EXPECT_FALSE(store.done(true)[1]);
   EXPECT_TRUE(store.done(true)[2]) << "an unstable run is unstable again";
   store.add(SomeRun(1).get());
-  store.commit();
   EXPECT_EQ(store.file().integer_of("SELECT count(*) FROM runs WHERE run = 1 AND status = 'ok'"),
             1);
   EXPECT_EQ(store.statuses(), (std::map<std::string, std::size_t>{{"ok", 2}, {"unstable", 1}}));
@@ -126,34 +123,17 @@ TEST_F(Store, TwoWritersAreOneTooMany) {
 TEST_F(Store, OthersReadWhileItIsWritten) {
   SweepStore store(path(), some_head());
   store.add(SomeRun(0).get());
-  store.commit();
   const auto reader = open_store(path());
   EXPECT_EQ(reader->integer_of("SELECT count(*) FROM runs"), 1);
   store.add(SomeRun(1).get());
-  EXPECT_EQ(store.size(), 2u);
-  store.commit();
   EXPECT_EQ(reader->integer_of("SELECT count(*) FROM runs"), 2);
 }
 
-TEST_F(Store, WhatWasAddedIsCommittedSoonThoughNothingElseComes) {
-  SweepStore store(path(), some_head());
-  const auto reader = open_store(path());
-  for (std::uint64_t run = 0; run < 2; ++run) {
-    store.add(SomeRun(run).get());
-    const auto until = std::chrono::steady_clock::now() + 100 * kCommitTime;
-    while (reader->integer_of("SELECT count(*) FROM runs") <= static_cast<std::int64_t>(run)) {
-      ASSERT_LT(std::chrono::steady_clock::now(), until);
-      std::this_thread::sleep_for(kCommitTime / 10);
-    }
-  }
-}
-
-TEST_F(Store, AProcessThatIsKilledLosesNothingThatWasCommitted) {
+TEST_F(Store, AProcessThatIsKilledLosesNothingThatWasAdded) {
   const pid_t child = ::fork();
   if (child == 0) {
     SweepStore store(path(), some_head());
     for (std::uint64_t run = 0; run < 5; ++run) store.add(SomeRun(run).get());
-    store.commit();
     ::kill(::getpid(), SIGKILL);
   }
   int status = 0;
@@ -166,21 +146,17 @@ TEST_F(Store, AProcessThatIsKilledLosesNothingThatWasCommitted) {
             1);
 }
 
-TEST_F(Store, AFullDiskLosesWhatIsNotCommittedAlone) {
+TEST_F(Store, AFullDiskLosesTheRunAtHandAlone) {
   const pid_t child = ::fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
     SweepStore store(path(), some_head());
     store.add(SomeRun(0).get());
-    store.commit();
     const rlimit limit{40'000, 40'000};  // of a file; the log holds a run or two in that
     ::setrlimit(RLIMIT_FSIZE, &limit);
     std::uint64_t run = 1;
     try {
-      for (; run < 10; ++run) {
-        store.add(SomeRun(run).get());
-        store.commit();
-      }
+      for (; run < 10; ++run) store.add(SomeRun(run).get());
     } catch (const SqliteFailure&) {
       ::_exit(static_cast<int>(run));
     }
@@ -194,7 +170,6 @@ TEST_F(Store, AFullDiskLosesWhatIsNotCommittedAlone) {
   SweepStore store(path(), some_head());
   EXPECT_EQ(store.file().integer_of("SELECT count(*) FROM runs"), added);
   store.add(SomeRun(9).get());
-  store.commit();
   EXPECT_EQ(store.file().integer_of("SELECT count(*) FROM observables"), 2 * (added + 1));
 }
 

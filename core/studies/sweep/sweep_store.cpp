@@ -168,7 +168,6 @@ SweepStore::SweepStore(const fs::path& path, const StoreHead& head) : path_(path
     while (names.step()) names_[names.text(0)] = names.integer(1);
     SqliteStatement scenes(*file_, "SELECT scene FROM scenes");
     while (scenes.step()) scenes_.insert(static_cast<std::uint64_t>(scenes.integer(0)));
-    committer_ = std::jthread([this](const std::stop_token& stop) { commit_in_time(stop); });
   } catch (const SqliteFailure& failure) {
     const std::string rule = rule_of(failure);
     close_all();
@@ -180,11 +179,6 @@ SweepStore::SweepStore(const fs::path& path, const StoreHead& head) : path_(path
 }
 
 SweepStore::~SweepStore() {
-  committer_ = {};
-  try {
-    commit();
-  } catch (const SqliteFailure&) {  // what it was to hold is made another time
-  }
   statements_.reset();
   try {
     sqlite3_busy_timeout(file_->get(), 0);
@@ -281,108 +275,50 @@ void SweepStore::add_observables(const FinishedRun& run) {
   }
 }
 
-void SweepStore::insert(const FinishedRun& run) {
-  add_scene(run);
-  SqliteStatement& insert = statements_->run;
-  insert.bind(1, static_cast<std::int64_t>(run.run));
-  insert.bind(2, static_cast<std::int64_t>(run.scene));
-  for (int k = 3; k <= 16; ++k) insert.bind_nothing(k);
-  if (run.record != nullptr) {
-    const EngineRecord& record = *run.record;
-    const std::string version =
-        record.version.empty() ? engine_version(record.engine) : record.version;
-    insert.bind(3, std::string_view(engine_family(record.engine)));
-    insert.bind(4, std::string_view(version));
-    insert.bind(5, std::string_view(record.precision));
-    insert.bind(6, std::string_view(record.profile));
-    insert.bind(7, record.rate).bind(8, record.scale);
-    insert.bind(9, static_cast<std::int64_t>(run.phases));
-    insert.bind(12, std::string_view(name_of(record.verdict())));
-    insert.bind(13, std::string_view(joined_lines(record.warnings)));
-    insert.bind(14, static_cast<std::int64_t>(record.phases));
-    insert.bind(15, static_cast<std::int64_t>(record.steps));
-    insert.bind(16, record.cpu_seconds);
-  }
-  insert.bind(10, std::string_view(name_of(run.status)));
-  insert.bind(11, std::string_view(run.reason));
-  insert.bind(17, run.seconds);
-  for (std::size_t k = 0; k < run.parameters.size(); ++k)
-    insert.bind(static_cast<int>(18 + k), run.parameters[k]);
-  insert.run();
-  add_observables(run);
-}
-
-void SweepStore::forget_the_uncommitted() {
-  transaction_.reset();  // rolled back
-  for (const std::string& name : new_names_) names_.erase(name);
-  for (const std::uint64_t scene : new_scenes_) scenes_.erase(scene);
-  new_names_.clear();
-  new_scenes_.clear();
-}
-
-void SweepStore::commit_now() {
-  if (!transaction_) return;
-  try {
-    transaction_->commit();
-  } catch (...) {
-    forget_the_uncommitted();
-    throw;
-  }
-  transaction_.reset();
-  new_names_.clear();
-  new_scenes_.clear();
-}
-
 void SweepStore::add(const FinishedRun& run) {
   const std::scoped_lock lock(mutex_);
-  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-  if (!transaction_) {
-    transaction_.emplace(*file_);
-    commit_at_ = std::chrono::steady_clock::now() + kCommitTime;
-    begun_.notify_one();
-  }
+  new_names_.clear();
   try {
-    insert(run);
+    SqliteTransaction transaction(*file_);
+    add_scene(run);
+    SqliteStatement& insert = statements_->run;
+    insert.bind(1, static_cast<std::int64_t>(run.run));
+    insert.bind(2, static_cast<std::int64_t>(run.scene));
+    for (int k = 3; k <= 16; ++k) insert.bind_nothing(k);
+    if (run.record != nullptr) {
+      const EngineRecord& record = *run.record;
+      const std::string version =
+          record.version.empty() ? engine_version(record.engine) : record.version;
+      insert.bind(3, std::string_view(engine_family(record.engine)));
+      insert.bind(4, std::string_view(version));
+      insert.bind(5, std::string_view(record.precision));
+      insert.bind(6, std::string_view(record.profile));
+      insert.bind(7, record.rate).bind(8, record.scale);
+      insert.bind(9, static_cast<std::int64_t>(run.phases));
+      insert.bind(12, std::string_view(name_of(record.verdict())));
+      insert.bind(13, std::string_view(joined_lines(record.warnings)));
+      insert.bind(14, static_cast<std::int64_t>(record.phases));
+      insert.bind(15, static_cast<std::int64_t>(record.steps));
+      insert.bind(16, record.cpu_seconds);
+    }
+    insert.bind(10, std::string_view(name_of(run.status)));
+    insert.bind(11, std::string_view(run.reason));
+    insert.bind(17, run.seconds);
+    for (std::size_t k = 0; k < run.parameters.size(); ++k)
+      insert.bind(static_cast<int>(18 + k), run.parameters[k]);
+    insert.run();
+    add_observables(run);
+    transaction.commit();
+    scenes_.insert(run.scene);
   } catch (...) {
-    forget_the_uncommitted();
+    for (const std::string& name : new_names_) names_.erase(name);  // gone with the rest
     throw;
   }
-  if (scenes_.insert(run.scene).second) new_scenes_.push_back(run.scene);
 }
 
-void SweepStore::commit() {
-  const std::scoped_lock lock(mutex_);
-  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-  commit_now();
-}
-
-/// Also where no other run comes for long.
-void SweepStore::commit_in_time(const std::stop_token& stop) {
-  std::unique_lock lock(mutex_);
-  while (begun_.wait(lock, stop, [this] { return transaction_.has_value(); })) {
-    const auto at = commit_at_;
-    begun_.wait_until(lock, stop, at, [&] { return !transaction_ || commit_at_ != at; });
-    if (!transaction_ || commit_at_ != at) continue;
-    try {
-      commit_now();
-    } catch (...) {
-      failure_ = std::current_exception();
-    }
-  }
-}
-
-std::size_t SweepStore::size() {
-  const std::scoped_lock lock(mutex_);
-  return static_cast<std::size_t>(file_->integer_of("SELECT count(*) FROM runs"));
-}
-
-std::vector<bool> SweepStore::done(bool but_failed) {
-  const std::scoped_lock lock(mutex_);
-  return done_in(*file_, runs_, but_failed);
-}
+std::vector<bool> SweepStore::done(bool but_failed) { return done_in(*file_, runs_, but_failed); }
 
 std::map<std::string, std::size_t> SweepStore::statuses() {
-  const std::scoped_lock lock(mutex_);
   std::map<std::string, std::size_t> counts;
   SqliteStatement rows(*file_, "SELECT status, count(*) FROM runs GROUP BY status");
   while (rows.step()) counts[rows.text(0)] = static_cast<std::size_t>(rows.integer(1));
@@ -390,7 +326,6 @@ std::map<std::string, std::size_t> SweepStore::statuses() {
 }
 
 std::vector<std::array<std::string, 3>> SweepStore::engines() {
-  const std::scoped_lock lock(mutex_);
   std::vector<std::array<std::string, 3>> engines;
   SqliteStatement rows(*file_,
                        "SELECT DISTINCT engine, precision, version FROM runs "

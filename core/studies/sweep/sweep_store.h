@@ -1,11 +1,8 @@
 #pragma once
 
 #include <array>
-#include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -13,9 +10,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
-#include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "harness/compare/record.h"
@@ -30,9 +25,6 @@ class BadStore : public std::runtime_error {
 };
 
 inline constexpr int kStoreSchema = 1;
-
-/// For so long at most a run that was added is not on the disk yet.
-inline constexpr std::chrono::milliseconds kCommitTime{100};
 
 /// A column of `runs` that a parameter has.
 struct StoreColumn {
@@ -74,9 +66,9 @@ StoreHead head_of(SqliteFile& store);
 std::vector<bool> runs_done(const std::filesystem::path& path, const StoreHead& head,
                             bool but_failed);
 
-/// The store of one sweep, to write to: an SQLite data base in write-ahead mode, to which what was
-/// added is committed within kCommitTime. One process writes at a time. Whatever ends the process,
-/// the file opens again and holds all runs that were added until kCommitTime before.
+/// The store of one sweep, to write to: an SQLite data base in write-ahead mode, to which each run
+/// is committed by itself. One process writes at a time. Whatever ends the process, the file opens
+/// again and holds all runs that were added.
 class SweepStore {
  public:
   /// Opens the store or makes it, of which nothing stays where it is refused. Throws BadStore where
@@ -87,12 +79,8 @@ class SweepStore {
   SweepStore(const SweepStore&) = delete;
   SweepStore& operator=(const SweepStore&) = delete;
 
-  /// From any thread. Throws SqliteFailure where it or what was added lately cannot be written;
-  /// then nothing of the run is, nor of others since the last commit.
+  /// From any thread. Throws SqliteFailure where it cannot be written; then nothing of the run is.
   void add(const FinishedRun& run);
-  /// Commits what was added. Throws SqliteFailure as add() does.
-  void commit();
-  std::size_t size();  ///< runs that it holds
 
   /// The runs that are there; without those that may come out otherwise another time (crashed,
   /// timed out, skipped) where `but_failed`.
@@ -116,22 +104,11 @@ class SweepStore {
   int lock_ = -1;
   std::unique_ptr<SqliteFile> file_;
   std::unique_ptr<Statements> statements_;
-  void insert(const FinishedRun& run);
-  void commit_now();
-  void forget_the_uncommitted();
-  void commit_in_time(const std::stop_token& stop);
-
   std::mutex mutex_;
-  std::condition_variable_any begun_;
-  std::optional<SqliteTransaction> transaction_;
-  std::chrono::steady_clock::time_point commit_at_;  ///< of the transaction that is open
-  std::exception_ptr failure_;                       ///< of a commit that nobody waited for
   std::map<std::string, std::int64_t> names_;
+  std::vector<std::string> new_names_;  ///< of the transaction that is open
   std::set<std::uint64_t> scenes_;
-  std::vector<std::string> new_names_;     ///< of the transaction that is open
-  std::vector<std::uint64_t> new_scenes_;  ///< likewise
   std::uint64_t runs_ = 0;
-  std::jthread committer_;  ///< last: it ends first
 };
 
 }  // namespace slipcheck
