@@ -79,7 +79,8 @@ std::vector<KnownEngine> known_engines() {
 std::string not_installed_text(const std::string& engine, const std::string& precision) {
   std::string text = engine + " (" + precision + ") is not installed";
   const std::string other = precision == "single" ? "double" : "single";
-  if (find_engine(engine, other)) return text + ", but " + other + " precision is";
+  if ((precision == "single" || precision == "double") && find_engine(engine, other))
+    return text + ", but " + other + " precision is";
   const std::vector<KnownEngine> engines = known_engines();
   const auto known = std::ranges::find(engines, engine_family(engine), &KnownEngine::name);
   if (known == engines.end()) return text;

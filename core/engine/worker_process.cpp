@@ -134,7 +134,8 @@ Bytes WorkerProcess::exchange(const Bytes& message, Clock::time_point deadline) 
   if (by_reply) deadline = begin + limit;
 
   Exchange exchange{message, 0, {}};
-  send_some(exchange);  // the worker waits for it
+  // The worker waits for it. One that has gone may have left a text that says more.
+  static_cast<void>(send_some(exchange));
   while (!exchange.complete()) {
     if (stop_ != nullptr && *stop_) {
       kill_and_reap();
@@ -155,7 +156,7 @@ Bytes WorkerProcess::exchange(const Bytes& message, Clock::time_point deadline) 
 
     if (fds[2].revents != 0) drain_errors();
     if (fds[1].revents != 0) receive_some(exchange);
-    if (fds[0].revents != 0) send_some(exchange);
+    if (fds[0].revents != 0 && !send_some(exchange)) fail_because_gone();
   }
   if (exchange.received.size() > exchange.expected()) {
     fail(Status::crashed, "spoke rubbish: more than one reply to a request");
@@ -164,11 +165,11 @@ Bytes WorkerProcess::exchange(const Bytes& message, Clock::time_point deadline) 
   return std::move(exchange.received);
 }
 
-void WorkerProcess::send_some(Exchange& exchange) {
+bool WorkerProcess::send_some(Exchange& exchange) const {
   const ssize_t n = send(in_, exchange.message.data() + exchange.sent,
                          exchange.message.size() - exchange.sent, MSG_NOSIGNAL);
   if (n > 0) exchange.sent += static_cast<std::size_t>(n);
-  if (n < 0 && errno != EAGAIN && errno != EINTR) fail_because_gone();
+  return n >= 0 || errno == EAGAIN || errno == EINTR;
 }
 
 void WorkerProcess::receive_some(Exchange& exchange) {

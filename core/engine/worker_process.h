@@ -88,7 +88,8 @@ class WorkerProcess {
   [[noreturn]] void fail_because_gone();
   void check_memory();
   void drain_errors();
-  void send_some(Exchange& exchange);
+  /// Whether the worker still takes anything.
+  [[nodiscard]] bool send_some(Exchange& exchange) const;
   void receive_some(Exchange& exchange);
   bool has_exited(std::chrono::milliseconds patience);
   int kill_and_reap();

@@ -42,6 +42,7 @@ gravity: 9.81
 materials: {m: {density: 1000}}
 contacts:
   - {between: [m, substrate], friction: 0.1}
+substrate: {}
 bodies:
   - {name: i, material: m, sphere: {radius: 0.02}, position: [0, 0], velocity: [1, 0]}
 run: {until: 0.1}
@@ -77,13 +78,13 @@ class Checkpoints(unittest.TestCase):
     def tearDown(self):
         self.directory.cleanup()
 
-    def command(self, name, *more):
+    def command(self, name, *more, limit=600):
         return [SLIPCHECK, "run", f"{name}.yaml", "--json", "out.json", "--quiet", "--time-limit",
-                "600", *more]
+                str(limit), *more]
 
-    def run_to_end(self, name, *more):
-        done = subprocess.run(self.command(name, *more), cwd=self.path, capture_output=True,
-                              text=True)
+    def run_to_end(self, name, *more, limit=600):
+        done = subprocess.run(self.command(name, *more, limit=limit), cwd=self.path,
+                              capture_output=True, text=True)
         return done.returncode, done.stderr
 
     def refusal(self, name, *more):
@@ -140,8 +141,8 @@ class Checkpoints(unittest.TestCase):
     def keep_something(self, name):
         kept = self.path / "kept" / f"{name}.checkpoint"
         # Out of time is an end that keeps what there is.
-        code, said = self.run_to_end(name, "--time-limit", "3", "--checkpoint", "kept",
-                                     "--checkpoint-every", "0")
+        code, said = self.run_to_end(name, "--checkpoint", "kept", "--checkpoint-every", "0",
+                                     limit=3)
         self.assertTrue(kept.exists(), said)
         self.assertIn("--resume goes on from there", said)
         self.assertNotEqual(code, 0)

@@ -223,7 +223,7 @@ TEST(SceneRun, WhatAnEngineIsKnownToDoIsWithin) {
 TEST(SceneRun, WhatIsNotThereIsSkippedWithAReason) {
   const auto scenes = run(pair_scene("{engine: faulty, precision: single, rate: 240}"));
   EXPECT_EQ(scenes[0].runs[0].status, EngineRecord::Status::skipped);
-  EXPECT_EQ(scenes[0].runs[0].reason, "faulty (single) is not installed");
+  EXPECT_EQ(scenes[0].runs[0].reason, "faulty (single) is not installed, but double precision is");
   EXPECT_EQ(scenes[0].verdict(), Verdict::undecided);
 }
 

@@ -138,7 +138,7 @@ async function folds() {
     const k = data.scenes.findIndex((scene) => scene.runs.length);
     await page.locator(`.matrix tr[data-scene="${k}"] th a`).click();
     const section = page.locator(`section.scene[data-scene="${k}"]`);
-    assert(await section.locator('> details').evaluate((one) => one.open));
+    await section.locator('> details[open] .run').first().waitFor({ state: 'attached' });
     assert.equal(await section.locator('.run').count(), data.scenes[k].runs.length);
     assert((await address(page)).includes(`scene=${data.scenes[k].name}`), await address(page));
     const top = await section.evaluate((one) => one.getBoundingClientRect().top);

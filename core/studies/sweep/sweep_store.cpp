@@ -8,9 +8,11 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <thread>
 #include <utility>
 
 #include "engine/engine_registry.h"
@@ -50,6 +52,17 @@ std::string rule_of(const SqliteFailure& failure) {
 bool is_empty(SqliteFile& file) {
   return file.integer_of("PRAGMA application_id") == 0 &&
          file.integer_of("SELECT count(*) FROM sqlite_master") == 0;
+}
+
+/// What a writer that was killed had begun to start holds its lock until it is another program.
+bool takes_lock(int file) {
+  using namespace std::chrono_literals;
+  const auto until = std::chrono::steady_clock::now() + 1s;
+  while (::flock(file, LOCK_EX | LOCK_NB) != 0) {
+    if (std::chrono::steady_clock::now() >= until) return false;
+    std::this_thread::sleep_for(10ms);
+  }
+  return true;
 }
 
 }  // namespace
@@ -151,7 +164,7 @@ SweepStore::SweepStore(const fs::path& path, const StoreHead& head) : path_(path
       fs::remove(path.string() + end, ignored);
   };
   try {
-    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0)
+    if (!takes_lock(lock_))
       refuse(path, "must be written by one process at a time, and another one writes it");
     file_ = std::make_unique<SqliteFile>(path, SqliteFile::Access::write);
     if (is_empty(*file_))
