@@ -27,9 +27,12 @@ constexpr std::string_view kMagic = "slipcheck-checkpoint/1";
 constexpr std::size_t kMostHeader = 512;
 constexpr FileLimit kLimit{std::size_t{1} << 40, "checkpoints"};
 
+/// One word, of a build's several.
 std::string program() {
   const Context& c = context();
-  return fmt::format("{}+{}+{}", c.version, c.commit, c.build);
+  std::string text = fmt::format("{}+{}+{}", c.version, c.commit, c.build);
+  std::ranges::replace(text, ' ', '_');
+  return text;
 }
 
 std::string scene_of(const Scenario& scenario, bool general, const ReferenceExtras& wanted) {
