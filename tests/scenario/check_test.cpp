@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-
 #include "scenario/rules/overlap.h"
 #include "scenes.h"
 
