@@ -3,7 +3,7 @@
 
 usage: checkpoint_test.py SLIPCHECK SOURCE_DIR [sanitized]
 
-SLIPCHECK_KILLS: moments of each scene at which it is killed, 3 if not given.
+SLIPCHECK_KILLS: moments of each scene at which it is killed, 3 if not given, 2 under sanitizers.
 """
 import json
 import os
@@ -19,7 +19,7 @@ from pathlib import Path
 
 SLIPCHECK = sys.argv[1]
 SANITIZED = "sanitized" in sys.argv[3:]
-KILLS = int(os.environ.get("SLIPCHECK_KILLS", "3"))
+KILLS = int(os.environ.get("SLIPCHECK_KILLS", "2" if SANITIZED else "3"))
 
 SCENE = """slipcheck: 1
 name: {name}
