@@ -38,7 +38,7 @@ EngineExecutable executable_of(const TuneArguments& arguments) {
 
 /// The name under which the profile will be known.
 std::string profile_name(const std::string& output) {
-  const std::string name = fs::path(output).stem().string();
+  std::string name = fs::path(output).stem().string();
   const bool good = !name.empty() && std::ranges::all_of(name, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
   });
