@@ -61,9 +61,10 @@ Scene few_spheres(double friction) {
   Scene scene = box.scene();
   for (std::size_t i = 0; i < box.count; ++i) {
     const double k = static_cast<double>(i);
+    const std::size_t row = i / 3;
     BodyState& state = scene.initial[i];
     state.position.x() = (1.1 + 2.4 * static_cast<double>(i % 3)) * box.diameter;
-    state.position.z() = (1.5 + 2.0 * static_cast<double>(i / 3)) * box.diameter;
+    state.position.z() = (1.5 + 2.0 * static_cast<double>(row)) * box.diameter;
     state.velocity = 0.35 * Vector3(std::sin(1 + 5 * k), 0, std::cos(3 * k));
     state.angular_velocity.y() = 500 * std::sin(2 + k);
   }

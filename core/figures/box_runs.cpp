@@ -111,8 +111,9 @@ Scene VibratedBox::scene() const {
     // The standard's distributions differ between libraries; its generators do not.
     const double angle = 2 * std::numbers::pi * static_cast<double>(random() >> 11) * 0x1p-53;
     BodyState state;
+    const auto rows_below = i / in_row;
     state.position.x() = (static_cast<double>(i % in_row) + 0.5) * apart;
-    state.position.z() = (0.55 + 1.1 * static_cast<double>(i / in_row)) * row;
+    state.position.z() = (0.55 + 1.1 * static_cast<double>(rows_below)) * row;
     state.velocity = 0.2 * speed * Vector3(std::cos(angle), 0, std::sin(angle));
     scene.initial.push_back(state);
   }

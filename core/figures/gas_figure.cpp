@@ -56,8 +56,9 @@ Scene rolling_gas(double area_fraction) {
     // 53 random bits are the same on every platform.
     const double angle = 2 * std::numbers::pi * static_cast<double>(random() >> 11) * 0x1p-53;
     BodyState state;
+    const auto rows_below = i / kSide;
     state.position = {(static_cast<double>(i % kSide) + 0.5) * cell,
-                      (static_cast<double>(i / kSide) + 0.5) * cell, kRadius};
+                      (static_cast<double>(rows_below) + 0.5) * cell, kRadius};
     state.velocity = {kSpeed * std::cos(angle), kSpeed * std::sin(angle), 0};
     state.angular_velocity = rolling_angular_velocity(state.velocity, kRadius);
     scene.bodies.push_back({kRadius, 1, 0.4});

@@ -14,6 +14,7 @@
 #include "../support/refusal.h"
 #include "engine/npm_install.h"
 #include "engine/remote_engine.h"
+#include "support/text_of.h"
 
 namespace slipcheck {
 namespace {
@@ -77,10 +78,7 @@ echo '{}' > package-lock.json
     write("bin/" + name, "#!/bin/sh\n" + script);
     fs::permissions(folder_ / "bin" / name, fs::perms::owner_all);
   }
-  std::string read(const fs::path& file) const {
-    std::ifstream in(folder_ / file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string read(const fs::path& file) const { return test::text_of(folder_ / file); }
   /// All that there is where engines are installed, hidden or not.
   std::vector<std::string> installed() const {
     std::vector<std::string> names;

@@ -4,8 +4,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -14,6 +12,7 @@
 #include "engine/scene_json.h"
 #include "engine/scene_needs.h"
 #include "some_scene.h"
+#include "support/text_of.h"
 
 namespace slipcheck::protocol {
 namespace {
@@ -339,8 +338,7 @@ TEST(Protocol, TheDocumentsExampleIsWhatIsSent) {
   const Bytes expected = {0x12, 0x00, 0x00, 0x00, 0xa2, 0x65, 'c',  'o', 'u', 'n', 't',
                           0x01, 0x64, 't',  'y',  'p',  'e',  0x64, 's', 't', 'e', 'p'};
   EXPECT_EQ(encode(Request(Step{1})), expected);
-  std::ifstream file(std::string(SLIPCHECK_SOURCE_DIR) + "/docs/engine-protocol.md");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = test::text_of(SLIPCHECK_SOURCE_DIR "/docs/engine-protocol.md");
   EXPECT_NE(text.find("12 00 00 00  a2 65 63 6f 75 6e 74 01 64 74 79 70 65 64 73 74 65 70"),
             std::string::npos);
 }

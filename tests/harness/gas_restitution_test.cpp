@@ -11,18 +11,22 @@
 namespace slipcheck {
 namespace {
 
+/// The same two bodies once more, so far away along y: two collisions to average.
+Scene with_a_second_pair(Scene scene, double away) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    scene.bodies.push_back(scene.bodies[i]);
+    scene.material.push_back(scene.material[i]);
+    scene.initial.push_back(scene.initial[i]);
+    scene.initial.back().position.y() += away;
+  }
+  return scene;
+}
+
 /// Two rolling balls that meet head-on, and nothing else: e_eff = (A e_n − 1)/(1+A), K (44) for s.
 TEST(GasRestitution, OfOnePairIsKondics) {
   const double v = 0.15, e = 0.9;
   const Scene scene = test::head_on(v, -v, e);
-  // A second pair far away, so that there are two collisions to average.
-  Scene two = scene;
-  for (std::size_t i = 0; i < 2; ++i) {
-    two.bodies.push_back(scene.bodies[i]);
-    two.material.push_back(scene.material[i]);
-    two.initial.push_back(scene.initial[i]);
-    two.initial.back().position.y() += 1;
-  }
+  const Scene two = with_a_second_pair(scene, 1);
   GasRestitution seen(two, 2, 1e-12);
   EventSolver(two, two.initial).run({Run::Until::rolling, 0, 10}, &seen);
   ASSERT_EQ(seen.windows().size(), 1u);
@@ -51,13 +55,7 @@ TEST(GasRestitution, AcrossAPeriodicEdgeIsTheSame) {
   for (std::size_t i = 0; i < 2; ++i) {  // now 1 cm apart around the edge, and they come nearer
     scene.initial[i].position.x() += i == 0 ? 0.015 : -0.015;
   }
-  Scene two = scene;
-  for (std::size_t i = 0; i < 2; ++i) {
-    two.bodies.push_back(scene.bodies[i]);
-    two.material.push_back(scene.material[i]);
-    two.initial.push_back(scene.initial[i]);
-    two.initial.back().position.y() += 0.01;
-  }
+  const Scene two = with_a_second_pair(scene, 0.01);
   GasRestitution both(two, 2, 1e-12);
   // They slide for 83 ms from 20 ms on, and are back where they began, around the cell, after 160.
   EventSolver(two, two.initial).run(until_time(0.15), &both);

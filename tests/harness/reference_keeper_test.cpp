@@ -11,13 +11,13 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <thread>
 
 #include "harness/run/reference_run.h"
 #include "reference/reference_solver.h"
 #include "scenario/load.h"
+#include "support/text_of.h"
 
 namespace slipcheck {
 namespace {
@@ -63,13 +63,6 @@ std::string told(const ReferenceResult& result) {
   return text;
 }
 
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 void put(const fs::path& path, std::string_view text) {
   const fs::path beside = path.string() + ".tmp";
   {
@@ -86,7 +79,7 @@ pid_t begin(const Scenario& scenario, const fs::path& kept, const fs::path& resu
   ReferenceExtras extras;
   extras.samples = 20;
   extras.checkpoints = Checkpoints{.every = 0.003,
-                                   .state = contents(kept),
+                                   .state = test::text_of(kept),
                                    .write = [&](std::string_view state) { put(kept, state); }};
   const ContactScene scene = make_contact_scene(scenario);
   const ReferenceSolver solver(scene, reference_settings(scenario));
@@ -144,7 +137,7 @@ TEST_P(KilledReference, EndsWithTheSameBytes) {
       continue;
     }
     // It came to its end before: once more from the start.
-    EXPECT_EQ(contents(result), told(whole)) << "piece " << k;
+    EXPECT_EQ(test::text_of(result), told(whole)) << "piece " << k;
     fs::remove(kept);
     fs::remove(result);
   }
@@ -153,7 +146,7 @@ TEST_P(KilledReference, EndsWithTheSameBytes) {
   int status = 0;
   waitpid(begin(scenario, kept, result), &status, 0);
   EXPECT_EQ(status, 0);
-  EXPECT_EQ(contents(result), told(whole));
+  EXPECT_EQ(test::text_of(result), told(whole));
   fs::remove_all(folder);
 }
 

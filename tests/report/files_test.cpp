@@ -8,12 +8,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "../support/as_nobody.h"
 #include "../support/in_folder.h"
 #include "../support/refusal.h"
+#include "support/text_of.h"
 
 namespace slipcheck::testing {
 namespace {
@@ -26,11 +26,6 @@ class WriteFile : public test::InFolder {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
-  static std::string read(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-  }
   static std::string failure(const fs::path& path) {
     return test::refusal_of<WriteFailure>([&] { write_file_atomically(path, "new"); });
   }
@@ -39,7 +34,7 @@ class WriteFile : public test::InFolder {
 TEST_F(WriteFile, WritesEveryByteAndNothingElse) {
   const std::string text = std::string("a\0b\r\n", 5) + std::string(300'000, 'x');
   write_file_atomically(folder_ / "result.json", text);
-  EXPECT_EQ(read(folder_ / "result.json"), text);
+  EXPECT_EQ(test::text_of(folder_ / "result.json"), text);
   EXPECT_EQ(files(), 1u);
 }
 
@@ -48,7 +43,7 @@ TEST_F(WriteFile, ReplacesAFileAndKeepsItsPermissions) {
   write_file_atomically(path, "old");
   fs::permissions(path, fs::perms::owner_read | fs::perms::owner_write);
   write_file_atomically(path, "new");
-  EXPECT_EQ(read(path), "new");
+  EXPECT_EQ(test::text_of(path), "new");
   EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read | fs::perms::owner_write);
   EXPECT_EQ(files(), 1u);
 }
@@ -78,7 +73,7 @@ TEST_F(WriteFile, LeavesTheOldFileInAReadOnlyFolder) {
   write_file_atomically(path, "old");
   fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_EQ(failure(path), "cannot write " + path.string() + ": Permission denied");
-  EXPECT_EQ(read(path), "old");
+  EXPECT_EQ(test::text_of(path), "old");
   EXPECT_EQ(files(), 1u);
 }
 
@@ -94,7 +89,7 @@ TEST_F(WriteFile, LeavesTheOldFileWhenWritingBreaksOff) {
   ::setrlimit(RLIMIT_FSIZE, &limit);
   std::signal(SIGXFSZ, handler);
   EXPECT_EQ(message, "cannot write " + path.string() + ": File too large");
-  EXPECT_EQ(read(path), "old");
+  EXPECT_EQ(test::text_of(path), "old");
   EXPECT_EQ(files(), 1u);
 }
 
@@ -110,7 +105,7 @@ TEST_F(WriteFile, PassesOverWhatAnEarlierProcessOfThisNumberLeft) {
                   (".slipcheck-" + std::to_string(::getpid()) + "-" + std::to_string(k) + ".tmp"))
         << "left";
   write_file_atomically(folder_ / "result.json", "new");
-  EXPECT_EQ(read(folder_ / "result.json"), "new");
+  EXPECT_EQ(test::text_of(folder_ / "result.json"), "new");
   EXPECT_EQ(files(), 1001u);
 }
 
@@ -132,7 +127,7 @@ TEST_F(WriteFile, WritesToTheTargetOfALink) {
   fs::create_symlink("target", folder_ / "link");
   write_file_atomically(folder_ / "link", "new");
   EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
-  EXPECT_EQ(read(folder_ / "target"), "new");
+  EXPECT_EQ(test::text_of(folder_ / "target"), "new");
 }
 
 TEST_F(WriteFile, WritesToADeviceAsItIs) {
@@ -153,7 +148,7 @@ TEST_F(WriteFile, ShowsAReaderTheOldOrTheNewTextOnly) {
     for (int k = 0; k < 20; ++k) write_file_atomically(path, k % 2 ? a : b);
   });
   for (int k = 0; k < 100; ++k) {
-    const std::string text = read(path);
+    const std::string text = test::text_of(path);
     EXPECT_TRUE(text == a || text == b);
   }
   writer.join();

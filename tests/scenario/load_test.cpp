@@ -1,10 +1,9 @@
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
 #include "scenario/file_text.h"
 #include "scenes.h"
+#include "support/text_of.h"
 
 namespace slipcheck {
 namespace {
@@ -74,8 +73,7 @@ TEST(Load, ReadsTheExampleOfTheDocumentation) {
 }
 
 TEST(Load, TheDocumentationShowsThisExample) {
-  std::ifstream file(SLIPCHECK_SOURCE_DIR "/docs/scenario-format.md");
-  const std::string document{std::istreambuf_iterator<char>(file), {}};
+  const std::string document = test::text_of(SLIPCHECK_SOURCE_DIR "/docs/scenario-format.md");
   const std::string fence = "```yaml\n";
   std::size_t scenes = 0;
   for (std::size_t at = 0; (at = document.find(fence, at)) != std::string::npos;) {

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
 #include "scenario/load.h"
 #include "scenario/observable_names.h"
+#include "support/text_of.h"
 
 namespace slipcheck {
 namespace {
@@ -22,13 +21,8 @@ using nlohmann::json;
 
 const fs::path kSource = SLIPCHECK_SOURCE_DIR;
 
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(Schema, FileHasTheTableAndASweep) {
-  json written = json::parse(contents(kSource / "scenarios/schema.json"));
+  json written = json::parse(test::text_of(kSource / "scenarios/schema.json"));
   EXPECT_EQ(written["properties"].erase("sweep"), 1u);  // SweepSchema.FileIsUpToDate
   EXPECT_EQ(written, scenario_schema());
 }
@@ -44,7 +38,7 @@ void collect_keys(const json& schema, std::set<std::string>& keys) {
 }
 
 TEST(Schema, EveryKeyAndWordIsDocumented) {
-  const std::string document = contents(kSource / "docs/scenario-format.md");
+  const std::string document = test::text_of(kSource / "docs/scenario-format.md");
   const auto is_letter = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
   };
@@ -77,7 +71,7 @@ TEST(BundledScenarios, LoadAndNameTheSchema) {
   for (const auto& entry : fs::directory_iterator(kSource / "scenarios")) {
     if (entry.path().extension() != ".yaml") continue;
     EXPECT_NO_THROW(load_scenario(entry.path())) << entry.path();
-    const std::string text = contents(entry.path());
+    const std::string text = test::text_of(entry.path());
     EXPECT_EQ(text.substr(0, text.find('\n')), "# yaml-language-server: $schema=schema.json")
         << entry.path();
   }

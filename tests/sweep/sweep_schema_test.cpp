@@ -3,11 +3,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "studies/sweep/sweep_block.h"
+#include "support/text_of.h"
 
 namespace slipcheck {
 namespace {
@@ -17,23 +17,18 @@ using nlohmann::json;
 
 const fs::path kSource = SLIPCHECK_SOURCE_DIR;
 
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // After a change of the format: SLIPCHECK_UPDATE_SCHEMA=1 sweep_tests
 // --gtest_filter='SweepSchema.*'
 TEST(SweepSchema, FileIsUpToDate) {
   const fs::path file = kSource / "scenarios/schema.json";
   const std::string expected = sweep_file_schema().dump(2) + "\n";
   if (std::getenv("SLIPCHECK_UPDATE_SCHEMA")) std::ofstream(file, std::ios::binary) << expected;
-  EXPECT_EQ(contents(file), expected) << "see the comment above this test";
+  EXPECT_EQ(test::text_of(file), expected) << "see the comment above this test";
 }
 
 TEST(SweepSchema, EditorsCompleteWhatVaries) {
   const json sweep = sweep_file_schema()["properties"]["sweep"];
-  const std::string document = contents(kSource / "docs/sweeps.md");
+  const std::string document = test::text_of(kSource / "docs/sweeps.md");
   for (const char* part : {"grid", "list", "latin_hypercube", "sobol"})
     EXPECT_FALSE(sweep["properties"][part]["description"].get<std::string>().empty()) << part;
   const json& names = sweep["properties"]["grid"]["properties"];

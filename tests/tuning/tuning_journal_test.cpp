@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "../support/refusal.h"
+#include "support/text_of.h"
 
 namespace slipcheck {
 namespace {
@@ -58,9 +58,7 @@ TEST_F(Journal, IsOneObjectALineWithItsFieldsInOrder) {
 
   fs::remove(file);
   { TuningJournal(file).add({{kQuestion, answer}}); }
-  std::stringstream written;
-  written << std::ifstream(file).rdbuf();
-  EXPECT_EQ(written.str(), text);
+  EXPECT_EQ(test::text_of(file), text);
 }
 
 TEST_F(Journal, RefusesAFileThatIsNone) {

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <random>
 
+#include "support/text_of.h"
 #include "tuning_synthetic.h"
 
 namespace slipcheck {
@@ -32,10 +32,7 @@ struct Tuning : testing::Test {
     TuningEvaluator evaluator(synthetic_tasks(held_out), "test", {}, 16, runs, journal, {});
     return tune(space, evaluator, {{goal, 1, {}}, 64});
   }
-  std::string text() const {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string text() const { return test::text_of(file); }
   void write(const std::string& what) const { std::ofstream(file) << what; }
 };
 

@@ -117,7 +117,8 @@ SolvedRun PlanarSolver::run(Scheduler& scheduler, const RunEnd& end, FrameSink* 
       world_.show(shown = next_sample, *sink);
       next_sample = interval > 0 ? ++samples * interval : kNever;
     }
-    if (!(next <= last)) {
+    goes_on = next <= last;
+    if (!goes_on) {
       if (std::isfinite(last)) now_ = last;
       run.stop_at_limit(end.until);
       break;

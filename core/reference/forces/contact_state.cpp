@@ -232,7 +232,7 @@ CollisionResult ContactState::collide_now(std::size_t i, std::size_t j) {
   // What stays together afterwards needs no rule to end.
   const double fraction = scene_->between(i, j) ? 0 : scales_.rebound_fraction;
   const double hardest = std::max(hardest_impact_[i], hardest_impact_[j]);
-  const CollisionResult result =
+  CollisionResult result =
       scene.collide(i, j, {scene.confined, fraction * hardest},
                     {scene.bodies[i], scene.on_substrate(i), a, dynamics_.modes[i].on_plane()},
                     {scene.bodies[j], scene.on_substrate(j), b, dynamics_.modes[j].on_plane()});

@@ -32,7 +32,7 @@ struct Modulus {
 NormalForce shortened(NormalForce force, const ImpactScales& scales, double mass, double speed,
                       double s) {
   std::visit(Modulus{std::pow(s, -(1 + scales.law.alpha))}, force);
-  return with_dissipation(std::move(force), mass, speed, scales.dissipation);
+  return with_dissipation(force, mass, speed, scales.dissipation);
 }
 
 TangentialForce shortened(TangentialForce force, double s) {

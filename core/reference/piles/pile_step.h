@@ -125,8 +125,8 @@ class PileStep {
     lost += stiffen(c, now.stiffness);
     const double before = std::exchange(c.stiffness, now.stiffness);
     Vector3 cut;
-    const Vector3 force = take(now, before, Vector3(way * m.slip_before), m.slip, c.sliding,
-                               c.sliding_dashpot, lost, &cut);
+    Vector3 force = take(now, before, Vector3(way * m.slip_before), m.slip, c.sliding,
+                         c.sliding_dashpot, lost, &cut);
     if (opens && c.sliding.slides) open(c, cut);
     return force;
   }

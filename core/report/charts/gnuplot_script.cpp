@@ -266,7 +266,8 @@ double legend_height(const Panel& legend, std::size_t& columns) {
   measure(legend.looks);
   columns = std::clamp<std::size_t>(static_cast<std::size_t>((kChartWidth - 20) / widest), 1,
                                     std::max<std::size_t>(1, count));
-  return kLegendLine * static_cast<double>((count + columns - 1) / columns);
+  const std::size_t rows = (count + columns - 1) / columns;
+  return kLegendLine * static_cast<double>(rows);
 }
 
 /// Samples and names in equal columns, drawn over axes in px.
@@ -284,7 +285,8 @@ void ScriptWriter::draw_legend(const ChartPlace& frame) {
   std::size_t k = 0;
   const double width = frame.width / static_cast<double>(columns);
   const auto put = [&](const std::string& label) {
-    const double x = width * static_cast<double>(k / rows) + 8;
+    const std::size_t column = k / rows;
+    const double x = width * static_cast<double>(column) + 8;
     const double y = height - kLegendLine * (static_cast<double>(k % rows) + 0.5);
     line("set label {} at {}, {} left", gnuplot_text(label), x + kSample + 8, y);
     ++k;

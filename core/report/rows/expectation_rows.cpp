@@ -83,7 +83,7 @@ std::string unmet_expectation(const EngineRecord& run, bool with_limits) {
   for (const ExpectationRow& row : expectation_rows(run)) {
     if (row.met) continue;
     const std::string statistic = row.statistic.empty() ? "" : " " + row.statistic;
-    const std::string seen = row.name + statistic + " " + row.value.text;
+    std::string seen = row.name + statistic + " " + row.value.text;
     if (!with_limits) return seen;
     const std::string note = row.note.empty() ? "" : " (" + row.note + ")";
     return fmt::format("{}, expected {}{}", seen, row.limits.text, note);

@@ -21,8 +21,9 @@ Scene spheres_on_plane(std::size_t bodies) {
     scene.bodies.push_back(trial_sphere());
     scene.material.push_back(0);
     BodyState state;
+    const std::size_t row = i / kInRow;
     state.position = {3 * kTrialRadius * static_cast<double>(i % kInRow),
-                      3 * kTrialRadius * static_cast<double>(i / kInRow), kTrialRadius};
+                      3 * kTrialRadius * static_cast<double>(row), kTrialRadius};
     scene.initial.push_back(state);
   }
   SubstrateContact ground;

@@ -206,7 +206,7 @@ MethodCurve Curves::fixed_step(std::span<const double> steps_per_contact) const 
   const double contact = shortest_contact();
   try {
     // Says what it cannot do before anything else is decided.
-    StepSolver(*scene_.contact, scene_.contact->hard.initial, {1});
+    [[maybe_unused]] const StepSolver one(*scene_.contact, scene_.contact->hard.initial, {1});
     if (!std::isfinite(contact)) return skipped(curve, "no contact of bodies sets a step");
     for (const double count : steps_per_contact)
       curve.points.push_back(stepped_point(contact / count));
