@@ -85,8 +85,8 @@ void describe(Fields& f, BallShape& ball) {
 /// The three kinds that move along themselves or away.
 template <class Fields>
 void describe_course(Fields& f, SurfaceCourse kind, SurfaceMotion& motion) {
-  SubstrateMotion course =
-      motion.course();  // NOLINT(performance-unnecessary-copy-initialization): read into
+  // Read into, which the check does not see: NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
+  SubstrateMotion course = motion.course();
   Vector3 first = motion.first(), second = motion.second();
   f("course", course);
   describe_direction(f, "first", first);
