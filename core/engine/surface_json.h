@@ -85,7 +85,8 @@ void describe(Fields& f, BallShape& ball) {
 /// The three kinds that move along themselves or away.
 template <class Fields>
 void describe_course(Fields& f, SurfaceCourse kind, SurfaceMotion& motion) {
-  // Read into, which the check does not see: NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
+  // It is read into, which the check does not see.
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
   SubstrateMotion course = motion.course();
   Vector3 first = motion.first(), second = motion.second();
   f("course", course);
