@@ -22,6 +22,7 @@
 #include "harness/run/scene_run.h"
 #include "report/files/check_files.h"
 #include "report/files/files.h"
+#include "report/html/report_page.h"
 #include "report/rows/context.h"
 #include "report/terminal/check_table.h"
 #include "studies/baseline/baseline_json.h"
@@ -36,7 +37,7 @@ using Baselines = std::map<std::string, SceneBaseline>;
 struct CheckArguments {
   std::vector<std::string> files;
   std::string baselines, changes, why;
-  std::string junit, markdown, json;
+  std::string html, junit, markdown, json;
   std::vector<std::string> settings;
   RunOptions options;
   bool update = false, all = false, quiet = false;
@@ -49,6 +50,7 @@ void check_arguments(const CheckArguments& arguments) {
         "as they are shipped");
   if (!arguments.update && !arguments.why.empty())
     throw BadOption("--why: must stand beside --update");
+  check_output("--html", arguments.html, false);
   check_output("--junit", arguments.junit, false);
   check_output("--markdown", arguments.markdown, false);
   check_output("--json", arguments.json, false);
@@ -87,29 +89,42 @@ Baselines load(const CheckArguments& arguments, bool all, const std::vector<Scen
 /// `all`: baselines of other scenes are left over.
 CheckReport hold(const CheckArguments& arguments, const Baselines& baselines,
                  const std::vector<SceneRecord>& scenes, bool all) {
-  CheckReport report{arguments.baselines, arguments.options.phases, {}, {}};
+  CheckReport report =
+      check_scenes(arguments.baselines, arguments.options.phases, baselines, scenes);
   if (baselines.empty())
     report.advice = fmt::format(
         "there are no baselines yet: slipcheck check{} --baselines {} "
         "--update makes them",
         all ? "" : fmt::format(" {}", fmt::join(arguments.files, " ")), arguments.baselines);
-  std::set<std::string> names;
-  for (const SceneRecord& scene : scenes) {
-    const std::string& name = scene.scenario.name;
-    names.insert(name);
-    const auto baseline = baselines.find(name);
-    // Of another size only where it is about to be replaced: no number would compare.
-    const bool compares =
-        baseline != baselines.end() && baseline->second.phases == arguments.options.phases;
-    report.scenes.push_back(compares ? check_scene(baseline->second, scene)
-                                     : scene_without_baseline(name));
-  }
+  const auto is_of = [](const std::string& name) {
+    return [&name](const SceneRecord& scene) { return scene.scenario.name == name; };
+  };
   if (all)
     for (const auto& [name, baseline] : baselines)
-      if (!names.contains(name))
+      if (std::ranges::none_of(scenes, is_of(name)))
         report.scenes.push_back(
             baseline_without_scene(name, baseline_file(arguments.baselines, name).string()));
   return report;
+}
+
+/// The command that gives these results again, but for where they are written.
+std::string command_of(const CheckArguments& arguments, bool all) {
+  std::string command = "slipcheck check";
+  if (!all) command += fmt::format(" {}", fmt::join(arguments.files, " "));
+  command +=
+      fmt::format(" --baselines {} --phases {}", arguments.baselines, arguments.options.phases);
+  for (const std::string& setting : arguments.settings) command += " --set " + setting;
+  return command;
+}
+
+void write_page(const CheckArguments& arguments, const CheckReport& report,
+                const std::vector<SceneRecord>& scenes, bool all) {
+  ReportContent content;
+  content.context = context();
+  content.commands = {command_of(arguments, all)};
+  content.moved = moved_since(report);
+  content.scenes = scenes;
+  write_file_atomically(arguments.html, report_page(content));
 }
 
 void write_files(const CheckArguments& arguments, const CheckReport& report) {
@@ -169,6 +184,7 @@ int check(CheckArguments& arguments) {
   const Baselines baselines = load(arguments, all, scenarios);
 
   arguments.options.stop = &interrupted();
+  arguments.options.record_motion = !arguments.html.empty();
   if (!arguments.quiet) say("{}", debug_build_warning());
   std::vector<SceneRecord> scenes;
   {
@@ -183,6 +199,7 @@ int check(CheckArguments& arguments) {
   }
   const CheckReport report = hold(arguments, baselines, scenes, all);
   write_files(arguments, report);
+  if (!arguments.html.empty()) write_page(arguments, report, scenes, all);
   if (arguments.update) {
     update(arguments, baselines, scenes, report, all);
     return kWithinTolerance;
@@ -194,6 +211,8 @@ int check(CheckArguments& arguments) {
 }
 
 void add_outputs(CLI::App& command, CheckArguments& arguments) {
+  command.add_option("--html", arguments.html,
+                     "Write one self-contained page here: what has moved, then all results");
   command.add_option("--junit", arguments.junit,
                      "Write JUnit XML here: a test for each scene's reference and each run");
   command.add_option("--markdown", arguments.markdown,

@@ -1,12 +1,17 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/output.h"
+#include "report/charts/store_charts.h"
 #include "report/files/files.h"
+#include "report/html/store_page.h"
 #include "report/rows/query_rows.h"
 #include "report/terminal/table_style.h"
 #include "studies/sweep/store_query.h"
@@ -19,22 +24,54 @@ namespace {
 constexpr std::size_t kShownRows = 40;
 
 struct QueryArguments {
-  std::string store, csv, json;
+  std::string store, csv, json, html, svg, outcome;
   StoreQuery query;
   bool observables = false, phases = false;
 };
 
+/// The command that gives this page again, but for where it is written.
+std::string command_of(const QueryArguments& arguments, const std::string& outcome) {
+  return fmt::format("slipcheck query {} {}{}--of {}", arguments.store,
+                     fmt::join(arguments.query.filters, " "),
+                     arguments.query.filters.empty() ? "" : " ", outcome);
+}
+
+/// The page and the folder of charts that are asked for.
+void write_views(const QueryArguments& arguments, SqliteFile& store) {
+  if (arguments.html.empty() && arguments.svg.empty()) return;
+  const std::string outcome = arguments.outcome.empty() ? usual_outcome(store) : arguments.outcome;
+  if (outcome.empty()) throw BadQuery("must hold a value to draw: no run shows one");
+  const StoreView view = view_of_store(store, arguments.query.filters, outcome);
+  const std::vector<Chart> charts = store_charts(view);
+  const ChartDrawings drawn = draw_charts(charts);
+  if (!arguments.svg.empty()) {
+    if (!drawn.trouble.empty()) throw std::runtime_error(drawn.trouble);
+    write_charts(arguments.svg, charts, drawn, true);
+  }
+  if (arguments.html.empty()) return;
+  StoreQuery runs = arguments.query;
+  if (runs.limit == 0) runs.limit = kMostStoreRows;
+  write_file_atomically(arguments.html,
+                        store_page(view, query_store(store, runs), charts, drawn,
+                                   head_of(store).program, command_of(arguments, outcome)));
+}
+
 int query(QueryArguments& arguments) {
   check_output("--csv", arguments.csv, false);
   check_output("--json", arguments.json, false);
+  check_output("--html", arguments.html, false);
+  check_output("--svg", arguments.svg, true);
   StoreQuery& asked = arguments.query;
   if (arguments.observables) asked.rows = StoreQuery::Rows::observables;
   if (arguments.phases) asked.rows = StoreQuery::Rows::phases;
-  const bool is_table = arguments.csv.empty() && arguments.json.empty();
+  const bool is_table = arguments.csv.empty() && arguments.json.empty() && arguments.html.empty() &&
+                        arguments.svg.empty();
   if (is_table && asked.limit == 0) asked.limit = kShownRows;
   QueryResult result;
   try {
-    result = query_store(*open_store(arguments.store), asked);
+    const std::unique_ptr<SqliteFile> store = open_store(arguments.store);
+    result = query_store(*store, asked);
+    write_views(arguments, *store);
   } catch (const BadQuery& bad) {
     throw BadOption(fmt::format("{}: {}", arguments.store, bad.what()));
   } catch (const SqliteFailure& failure) {
@@ -70,15 +107,27 @@ void add_query_command(CLI::App& app, int& exit_code) {
                       "40");
   auto* observables =
       command->add_flag("--long", arguments->observables, "A row for each observable of each run");
-  command
-      ->add_flag("--phases", arguments->phases,
-                 "A row for each phase of each observable with a tolerance")
-      ->excludes(observables);
+  auto* phases = command
+                     ->add_flag("--phases", arguments->phases,
+                                "A row for each phase of each observable with a tolerance")
+                     ->excludes(observables);
+  auto* page =
+      command->add_option("--html", arguments->html,
+                          "Write one self-contained page here: which parameter tells most, "
+                          "surfaces, scatters, parallel coordinates");
+  auto* charts = command->add_option("--svg", arguments->svg,
+                                     "Write a folder of these charts, with data and scripts");
+  for (CLI::Option* each : {page, charts}) each->excludes(observables)->excludes(phases);
+  command->add_option("--of", arguments->outcome,
+                      "The column that page and charts show; else the first error of what has a "
+                      "tolerance");
   command->add_option("--csv", arguments->csv, "Write CSV here; - is stdout");
   command->add_option("--json", arguments->json, "Write JSON here; - is stdout");
   accept_quiet(*command);
   command->footer(
-      "Example:\n  slipcheck query lottery.db engine=bullet 'rate>=240' status=ok --csv -");
+      "Examples:\n"
+      "  slipcheck query lottery.db engine=bullet 'rate>=240' status=ok --csv -\n"
+      "  slipcheck query lottery.db --html lottery.html --of i-j.effective_restitution.error");
   command->callback([arguments, &exit_code] { exit_code = query(*arguments); });
 }
 

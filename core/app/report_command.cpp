@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,14 +15,18 @@
 #include "app/say.h"
 #include "engine/engine_registry.h"
 #include "report/json/read_folders.h"
+#include "report/rows/check_rows.h"
 #include "report/rows/quantity.h"
 #include "report/rows/version_rows.h"
+#include "studies/baseline/baseline_json.h"
+#include "studies/baseline/update.h"
 
 namespace slipcheck {
 namespace {
 
 struct ReportArguments {
   std::vector<std::string> folders, older;
+  std::string baselines;
   double threshold = VersionComparison{}.threshold;
   ResultOutputs outputs;
   bool quiet = false;
@@ -94,6 +99,37 @@ Moved moved_since(const std::vector<SceneRecord>& now, const std::vector<SceneRe
   return moved;
 }
 
+/// Ensembles of other sizes have no number that compares.
+void check_sizes(const std::string& file, const SceneBaseline& baseline, const SceneRecord& scene) {
+  const SceneBaseline now = baseline_of(scene, baseline.phases, "");
+  for (const BaselineRun& run : now.runs)
+    for (const BaselineRun& old : baseline.runs)
+      if (run_label(run) == run_label(old) && run.status == RunStatus::ok &&
+          old.status == RunStatus::ok && run.phases != old.phases)
+        throw BadOption(fmt::format(
+            "--baselines: results must have {} phases, as {} has of {}, got {} (slipcheck run "
+            "--phases {})",
+            old.phases, file, run_label(run), run.phases, baseline.phases));
+}
+
+/// What the results show now beside what `slipcheck check` keeps in a folder.
+Moved moved_since(const std::vector<SceneRecord>& scenes, const std::string& folder) {
+  std::vector<std::string> names;
+  for (const SceneRecord& scene : scenes) names.push_back(scene.scenario.name);
+  std::map<std::string, SceneBaseline> baselines;
+  try {
+    if (!names.empty()) baselines = load_baselines(folder, names);
+  } catch (const BadJson& bad) {
+    throw BadOption(bad.what());
+  }
+  if (baselines.empty())
+    throw BadOption(fmt::format("--baselines: {} holds none of these scenes", folder));
+  for (const SceneRecord& scene : scenes)
+    if (const auto found = baselines.find(scene.scenario.name); found != baselines.end())
+      check_sizes(baseline_file(folder, found->first).string(), found->second, scene);
+  return moved_since(check_scenes(folder, baselines.begin()->second.phases, baselines, scenes));
+}
+
 int report(const ReportArguments& arguments) {
   check_outputs(arguments.outputs);
   ReadResults results = read(arguments.folders);
@@ -101,9 +137,12 @@ int report(const ReportArguments& arguments) {
     results.content.moved =
         moved_since(results.content.scenes, read(arguments.older).content.scenes,
                     fmt::format("{}", fmt::join(arguments.older, " ")), arguments.threshold);
+  if (!arguments.baselines.empty())
+    results.content.moved = moved_since(results.content.scenes, arguments.baselines);
   results.content.commands = {
-      fmt::format("slipcheck report {}{}{}", fmt::join(arguments.folders, " "),
-                  arguments.older.empty() ? "" : " --against ", fmt::join(arguments.older, " "))};
+      fmt::format("slipcheck report {}{}{}{}{}", fmt::join(arguments.folders, " "),
+                  arguments.older.empty() ? "" : " --against ", fmt::join(arguments.older, " "),
+                  arguments.baselines.empty() ? "" : " --baselines ", arguments.baselines)};
   write_outputs(arguments.outputs, results.content);
   if (!arguments.quiet) {
     for (const std::string& note : results.ignored) say("left out: {}\n", note);
@@ -124,8 +163,12 @@ void add_report_command(CLI::App& app, int& exit_code) {
       ->required();
   add_result_outputs(*command, arguments->outputs, "-o,--html");
   command->get_option("--html")->required();
-  command->add_option("--against", arguments->older,
-                      "Older result folders: what has moved since stands first");
+  CLI::Option* against = command->add_option(
+      "--against", arguments->older, "Older result folders: what has moved since stands first");
+  command
+      ->add_option("--baselines", arguments->baselines,
+                   "A folder of slipcheck check's baselines: what has moved since stands first")
+      ->excludes(against);
   command
       ->add_option("--threshold", arguments->threshold,
                    "What moves by less counts as unmoved [tolerances]")
@@ -137,6 +180,7 @@ void add_report_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  slipcheck report results/today -o report.html\n"
       "  slipcheck report results/today --against results/yesterday -o report.html\n"
+      "  slipcheck report results/today --baselines results/baselines -o report.html\n"
       "  slipcheck report runs/ precision/ stability/ -o all.html --markdown summary.md\n"
       "  slipcheck report runs/ -o report.html --svg charts --xyz trajectories");
   command->callback([arguments, &exit_code] { exit_code = report(*arguments); });

@@ -100,6 +100,41 @@ class Report(unittest.TestCase):
         missing = run("report", self.runs, "--against", self.path / "nowhere", "-o", page)
         self.assertEqual(missing.returncode, 2)
 
+    def test_what_has_moved_since_the_baselines_stands_first(self):
+        results, baselines, page = self.path / "16", self.path / "baselines", self.path / "page.html"
+        run("run", SCENES / "symmetric-30cms.yaml", "--phases", "16", "--out", results, "--quiet")
+        kept = run("check", SCENES / "symmetric-30cms.yaml", "--baselines", baselines, "--update")
+        self.assertEqual(kept.returncode, 0, kept.stderr)
+        same = run("report", results, "--baselines", baselines, "-o", page)
+        self.assertEqual(same.returncode, 0, same.stderr)
+        self.assertRegex(page.read_text(), r'<section id="moved">[^§]*: nothing has moved; \d+ values in')
+
+        # The median of one run is moved by three times what it may.
+        file = baselines / "symmetric-30cms.json"
+        baseline = json.loads(file.read_text())
+        [kept_run] = [r for r in baseline["runs"] if r["profile"] == "tuned" and r["rate"] == 240]
+        kept_run["observables"]["i-j.effective_restitution"]["median"] += 0.015
+        file.write_text(json.dumps(baseline))
+        moved = run("report", results, "--baselines", baselines, "-o", page)
+        self.assertEqual(moved.returncode, 0, moved.stderr)
+        checked = self.path / "checked.html"
+        check = run("check", SCENES / "symmetric-30cms.yaml", "--baselines", baselines, "--html", checked)
+        self.assertEqual(check.returncode, 1, check.stderr)
+        for text in (page.read_text(), checked.read_text()):
+            section = text[text.index('<section id="moved">'):]
+            section = section[:section.index("</section>")]
+            self.assertIn("1 of 1 scene has moved: 1 change", section)
+            self.assertIn("bullet double tuned 240 Hz", section)
+            self.assertLess(text.index('<section id="moved">'), text.index('id="index"'))
+
+        for arguments, why in (((self.runs, "--baselines", baselines), "must have 16 phases"),
+                               ((results, "--baselines", self.path / "none"), "holds none of these"),
+                               ((results, "--baselines", baselines, "--against", results), "excludes")):
+            result = run("report", *arguments, "-o", self.path / "no.html")
+            self.assertEqual(result.returncode, 2, why)
+            self.assertIn(why, result.stderr)
+            self.assertFalse((self.path / "no.html").exists())
+
     def test_without_its_script_the_page_has_its_tables(self):
         page = self.path / "page.html"
         run("report", self.runs, "-o", page, "--without-script")

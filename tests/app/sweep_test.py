@@ -3,11 +3,13 @@
 
 usage: sweep_test.py SLIPCHECK SOURCE_DIR [sanitized]
 """
+import contextlib
 import csv
 import io
 import json
 import os
 import random
+import re
 import resource
 import signal
 import sqlite3
@@ -291,6 +293,37 @@ class Sweeping(unittest.TestCase):
         self.sweep("s.db")
         self.assertIn("did you mean rate?",
                       self.run_it("query", self.path / "s.db", "rat>3", code=2).stderr)
+
+    def test_a_page_and_charts_of_a_store(self):
+        self.sweep("s.db")
+        store, page, folder = self.path / "s.db", self.path / "s.html", self.path / "charts"
+        drawn = self.run_it("query", store, "rate=240", "--html", page, "--svg", folder)
+        self.assertEqual(drawn.stdout, "")
+        text = page.read_text()
+        self.assertIn("40 runs of symmetric-30cms; i-j.effective_restitution.error [tolerances]: ", text)
+        self.assertIn("40 runs</summary>", text)
+        self.assertEqual(text.count("<svg"), 3)
+        self.assertNotIn("http-equiv=\"refresh\"", text)
+        self.assertNotIn("<script", text)
+        for name in ("surface", "scatter", "parallel"):
+            self.assertTrue((folder / f"{name}.svg").exists(), name)
+        # The rate does not vary among these runs.
+        effects = text[:text.index('id="surface"')]
+        self.assertIn("contacts.0.normal.restitution", effects)
+        self.assertNotIn("<th scope=\"row\">rate", effects)
+
+        # The median of the worst errors, from the store by other means.
+        with contextlib.closing(sqlite3.connect(store)) as connection:
+            errors = sorted(error / tolerance for error, tolerance in connection.execute(
+                "SELECT error, tolerance FROM results WHERE observable = 'i-j.effective_restitution' AND rate = 240"))
+        told = float(re.search(r"\[tolerances\]: ([0-9.e+-]+) in the median", text).group(1))
+        self.assertAlmostEqual(told / ((errors[19] + errors[20]) / 2), 1, delta=1e-3)  # four digits
+
+        for arguments, why in ((("rate=7",), "must find a run"), (("--of", "status"), "must be a column with numbers"),
+                               (("--long",), "excludes")):
+            refused = self.run_it("query", store, *arguments, "--html", self.path / "no.html", code=2)
+            self.assertIn(why, refused.stderr)
+        self.assertFalse((self.path / "no.html").exists())
 
 
 if __name__ == "__main__":

@@ -12,9 +12,9 @@
 
 #include "../support/in_folder.h"
 #include "../support/refusal.h"
+#include "../support/text_of.h"
 #include "engine/npm_install.h"
 #include "engine/remote_engine.h"
-#include "support/text_of.h"
 
 namespace slipcheck {
 namespace {

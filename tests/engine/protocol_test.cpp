@@ -9,10 +9,10 @@
 #include <random>
 
 #include "../support/refusal.h"
+#include "../support/text_of.h"
 #include "engine/scene_json.h"
 #include "engine/scene_needs.h"
 #include "some_scene.h"
-#include "support/text_of.h"
 
 namespace slipcheck::protocol {
 namespace {

@@ -14,10 +14,10 @@
 #include <string>
 #include <thread>
 
+#include "../support/text_of.h"
 #include "harness/run/reference_run.h"
 #include "reference/reference_solver.h"
 #include "scenario/load.h"
-#include "support/text_of.h"
 
 namespace slipcheck {
 namespace {

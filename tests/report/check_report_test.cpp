@@ -192,6 +192,26 @@ TEST(CheckJson, KeepsEveryDigitAndNoDate) {
   EXPECT_EQ(json.dump(), json_of(pair_report()).dump());
 }
 
+/// A page's part and a comment: red scenes first, whatever their place.
+TEST(CheckRows, WhatHasMovedStandsFirst) {
+  CheckReport report = pair_report();
+  std::ranges::reverse(report.scenes);
+  const Moved moved = moved_since(report);
+  EXPECT_NE(moved.finding.find("Since results/baselines: 1 of 2 scenes has moved"),
+            std::string::npos)
+      << moved.finding;
+  EXPECT_NE(moved.finding.find("ensembles of 16"), std::string::npos);
+  ASSERT_FALSE(moved.table.rows.empty());
+  bool green = false;
+  for (const auto& row : moved.table.rows) {
+    ASSERT_EQ(row.size(), moved.table.columns.size());
+    const bool is_green = row[0].text.starts_with("✓");
+    EXPECT_FALSE(green && !is_green) << row[0].text;
+    green = is_green;
+  }
+  EXPECT_TRUE(moved.table.rows[0][0].text.starts_with("✗ "));
+}
+
 TEST(CheckMarkdown, FitsAComment) {
   CheckReport report = pair_report();
   const SceneCheck pair = report.scenes[0];

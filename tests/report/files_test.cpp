@@ -13,7 +13,7 @@
 #include "../support/as_nobody.h"
 #include "../support/in_folder.h"
 #include "../support/refusal.h"
-#include "support/text_of.h"
+#include "../support/text_of.h"
 
 namespace slipcheck::testing {
 namespace {

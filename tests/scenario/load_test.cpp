@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "../support/text_of.h"
 #include "scenario/file_text.h"
 #include "scenes.h"
-#include "support/text_of.h"
 
 namespace slipcheck {
 namespace {

@@ -9,9 +9,9 @@
 #include <set>
 #include <string>
 
+#include "../support/text_of.h"
 #include "scenario/load.h"
 #include "scenario/observable_names.h"
-#include "support/text_of.h"
 
 namespace slipcheck {
 namespace {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "../support/text_of.h"
 #include "studies/sweep/sweep_block.h"
-#include "support/text_of.h"
 
 namespace slipcheck {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "../support/refusal.h"
-#include "support/text_of.h"
+#include "../support/text_of.h"
 
 namespace slipcheck {
 namespace {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <random>
 
-#include "support/text_of.h"
+#include "../support/text_of.h"
 #include "tuning_synthetic.h"
 
 namespace slipcheck {

@@ -79,30 +79,6 @@ TestOutcome outcome_of(const SceneCheck& scene, const std::string& label, const 
   return outcome;
 }
 
-TextTable changes_of(const CheckReport& report) {
-  TextTable table{{{"scene"},
-                   {"run"},
-                   {"observable"},
-                   {"of"},
-                   {"baseline", true},
-                   {"now", true},
-                   {"may move by", true},
-                   {""}}};
-  for (const SceneCheck& scene : report.scenes)
-    for (const ChangeRow& row : change_rows(scene, false)) {
-      const std::string more = row.others > 0 ? fmt::format(", + {} more", row.others) : "";
-      table.rows.push_back({{(scene.is_green() ? "✓ " : "✗ ") + scene.scene},
-                            {row.part},
-                            {row.what},
-                            {row.statistic},
-                            {row.before},
-                            {row.now},
-                            {row.allowed},
-                            {row.direction.text + more}});
-    }
-  return table;
-}
-
 }  // namespace
 
 Json json_of(const CheckReport& report) {
@@ -148,7 +124,7 @@ std::string markdown_of(const CheckReport& report, std::size_t most) {
     remarks += fmt::format("- {}\n", markdown_escaped(remark));
   if (!remarks.empty()) remarks = '\n' + remarks;
 
-  TextTable changes = changes_of(report);
+  TextTable changes = change_table(report);
   auto& rows = changes.rows;
   if (rows.empty()) return head + remarks;
   const std::size_t count = rows.size();

@@ -151,6 +151,34 @@ std::vector<ChangeRow> change_rows(const SceneCheck& scene, bool all) {
   return rows;
 }
 
+TextTable change_table(const CheckReport& report) {
+  TextTable table{{{"scene"},
+                   {"run"},
+                   {"observable"},
+                   {"of"},
+                   {"baseline", true},
+                   {"now", true},
+                   {"may move by", true},
+                   {"way"}}};
+  for (const bool green : {false, true})
+    for (const SceneCheck& scene : report.scenes) {
+      if (scene.is_green() != green) continue;
+      for (const ChangeRow& row : change_rows(scene, false)) {
+        Cell way = row.direction;
+        if (row.others > 0) way.text += fmt::format(", + {} more", row.others);
+        table.rows.push_back({{(green ? "✓ " : "✗ ") + scene.scene},
+                              {row.part},
+                              {row.what},
+                              {row.statistic},
+                              {row.before},
+                              {row.now},
+                              {row.allowed},
+                              std::move(way)});
+      }
+    }
+  return table;
+}
+
 std::string change_message(const Change& change) {
   std::string text = fmt::format("{}, {}: ", change.scene, change.part);
   if (!change.observable.empty()) text += change.observable + ' ';
@@ -208,6 +236,16 @@ std::vector<std::string> check_remarks(const CheckReport& report) {
         fmt::format("CPU time over the baseline's, never judged: {}", fmt::join(times, ", ")));
   }
   return remarks;
+}
+
+Moved moved_since(const CheckReport& report) {
+  const CheckTotals totals = totals_of(report);
+  std::string finding = fmt::format(
+      "Since {}: {}; {} in {} and {} held against it, ensembles of {}.", report.baselines,
+      check_verdict(report), counted(totals.compared, "value"),
+      counted(report.scenes.size(), "scene"), counted(totals.runs, "run"), report.phases);
+  for (const std::string& remark : check_remarks(report)) finding += fmt::format(" {}.", remark);
+  return {std::move(finding), change_table(report)};
 }
 
 }  // namespace slipcheck

@@ -4,18 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "report/rows/report_content.h"
 #include "report/rows/text_table.h"
 #include "studies/baseline/check.h"
 
 namespace slipcheck {
-
-/// Scenes held against their baselines.
-struct CheckReport {
-  std::string baselines;   ///< folder, as the user named it
-  std::size_t phases = 0;  ///< of each ensemble
-  std::vector<SceneCheck> scenes;
-  std::string advice = {};  ///< how to make baselines where there are none; else empty
-};
 
 /// All scenes in numbers.
 struct CheckTotals {
@@ -57,11 +50,17 @@ std::vector<ChangeRow> change_rows(const SceneCheck& scene, bool all);
 /// i-j.effective_restitution median was 0.4283, is 0.4451, allowed 0.005: worse".
 std::string change_message(const Change& change);
 
+/// The most severe of all scenes' changes in one table, the scenes that have moved first.
+TextTable change_table(const CheckReport& report);
+
 /// "✓ nothing has moved", "✗ 2 of 77 scenes have moved", without the symbol.
 std::string check_verdict(const CheckReport& report);
 
 /// What is told and does not gate, a line each: other versions, changed verdicts, moves within
 /// what is allowed, CPU times.
 std::vector<std::string> check_remarks(const CheckReport& report);
+
+/// For a page and a summary of the results that were held against baselines.
+Moved moved_since(const CheckReport& report);
 
 }  // namespace slipcheck

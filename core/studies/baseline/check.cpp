@@ -299,4 +299,17 @@ SceneCheck baseline_without_scene(const std::string& scene, const std::string& f
               fmt::format("no scene has this name; {} is left over", file));
 }
 
+CheckReport check_scenes(const std::string& folder, std::size_t phases,
+                         const std::map<std::string, SceneBaseline>& baselines,
+                         const std::vector<SceneRecord>& scenes) {
+  CheckReport report{folder, phases, {}, {}};
+  for (const SceneRecord& scene : scenes) {
+    const auto baseline = baselines.find(scene.scenario.name);
+    const bool compares = baseline != baselines.end() && baseline->second.phases == phases;
+    report.scenes.push_back(compares ? check_scene(baseline->second, scene)
+                                     : scene_without_baseline(scene.scenario.name));
+  }
+  return report;
+}
+
 }  // namespace slipcheck

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -84,9 +85,23 @@ struct SceneCheck {
 /// the verdict on such a run may not change; on others a change of verdict is only told.
 SceneCheck check_scene(const SceneBaseline& baseline, const SceneRecord& scene);
 
+/// Scenes held against their baselines.
+struct CheckReport {
+  std::string baselines;   ///< folder, as the user named it
+  std::size_t phases = 0;  ///< of each ensemble
+  std::vector<SceneCheck> scenes;
+  std::string advice = {};  ///< how to make baselines where there are none; else empty
+};
+
 /// A scene that has no baseline.
 SceneCheck scene_without_baseline(const std::string& scene);
 /// A baseline, in this file, whose scene is not there.
 SceneCheck baseline_without_scene(const std::string& scene, const std::string& file);
+
+/// All scenes against the baselines, by scene, of a folder. Of those of another size than `phases`
+/// no number would compare: their scenes count as without.
+CheckReport check_scenes(const std::string& folder, std::size_t phases,
+                         const std::map<std::string, SceneBaseline>& baselines,
+                         const std::vector<SceneRecord>& scenes);
 
 }  // namespace slipcheck
