@@ -142,6 +142,12 @@ def refuse(scene):
     if any(scene["periodic"]): raise example.Refused("")
 example.refuse_what_cannot_be_run = refuse
 """,
+    # It says that it takes surfaces, and goes on with the plane z = 0.
+    "scene: slope without a substrate": """
+def wrap(old, w, r):
+    return {**old(w, r), "takes": ["surfaces"]}
+around(Worker, "hello", wrap)
+""",
     "free fall": in_step("for b in w.bodies: b.velocity = example.add(b.velocity, b.velocity, -0.002)"),
     "gravity along the plane": in_request("configure", "r['scene']['downhill'] = [0.0, 0.0]"),
     "rest stays": in_step("for b in w.bodies: b.position = example.add(b.position, (0, 0, -1e-6))"),
