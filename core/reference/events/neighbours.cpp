@@ -120,8 +120,10 @@ bool PlaneCells::is_at_side(std::uint32_t i, const Vector3& x) const {
 
 void PlaneCells::cross(std::uint32_t i) {
   Place& place = places_[i];
-  moved_x_ = static_cast<int>(place.leaves_x);
-  moved_y_ = static_cast<int>(place.leaves_y);
+  // Small numbers, no characters: NOLINTBEGIN(bugprone-signed-char-misuse)
+  moved_x_ = place.leaves_x;
+  moved_y_ = place.leaves_y;
+  // NOLINTEND(bugprone-signed-char-misuse)
   place.ix += moved_x_;
   place.iy += moved_y_;
   if (grid_.period().x > 0) place.image_x = floored_quotient(place.ix, grid_.cells_x());
