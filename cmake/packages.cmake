@@ -42,10 +42,11 @@ endforeach()
 slipcheck_package(dev libslipcheck-dev "Slipcheck's reference as C++ libraries, and what an engine of your own implements"
   DEPENDS "libeigen3-dev, libfmt-dev, libhwy-dev, libsundials-dev, libudunits2-dev, libyaml-cpp-dev, nettle-dev, nlohmann-json3-dev, pkg-config")
 if(TARGET slipcheck_python)
-  set(next_minor ${Python3_VERSION_MINOR})
-  math(EXPR next_minor "${next_minor} + 1")
+  # What find_package() says is known in that folder alone.
+  get_target_property(minor slipcheck_python SLIPCHECK_PYTHON_MINOR)
+  math(EXPR next_minor "${minor} + 1")
   slipcheck_package(python python3-slipcheck "Slipcheck's results in pandas and xarray, and its reference in Python"
-    DEPENDS "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy, python3-pandas, python3-xarray"
+    DEPENDS "python3 (>= 3.${minor}), python3 (<< 3.${next_minor}), python3-numpy, python3-pandas, python3-xarray"
     RECOMMENDS "${same}, python3-matplotlib")
 endif()
 
