@@ -66,6 +66,8 @@ int query(QueryArguments& arguments) {
   if (arguments.phases) asked.rows = StoreQuery::Rows::phases;
   const bool is_table = arguments.csv.empty() && arguments.json.empty() && arguments.html.empty() &&
                         arguments.svg.empty();
+  if (!arguments.outcome.empty() && arguments.html.empty() && arguments.svg.empty())
+    throw BadOption("--of: must stand beside --html or --svg, which show this column");
   if (is_table && asked.limit == 0) asked.limit = kShownRows;
   QueryResult result;
   try {
@@ -119,7 +121,7 @@ void add_query_command(CLI::App& app, int& exit_code) {
                                      "Write a folder of these charts, with data and scripts");
   for (CLI::Option* each : {page, charts}) each->excludes(observables)->excludes(phases);
   command->add_option("--of", arguments->outcome,
-                      "The column that page and charts show; else the first error of what has a "
+                      "The column that --html and --svg show; else the first error of what has a "
                       "tolerance");
   command->add_option("--csv", arguments->csv, "Write CSV here; - is stdout");
   command->add_option("--json", arguments->json, "Write JSON here; - is stdout");

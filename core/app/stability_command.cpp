@@ -16,6 +16,7 @@
 #include "app/output.h"
 #include "app/progress_bar.h"
 #include "app/say.h"
+#include "engine/worker_pool.h"
 #include "report/charts/report_charts.h"
 #include "report/files/files.h"
 #include "report/files/stability_csv.h"
@@ -77,6 +78,8 @@ void write_folder(const fs::path& directory, const StabilityArguments& arguments
 
 StabilityResults run_all(StabilityArguments& arguments, std::vector<Scenario> cases) {
   GridArguments& common = arguments.common;
+  common.options.pool =
+      std::make_shared<WorkerPool>(common.options.workers, common.options.limits);
   StabilityResults results;
   {
     ProgressBar bar("catalogue", !common.quiet);

@@ -122,9 +122,10 @@ void add_scene_options(CLI::App& command, TuneArguments& arguments) {
                      "Scenario files that are not fitted to, to see how far the fit carries");
   command.add_option("--engine", arguments.engine, "The engine whose settings are searched")
       ->required();
-  command.add_option("--precision", arguments.precision, "The engine's precision")
-      ->check(CLI::IsMember({"single", "double"}))
-      ->capture_default_str();
+  command
+      .add_option("--precision", arguments.precision,
+                  "single or double; else the one that the engine has, of both double")
+      ->check(CLI::IsMember({"single", "double"}));
   command.add_option("--rates", arguments.rates, "Steps per second, separated by commas [Hz]")
       ->delimiter(',')
       ->check(positive_number())

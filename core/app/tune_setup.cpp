@@ -27,13 +27,15 @@ namespace {
 namespace fs = std::filesystem;
 
 EngineExecutable executable_of(const TuneArguments& arguments) {
-  auto found = find_engine(arguments.engine, arguments.precision);
+  const std::string precision =
+      arguments.precision.empty() ? usual_precision(arguments.engine) : arguments.precision;
+  auto found = find_engine(arguments.engine, precision);
   if (found) return *found;
   std::set<std::string> names;
   for (const EngineExecutable& executable : find_engines())
     names.insert(fmt::format("{} ({})", executable.engine, executable.precision));
   throw BadOption(fmt::format("--engine: must be one of those installed: {}; got {} ({})",
-                              fmt::join(names, ", "), arguments.engine, arguments.precision));
+                              fmt::join(names, ", "), arguments.engine, precision));
 }
 
 /// The name under which the profile will be known.

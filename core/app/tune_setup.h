@@ -14,7 +14,8 @@ namespace slipcheck {
 /// The options of `slipcheck tune`.
 struct TuneArguments {
   std::vector<std::string> files, held_out;
-  std::string engine, precision = "double";
+  std::string engine;
+  std::string precision;                          ///< empty: usual_precision()
   std::vector<double> rates = {240, 1000, 4000};  // [Hz]
   std::vector<std::string> observables, settings;
   std::string within;  // "5%"; empty: the least error

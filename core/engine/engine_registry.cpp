@@ -176,4 +176,9 @@ std::optional<EngineExecutable> find_engine(const std::string& engine,
   return find_engine(engine, precision, find_engines());
 }
 
+std::string usual_precision(const std::string& engine) {
+  const bool has_single_alone = !find_engine(engine, "double") && find_engine(engine, "single");
+  return has_single_alone ? "single" : "double";
+}
+
 }  // namespace slipcheck

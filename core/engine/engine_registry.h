@@ -56,5 +56,7 @@ std::optional<EngineExecutable> find_engine(const std::string& engine, const std
                                             std::span<const EngineExecutable> installed);
 std::optional<EngineExecutable> find_engine(const std::string& engine,
                                             const std::string& precision);
+/// Where it is left open, the precision that the engine has, of both the double one.
+std::string usual_precision(const std::string& engine);
 
 }  // namespace slipcheck

@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <thread>
 
 namespace slipcheck {
 namespace {
@@ -17,11 +13,15 @@ JobStatus status_of(const WorkerFailure& failure) {
                                                               : JobStatus::crashed;
 }
 
+}  // namespace
+
 /// One thread's workers, at most one for each command.
-class Workers {
+class WorkerPool::Workers {
  public:
   Workers(const WorkerLimits& limits, const std::atomic<bool>* stop)
       : limits_(limits), stop_(stop) {}
+
+  const std::atomic<bool>* stop() const { return stop_; }
 
   JobResult run(const EngineJob& job) {
     if (stop_ != nullptr && *stop_) return {JobStatus::skipped, "interrupted", nullptr};
@@ -59,15 +59,14 @@ class Workers {
   std::map<WorkerCommand, std::unique_ptr<RemoteEngine>> engines_;
 };
 
-}  // namespace
-
 WorkerPool::WorkerPool(std::size_t threads, const WorkerLimits& limits)
-    : threads_(threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency())),
-      limits_(limits) {}
+    : limits_(limits), team_(threads) {}
+
+WorkerPool::~WorkerPool() = default;
 
 std::vector<JobResult> WorkerPool::run_all(const std::vector<EngineJob>& jobs,
                                            const Progress& progress,
-                                           const std::atomic<bool>* stop) const {
+                                           const std::atomic<bool>* stop) {
   std::vector<JobResult> results(jobs.size());
   std::size_t next = 0, done = 0;
   std::mutex reporting;
@@ -81,21 +80,21 @@ std::vector<JobResult> WorkerPool::run_all(const std::vector<EngineJob>& jobs,
                         if (progress) progress(done, jobs.size());
                       }};
   };
-  run_on(std::min(threads_, jobs.size()), offer, stop);
+  run_on(std::min(threads(), jobs.size()), offer, stop);
   return results;
 }
 
 void WorkerPool::run_offered(const std::function<std::optional<OfferedJob>()>& offer,
-                             const std::atomic<bool>* stop) const {
+                             const std::atomic<bool>* stop) {
   const auto unless_stopped = [&]() -> std::optional<OfferedJob> {
     if (stop != nullptr && *stop) return std::nullopt;
     return offer();
   };
-  run_on(threads_, unless_stopped, stop);
+  run_on(threads(), unless_stopped, stop);
 }
 
 void WorkerPool::run_on(std::size_t count, const std::function<std::optional<OfferedJob>()>& offer,
-                        const std::atomic<bool>* stop) const {
+                        const std::atomic<bool>* stop) {
   std::mutex offering;
   std::exception_ptr failure;
   const auto next = [&]() -> std::optional<OfferedJob> {
@@ -103,23 +102,25 @@ void WorkerPool::run_on(std::size_t count, const std::function<std::optional<Off
     if (failure) return std::nullopt;
     return offer();
   };
-  // Workers die with the thread that started them, so each thread keeps its own.
-  const auto loop = [&] {
+  team_.run(count, [&](std::size_t) {
     const StopScope scope(stop);
-    Workers workers(limits_, stop);
     try {
+      Workers& workers = workers_of_this_thread(stop);
       while (const std::optional<OfferedJob> offered = next())
         offered->done(workers.run(offered->job));
     } catch (...) {
       const std::scoped_lock lock(offering);
       if (!failure) failure = std::current_exception();
     }
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (std::size_t k = 0; k < count; ++k) threads.emplace_back(loop);
-  }
+  });
   if (failure) std::rethrow_exception(failure);
+}
+
+WorkerPool::Workers& WorkerPool::workers_of_this_thread(const std::atomic<bool>* stop) {
+  const std::scoped_lock lock(asking_);
+  std::unique_ptr<Workers>& mine = workers_[std::this_thread::get_id()];
+  if (!mine || mine->stop() != stop) mine = std::make_unique<Workers>(limits_, stop);
+  return *mine;
 }
 
 }  // namespace slipcheck

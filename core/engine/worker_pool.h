@@ -3,10 +3,15 @@
 #include <atomic>
 #include <exception>
 #include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "base/thread_team.h"
 #include "engine/remote_engine.h"
 
 namespace slipcheck {
@@ -39,35 +44,42 @@ struct OfferedJob {
 };
 
 /// Runs jobs on several threads, each with a worker process of its own for each command. A
-/// worker is reused from job to job and replaced after a failure, so that whatever one engine does,
-/// the other jobs go on.
+/// worker is reused from job to job, and from one call to the next, and replaced after a failure,
+/// so that whatever one engine does, the other jobs go on. One thread at a time calls it.
 class WorkerPool {
  public:
   using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
   /// `threads`: 0 takes as many as the machine has cores.
   explicit WorkerPool(std::size_t threads = 0, const WorkerLimits& limits = {});
+  ~WorkerPool();
 
   /// The results in the order of the jobs, which run in any order. `progress` is called after each
   /// job, by one thread at a time. Once `stop` is set, waiting jobs are skipped and running ones
   /// interrupted within 0.1 s. Nothing of a job is thrown from here.
   std::vector<JobResult> run_all(const std::vector<EngineJob>& jobs, const Progress& progress = {},
-                                 const std::atomic<bool>* stop = nullptr) const;
+                                 const std::atomic<bool>* stop = nullptr);
 
   /// Runs what `offer` gives, by one thread at a time, until it has no more or `stop` is set; only
   /// so many jobs are held as there are threads. What is at work then is interrupted, and its
   /// `done` is told. Throws on what `offer` or a `done` throws, after which nothing more is begun.
   void run_offered(const std::function<std::optional<OfferedJob>()>& offer,
-                   const std::atomic<bool>* stop = nullptr) const;
+                   const std::atomic<bool>* stop = nullptr);
 
-  std::size_t threads() const { return threads_; }
+  std::size_t threads() const { return team_.size(); }
 
  private:
-  void run_on(std::size_t threads, const std::function<std::optional<OfferedJob>()>& offer,
-              const std::atomic<bool>* stop) const;
+  class Workers;
 
-  std::size_t threads_;
+  void run_on(std::size_t threads, const std::function<std::optional<OfferedJob>()>& offer,
+              const std::atomic<bool>* stop);
+  Workers& workers_of_this_thread(const std::atomic<bool>* stop);
+
   WorkerLimits limits_;
+  ThreadTeam team_;
+  std::mutex asking_;
+  /// Workers die with the thread that started them, so each thread keeps its own.
+  std::map<std::thread::id, std::unique_ptr<Workers>> workers_;
 };
 
 }  // namespace slipcheck

@@ -324,6 +324,8 @@ class Sweeping(unittest.TestCase):
             refused = self.run_it("query", store, *arguments, "--html", self.path / "no.html", code=2)
             self.assertIn(why, refused.stderr)
         self.assertFalse((self.path / "no.html").exists())
+        refused = self.run_it("query", store, "--of", "rate", code=2)
+        self.assertIn("--of: must stand beside --html or --svg", refused.stderr)
 
 
 if __name__ == "__main__":

@@ -99,6 +99,19 @@ class Tune(unittest.TestCase):
         _, report = self.tuning(SYMMETRIC, "--settings", name)
         self.assertLessEqual(set(report["chosen"]["settings"]), {name})
 
+    @unittest.skipIf(SANITIZED, "of engines, whose processes have no sanitizer")
+    def test_every_engine_that_is_there_can_be_tuned(self):
+        listed = subprocess.run([SLIPCHECK, "list", "engines", "--json"], capture_output=True, text=True, check=True)
+        for engine in sorted({each["engine"] for each in json.loads(listed.stdout)}):
+            with self.subTest(engine):  # without --precision, of which some have one alone
+                result = run(SYMMETRIC, "--engine", engine, "--rates", "240", "--phases", "2", "--final-phases", "2",
+                             "--budget", "2", "-o", self.profile, "--json", self.path / "out.json")
+                self.assertIn(result.returncode, (0, 1), result.stderr)
+                report = json.loads((self.path / "out.json").read_text())
+                self.assertEqual(report["chosen"]["training"]["failed"], 0)
+                self.assertLessEqual(report["chosen"]["training"]["worst"], report["start"]["training"]["worst"])
+                Path(f"{self.profile}.journal").unlink()
+
     def test_quiet_says_nothing(self):
         result = run(SYMMETRIC, *QUICK, "--budget", "0", "-o", self.profile, "--quiet")
         self.assertEqual((result.stdout, result.stderr), ("", ""))

@@ -40,11 +40,12 @@ TEST(WorkerPool, OneThatFailsLeavesTheOthersAlone) {
     jobs.push_back(job(fault));
   }
   std::vector<std::size_t> reported;
-  const WorkerPool pool(3, {.memory = std::size_t{2} << 30, .reply = 10});
-  const auto results = pool.run_all(jobs, [&](std::size_t done, std::size_t total) {
+  const auto progress = [&](std::size_t done, std::size_t total) {
     EXPECT_EQ(total, 12u);
     reported.push_back(done);
-  });
+  };
+  const auto results =
+      WorkerPool(3, {.memory = std::size_t{2} << 30, .reply = 10}).run_all(jobs, progress);
   ASSERT_EQ(results.size(), 12u);
   const std::vector<Status> expected = {
       Status::ok,      Status::crashed, Status::ok, Status::crashed, Status::timed_out, Status::ok,
@@ -65,6 +66,30 @@ TEST(WorkerPool, WorkersAreReused) {
   for (const JobResult& result : WorkerPool(2).run_all(jobs)) EXPECT_EQ(result.status, Status::ok);
   EXPECT_LE(served_by.size(), 2u);
   EXPECT_GE(served_by.size(), 1u);
+}
+
+TEST(WorkerPool, WorkersServeOneCallAfterTheOther) {
+  std::set<pid_t> served_by;
+  {
+    WorkerPool pool(2);
+    for (int call = 0; call < 10; ++call)
+      for (const JobResult& result : pool.run_all({4, job("ok", 20, &served_by)}))
+        EXPECT_EQ(result.status, Status::ok) << result.reason;
+    EXPECT_LE(served_by.size(), 2u);
+    for (pid_t worker : served_by) EXPECT_EQ(kill(worker, 0), 0) << "waits for the next call";
+    ASSERT_EQ(pool.run_all({job("crash")}).front().status, Status::crashed);
+    EXPECT_EQ(pool.run_all({job("ok")}).front().status, Status::ok) << "in a new one";
+  }
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a zombie or a child is left";
+}
+
+TEST(WorkerPool, WhatStoppedOneCallStopsNoOther) {
+  std::atomic<bool> stop = true;
+  WorkerPool pool(2);
+  for (const JobResult& result : pool.run_all({2, job("ok")}, {}, &stop))
+    EXPECT_EQ(result.status, Status::skipped);
+  for (const JobResult& result : pool.run_all({2, job("ok")}))
+    EXPECT_EQ(result.status, Status::ok) << result.reason;
 }
 
 TEST(WorkerPool, AWorkerKilledFromOutsideTakesOnlyItsOwnJob) {

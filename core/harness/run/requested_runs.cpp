@@ -36,13 +36,9 @@ std::vector<std::string> engine_names() {
   return {names.begin(), names.end()};
 }
 
-/// Where a request leaves it open, the one that the engine has, of both the double one.
 std::string precision_of(const EngineRequest& request) {
-  if (request.precision)
-    return *request.precision == EngineRequest::Precision::single_ ? "single" : "double";
-  const bool has_single_alone =
-      !find_engine(request.engine, "double") && find_engine(request.engine, "single");
-  return has_single_alone ? "single" : "double";
+  if (!request.precision) return usual_precision(request.engine);
+  return *request.precision == EngineRequest::Precision::single_ ? "single" : "double";
 }
 
 /// What has no headings, because its surroundings have directions of their own; "" where it has.

@@ -28,9 +28,10 @@ void record_motion_of(PreparedScene& scene, double time_limit) {
 
 void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
   const std::vector<EngineExecutable> installed = find_engines();
-  const WorkerPool pool(options.workers, options.limits);
+  const auto pool =
+      options.pool ? options.pool : std::make_shared<WorkerPool>(options.workers, options.limits);
   const std::size_t workers =
-      (pool.threads() + tasks.size() - 1) / std::max<std::size_t>(tasks.size(), 1);
+      (pool->threads() + tasks.size() - 1) / std::max<std::size_t>(tasks.size(), 1);
   std::deque<EngineWork> works;
   std::vector<EngineJob> jobs;
   for (const EngineTask& task : tasks) {
@@ -52,7 +53,7 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
           {executable->command, [&work, part](RemoteEngine& engine) { work.run(engine, part); }});
   }
 
-  const std::vector<JobResult> results = pool.run_all(jobs, options.progress, options.stop);
+  const std::vector<JobResult> results = pool->run_all(jobs, options.progress, options.stop);
   std::span<const JobResult> left = results;
   for (EngineWork& work : works) {
     work.settle(left.first(work.parts()));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "harness/run/prepared_scene.h"
 
 namespace slipcheck {
+
+class WorkerPool;
 
 struct RunOptions {
   std::size_t phases = 32;  ///< size of each engine's ensemble, >= 1
@@ -29,6 +32,9 @@ struct RunOptions {
   /// By the scenes' names: what else is wanted of their references, as of prepare_scenes().
   std::map<std::string, ReferenceExtras> extras;
   WorkerLimits limits;
+  /// Its workers, started with these limits, serve one run after another; null: each run has its
+  /// own.
+  std::shared_ptr<WorkerPool> pool;
   /// Once set, what has not begun is skipped and what is at work ends within a second.
   const std::atomic<bool>* stop = nullptr;
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< of ensembles

@@ -139,13 +139,8 @@ Panel scatter_panel(const StoreView& view, const SweptParameter& parameter,
     points.y.push_back(view.values[run]);
   }
   Curve medians{"median", {Ink::black, Line::solid, Marker::square, true}};
-  for (std::size_t level = 0; level < parameter.places.size(); ++level) {
-    std::vector<std::size_t> of_level;
-    for (std::size_t run = 0; run < view.values.size(); ++run)
-      if (parameter.level[run] == level) of_level.push_back(run);
-    medians.x.push_back(parameter.places[level]);
-    medians.y.push_back(view.median_of(of_level));
-  }
+  medians.x = parameter.places;
+  medians.y = view.medians_over(parameter);
   if (!parameter.is_number) medians.look.line = Line::none;
   panel.curves = {std::move(points), std::move(medians)};
   if (view.in_tolerances) {

@@ -162,16 +162,10 @@ void read_outcome(const QueryResult& result, std::size_t at, StoreView& view) {
       if (value == 0) value = smallest;
 }
 
-/// The levels that have the least and the largest median.
-std::pair<std::size_t, std::size_t> best_and_worst(const StoreView& view,
-                                                   const SweptParameter& parameter,
-                                                   std::vector<double>& medians) {
-  std::vector<std::vector<std::size_t>> runs(parameter.places.size() + 1);
-  for (std::size_t run = 0; run < view.values.size(); ++run)
-    runs[parameter.level[run]].push_back(run);
+/// The levels that have the least and the largest of these medians.
+std::pair<std::size_t, std::size_t> best_and_worst(const std::vector<double>& medians) {
   std::size_t best = 0, worst = 0;
-  for (std::size_t k = 0; k < parameter.places.size(); ++k) {
-    medians.push_back(view.median_of(runs[k]));
+  for (std::size_t k = 0; k < medians.size(); ++k) {
     if (!(medians[k] >= medians[best])) best = std::isnan(medians[k]) ? best : k;
     if (!(medians[k] <= medians[worst])) worst = std::isnan(medians[k]) ? worst : k;
   }
@@ -185,6 +179,15 @@ double StoreView::median_of(const std::vector<std::size_t>& runs) const {
   for (const std::size_t run : runs)
     if (std::isfinite(values[run])) shown.push_back(values[run]);
   return shown.empty() ? kNaN : median(std::move(shown));
+}
+
+std::vector<double> StoreView::medians_over(const SweptParameter& parameter) const {
+  std::vector<std::vector<std::size_t>> runs(parameter.places.size() + 1);
+  for (std::size_t run = 0; run < values.size(); ++run) runs[parameter.level[run]].push_back(run);
+  std::vector<double> medians;
+  for (std::size_t level = 0; level < parameter.places.size(); ++level)
+    medians.push_back(median_of(runs[level]));
+  return medians;
 }
 
 std::string usual_outcome(SqliteFile& store) {
@@ -270,8 +273,8 @@ TextTable effects_table(const StoreView& view) {
                   {},
                   "What goes with each parameter"};
   for (const SweptParameter& parameter : view.parameters) {
-    std::vector<double> medians;
-    const auto [best, worst] = best_and_worst(view, parameter, medians);
+    const std::vector<double> medians = view.medians_over(parameter);
+    const auto [best, worst] = best_and_worst(medians);
     std::set<double> different;
     for (const double value : parameter.values)
       if (std::isfinite(value)) different.insert(value);

@@ -42,6 +42,8 @@ struct StoreView {
 
   /// Of the runs that show it, each of them; NaN of none.
   double median_of(const std::vector<std::size_t>& runs) const;
+  /// That of the runs at each level of a parameter.
+  std::vector<double> medians_over(const SweptParameter& parameter) const;
 };
 
 /// The first error in a store of what has a tolerance, else the first value of the reference; empty

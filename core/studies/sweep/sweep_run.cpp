@@ -133,7 +133,7 @@ bool is_set(const std::atomic<bool>* stop) { return stop != nullptr && *stop; }
 void run_sweep(const SweepSetup& setup, const SweepOptions& options,
                const std::function<std::optional<std::uint64_t>()>& next,
                const std::function<void(const FinishedRun&)>& keep) {
-  const WorkerPool pool(options.workers, options.limits);
+  WorkerPool pool(options.workers, options.limits);
   SweepScenes scenes(setup.plan(), pool.threads() + 4, options.time_limit);
   if (setup.plan().is_reference_alone()) {
     std::mutex asking;

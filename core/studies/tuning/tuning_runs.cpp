@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
+#include "engine/worker_pool.h"
 #include "scenario/observable_key.h"
 #include "scenario/tolerances.h"
 
@@ -39,8 +42,9 @@ std::vector<TuningTask> tuning_tasks(const std::vector<PreparedScene>& scenes, s
 
 TuningRuns engine_tuning_runs(const std::vector<PreparedScene>& scenes, const std::string& engine,
                               const std::string& precision, const TuningObservables& observables,
-                              const RunOptions& options) {
-  return [&scenes, engine, precision, observables, options](
+                              RunOptions options) {
+  options.pool = std::make_shared<WorkerPool>(options.workers, options.limits);
+  return [&scenes, engine, precision, observables, options = std::move(options)](
              const Settings& settings, std::size_t phases,
              std::span<const TuningTask* const> tasks) {
     std::vector<EngineRecord> records(tasks.size());

@@ -18,7 +18,7 @@ std::vector<TuningTask> tuning_tasks(const std::vector<PreparedScene>& scenes, s
 /// function, and options.stop interrupts it.
 TuningRuns engine_tuning_runs(const std::vector<PreparedScene>& scenes, const std::string& engine,
                               const std::string& precision, const TuningObservables& observables,
-                              const RunOptions& options);
+                              RunOptions options);
 
 /// Names in `observables` that no scene's reference has, and scenes of which nothing counts: what
 /// is to be said about them, "" if nothing.
