@@ -180,7 +180,9 @@ class StepLoop final : public StepKernel {
     return laws_[material_[i] * materials_ + material_[j]];
   }
 
-  void forces(StepWorld& world) {
+  /// Flat, but for what begins and ends, as move() is: in a large unit the compiler leaves calls
+  /// for sums of vectors, which pass them through memory.
+  [[gnu::flatten]] void forces(StepWorld& world) {
     begin_forces(world);
     std::size_t k = 0;
     for (std::size_t j = 1; j < world.bodies.size(); ++j) {
@@ -261,8 +263,9 @@ class StepLoop final : public StepKernel {
 
   /// The contact has lasted for `part` of the step before now, and gets part h ½ (F_begin + F) for
   /// it.
-  void begin(StepWorld& world, StepBody& a, StepBody& b, Pair& pair, const Law& law, double overlap,
-             double normal, const Vector3& slip_now, const Vector3& n) {
+  [[gnu::noinline]] void begin(StepWorld& world, StepBody& a, StepBody& b, Pair& pair,
+                               const Law& law, double overlap, double normal,
+                               const Vector3& slip_now, const Vector3& n) {
     const double h = world.step;
     const double closing = -n.dot(a.velocity - b.velocity);
     const bool began_within = world.n > 0 && closing * h >= overlap && closing > 0;
@@ -284,8 +287,9 @@ class StepLoop final : public StepKernel {
   }
 
   /// Two bodies that touched a step ago and overlap no more.
-  void part(StepWorld& world, StepBody& a, StepBody& b, Pair& pair, const Law& law,
-            const Vector3& between, double reach, double distance) {
+  [[gnu::noinline]] void part(StepWorld& world, StepBody& a, StepBody& b, Pair& pair,
+                              const Law& law, const Vector3& between, double reach,
+                              double distance) {
     const Vector3 n = between / distance;
     const Vector3 dv = a.velocity - b.velocity;
     const double closing = -n.dot(dv);
@@ -301,8 +305,8 @@ class StepLoop final : public StepKernel {
   /// The contact lasted for `part` of the step before now and should have had part h ½ (F + F_end)
   /// there; it had h/2 F. What is taken back from a body that the other pressed down was borne by
   /// the substrate and must not lift it.
-  void end(StepBody& a, StepBody& b, Pair& pair, double part, const Force& last_force,
-           const Vector3& n) {
+  [[gnu::noinline]] void end(StepBody& a, StepBody& b, Pair& pair, double part,
+                             const Force& last_force, const Vector3& n) {
     const double before_a = a.force.z(), before_b = b.force.z();
     push(a, b, 0.5 * (part * (pair.force + last_force) - pair.force), n);
     const auto keep_down = [](StepBody& body, double before) {
@@ -313,7 +317,7 @@ class StepLoop final : public StepKernel {
     pair.touching = false;
   }
 
-  void move(StepWorld& world) {
+  [[gnu::flatten]] void move(StepWorld& world) {
     StepSurroundings& s = world.around;
     const double h = world.step, dt = world.kick_length();
     if constexpr (std::is_same_v<Substrate, FullSubstrate>) {
