@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -131,6 +132,8 @@ int run_command_line(int argc, char** argv) {
   } catch (const BadStore& bad) {
     say("slipcheck: {}\n", lines_of(bad.what()));
     return kBadInput;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     say("slipcheck: {}\n", lines_of(error.what()));
     return kNotWritten;
@@ -144,5 +147,11 @@ int run_command_line(int argc, char** argv) {
 int main(int argc, char** argv) {
   // What grows beyond the limit of a file's size is then an error of its write.
   std::signal(SIGXFSZ, SIG_IGN);
-  return slipcheck::printed(slipcheck::run_command_line(argc, argv));
+  try {
+    return slipcheck::printed(slipcheck::run_command_line(argc, argv));
+  } catch (const std::bad_alloc&) {
+    // There may be none to word it with either.
+    std::fputs("slipcheck: out of memory\n", stderr);
+    return slipcheck::kNotWritten;
+  }
 }
