@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "app/engine_option.h"
 #include "app/interrupt.h"
 #include "app/limit_options.h"
 #include "app/output.h"
@@ -14,7 +15,8 @@ void add_grid_options(CLI::App& command, GridArguments& arguments, GridEngines e
     command
         .add_option("--engines", arguments.engines.engines,
                     "Engines, separated by commas; else all that are installed")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->check(installed_engine(false));
   command
       .add_option("--precisions", arguments.engines.precisions,
                   "single, double, or both with a comma; else what is installed")

@@ -10,6 +10,7 @@
 #include "app/assembly_files.h"
 #include "app/checkpoint_files.h"
 #include "app/commands.h"
+#include "app/engine_option.h"
 #include "app/interrupt.h"
 #include "app/limit_options.h"
 #include "app/load_files.h"
@@ -208,7 +209,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--engines", arguments->engines.engines,
                    "In place of the scenes' engines these, with commas, or all that are installed")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->check(installed_engine(true));
   command
       ->add_option("--precision", arguments->engines.precisions,
                    "In place of the scenes' precision single, double, or both with a comma")

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/engine_option.h"
 #include "app/interrupt.h"
 #include "app/limit_options.h"
 #include "app/number_range.h"
@@ -121,7 +122,8 @@ void add_scene_options(CLI::App& command, TuneArguments& arguments) {
   command.add_option("--held-out", arguments.held_out,
                      "Scenario files that are not fitted to, to see how far the fit carries");
   command.add_option("--engine", arguments.engine, "The engine whose settings are searched")
-      ->required();
+      ->required()
+      ->check(installed_engine(false));
   command
       .add_option("--precision", arguments.precision,
                   "single or double; else the one that the engine has, of both double")

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -76,8 +77,16 @@ std::vector<KnownEngine> known_engines() {
   return engines;
 }
 
+std::vector<std::string> engine_names() {
+  std::set<std::string> names;
+  for (const KnownEngine& known : known_engines()) names.insert(known.name);
+  for (const EngineExecutable& found : find_engines()) names.insert(engine_family(found.engine));
+  return {names.begin(), names.end()};
+}
+
 std::string not_installed_text(const std::string& engine, const std::string& precision) {
-  std::string text = engine + " (" + precision + ") is not installed";
+  std::string text =
+      engine + (precision.empty() ? "" : " (" + precision + ")") + " is not installed";
   const std::string other = precision == "single" ? "double" : "single";
   if ((precision == "single" || precision == "double") && find_engine(engine, other))
     return text + ", but " + other + " precision is";

@@ -28,8 +28,11 @@ struct KnownEngine {
 
 /// Those of packages and those that npm brings, sorted by name.
 std::vector<KnownEngine> known_engines();
-/// "rapier@0.19.3 (single) is not installed: slipcheck engines add rapier@0.19.3"
-std::string not_installed_text(const std::string& engine, const std::string& precision);
+/// Every engine that the project or this machine knows of, sorted, without versions.
+std::vector<std::string> engine_names();
+/// "rapier@0.19.3 (single) is not installed: slipcheck engines add rapier@0.19.3"; of no precision
+/// where that is left out.
+std::string not_installed_text(const std::string& engine, const std::string& precision = {});
 
 /// "rapier" of "rapier@0.19.3", "bullet" of "bullet".
 std::string engine_family(std::string_view engine);

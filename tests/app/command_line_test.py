@@ -271,6 +271,23 @@ class CommandLine(unittest.TestCase):
                                         r"No such file or directory, got \./mine\.yaml")
         self.assertFalse(out.exists())
 
+    def test_engines_that_are_not_installed_are_exit_2_before_anything_runs(self):
+        out, scene = self.path / "out.json", SCENES / "symmetric-30cms.yaml"
+        for name, rule in (("rapier@0.0.1", "rapier@0.0.1 is not installed: slipcheck engines add rapier@0.0.1 may have it"),
+                           ("odd", r"must be one of the engines bullet, .*did you mean ode\?\), got odd")):
+            for arguments in (["run", scene, "--engines", f"bullet,{name}", "--json", out],
+                              ["precision", scene, "--engines", name, "--json", out],
+                              ["stability", "--engines", name, "--json", out],
+                              ["tune", scene, "--engine", name, "-o", out]):
+                result = run(*arguments)
+                self.assertEqual((result.returncode, result.stdout), (2, ""))
+                self.assertRegex(result.stderr, f"^--engines?: {rule}\n")
+        result = run("run", scene, "--engines", "bullet", "--profiles", "tunde", "--json", out)
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"--profiles: must be profiles of the engines, default, fast, naive, physical, tuned, "
+                                        r"or paths \(did you mean tuned\?\), got tunde")
+        self.assertFalse(out.exists())
+
     def test_killed_worker_leaves_every_other_run_intact_and_exit_3(self):
         bullet = "{engine: bullet, precision: double, rate: [240, 1000]}"
         file = self.scene("{engine: faulty, precision: double, profile: slow, rate: 1000}, " + bullet)

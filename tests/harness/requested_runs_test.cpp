@@ -106,8 +106,10 @@ TEST_F(RequestedRunsTest, OfAGridTheEnginesThatHaveTheProfileRun) {
   EXPECT_EQ(found[3].reason, "");
   ask_for(scene, {{"faulty", "bullet"}, {"double"}, {"hnag"}}, rates);
   EXPECT_EQ(faults({scene}),
-            (std::vector<std::string>{"scenes/ball.yaml: --profiles: must be profiles of the "
-                                      "engines (did you mean hang?), got hnag"}));
+            (std::vector<std::string>{
+                "scenes/ball.yaml: --profiles: must be profiles of the engines, default, "
+                "eat-memory, fast, hang, kill-at-step-10, naive, nan, ok, physical, slow, tuned, "
+                "or paths (did you mean hang?), got hnag"}));
 }
 
 TEST_F(RequestedRunsTest, TheDefaultNeedsNoFile) {

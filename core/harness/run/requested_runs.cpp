@@ -28,14 +28,6 @@ namespace fs = std::filesystem;
 /// about 140 bytes and 9 items.
 constexpr std::size_t kMostBodies = 400'000;
 
-/// Every engine that the project or this machine knows of.
-std::vector<std::string> engine_names() {
-  std::set<std::string> names;
-  for (const KnownEngine& known : known_engines()) names.insert(known.name);
-  for (const EngineExecutable& found : find_engines()) names.insert(engine_family(found.engine));
-  return {names.begin(), names.end()};
-}
-
 std::string precision_of(const EngineRequest& request) {
   if (!request.precision) return usual_precision(request.engine);
   return *request.precision == EngineRequest::Precision::single_ ? "single" : "double";
@@ -101,11 +93,15 @@ class Profiles {
       if (!record.reason.empty()) lacking.insert(record.profile);
     for (const EngineRecord& record : records)
       if (record.reason.empty()) lacking.erase(record.profile);
-    std::vector<std::string> names;
-    for (const EngineExecutable& engine : find_engines())
-      for (const std::string& name : profile_names(engine)) names.push_back(name);
+    if (lacking.empty()) return;
+    std::set<std::string> had;
+    for (const EngineRecord& record : records)
+      if (const auto executable = find_engine(record.engine, record.precision))
+        for (const std::string& name : profile_names(*executable)) had.insert(name);
+    const std::vector<std::string> names(had.begin(), had.end());
     for (const std::string& profile : lacking) {
-      std::string rule = "must be profiles of the engines" + did_you_mean(profile, names);
+      std::string rule = fmt::format("must be profiles of the engines, {}, or paths{}",
+                                     fmt::join(names, ", "), did_you_mean(profile, names));
       note(scenario.compare.all_engines
                ? fault_at(scenario, "compare.engines.profiles", std::move(rule), profile)
                : Fault{scenario.file, {}, "--profiles", std::move(rule), profile});
