@@ -67,14 +67,14 @@ TEST(DartMaps, ABeltCarriesABallUpToTwoSeventhsOfItsSpeed) {
 
 TEST(DartMaps, AFreshStartIsTheSameBitForBit) {
   const Scene scene = bundled_scene("ten-ball-break");
-  RemoteEngine worker(peer_executable(kDart));
+  RemoteEngine worker(peer_executable(kDart), kPatient);
   const Settings settings = peer_profile(kDart, "physical");
   const auto first = run(worker, scene, settings, 240, 120);
   expect_same_bits(run(worker, scene, settings, 240, 120), first);
 }
 
 TEST(DartMaps, WhatItLacksIsSaid) {
-  RemoteEngine worker(peer_executable(kDart));
+  RemoteEngine worker(peer_executable(kDart), kPatient);
   EXPECT_TRUE(lists(worker.configure(rolling_ball(0.02, 0.5, 0), {}, 1e-3), "rolling friction"));
   EXPECT_TRUE(lists(worker.configure(spinning_top(1e-4, 5), {}, 1e-3), "drilling friction"));
   EXPECT_TRUE(lists(worker.configure(bundled_scene("symmetric-30cms"), {}, 1e-3),

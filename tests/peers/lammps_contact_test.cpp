@@ -75,7 +75,7 @@ Outcome by_reference(const ContactScene& scene) {
 }
 
 Outcome by_lammps(const ContactScene& scene, std::size_t steps_per_collision) {
-  RemoteEngine engine(test::peer_executable("lammps"));
+  RemoteEngine engine(test::peer_executable("lammps"), test::kPatient);
   const double step = kTime / static_cast<double>(steps_per_collision);
   const std::size_t steps = 3 * steps_per_collision / 2;
   const auto frames = test::peer_run(engine, EngineScene(scene), {{"substeps", 1.0}}, step, steps);

@@ -48,7 +48,7 @@ std::vector<std::vector<BodyState>> bare(const Scene& scene, const Applied& appl
 }
 
 void expect_same_bits(const Scene& scene, const std::string& pair, int steps) {
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const Applied applied = engine.configure(scene, {}, 1 / kRate);
   const auto frames = test::peer_run(engine, scene, {}, 1 / kRate, static_cast<std::size_t>(steps));
   const auto expected = bare(scene, applied, pair, steps);
@@ -70,7 +70,7 @@ TEST(Lammps, NumbersAreThoseOfABareInputFile) {
   expect_same_bits(bounce, any_pair, 240);
 
   const Scene pair = test::head_on(0.15, -0.15, 0.9, 0.0095);
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const Applied applied = engine.configure(pair, {}, 1 / kRate);
   const double mass = pair.bodies[0].mass;
   const std::string hooke =
@@ -81,7 +81,7 @@ TEST(Lammps, NumbersAreThoseOfABareInputFile) {
 }
 
 TEST(Lammps, SpringsHaveTheRestitutionAndTheTime) {
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const Scene scene = test::bouncing_ball();
   const Applied applied = engine.configure(scene, {}, 1 / kRate);
   // e = exp(−c t/(2 m)) and t = π/ω of the free oscillation.
@@ -96,7 +96,7 @@ TEST(Lammps, SpringsHaveTheRestitutionAndTheTime) {
 
 TEST(Lammps, ABallSlidesIntoRolling) {
   const Scene scene = test::slide_to_roll();
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto frames = test::peer_run(engine, scene, {}, 1e-3, 120);
   // t = 2 v/(7 μ g); the spring takes a few t_col to carry the weight, 0.1 ms each.
   EXPECT_NEAR(test::sliding_end(frames, 0.005, 1e-3), 2 * 0.5 / (7 * 0.2 * 9.81), 2e-4);
@@ -108,7 +108,7 @@ TEST(Lammps, ABallSlidesIntoRolling) {
 
 TEST(Lammps, ABallReboundsWithItsRestitution) {
   const Scene scene = test::bouncing_ball();
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   // A step of t_col/50 leaves 2 |ln e|/50 · ½ of the jump in the force out at most.
   EXPECT_NEAR(test::rebound(test::peer_run(engine, scene, {}, 1e-3, 150), scene), 0.8, 8e-3);
   const Settings fine = {{"collision_time", 2e-5}, {"steps_per_collision", 400.0}};
@@ -117,7 +117,7 @@ TEST(Lammps, ABallReboundsWithItsRestitution) {
 
 TEST(Lammps, RollingFrictionSlowsByItsCoefficient) {
   const Scene scene = test::roll_to_rest();
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto frames = test::peer_run(engine, scene, {}, 1e-3, 1000);
   const Vector3 v = frames.back().bodies[0].velocity;
   EXPECT_NEAR((0.5 - v.norm()) / (0.02 * 9.81 * 1.0), 1, 1e-4);
@@ -133,7 +133,7 @@ TEST(Lammps, DrillingFrictionSlowsTheSpin) {
   scene.initial[0].velocity.setZero();
   scene.initial[0].angular_velocity = {0, 0, 50};
   scene.substrate[0].drilling_length = 2e-5;
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto frames = test::peer_run(engine, scene, {}, 1e-3, 500);
   // I dΩ/dt = −length m g.
   const double rate = 2e-5 * 9.81 / (0.4 * 0.005 * 0.005);
@@ -144,7 +144,7 @@ TEST(Lammps, ABeltCarriesABallAsAStillPlaneBrakesIt) {
   Scene still = test::slide_to_roll(), belt = still;
   belt.motion = SubstrateMotion::constant({0.2, 0.1});
   belt.initial[0].velocity += Vector3(0.2, 0.1, 0);
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto a = test::peer_run(engine, still, {}, 1e-3, 50);
   const auto b = test::peer_run(engine, belt, {}, 1e-3, 50);
   const Vector3 way = 0.05 * Vector3(0.2, 0.1, 0);
@@ -156,14 +156,14 @@ TEST(Lammps, ABallCrossesTheEdgeOfAPeriodicPlane) {
   scene.substrate[0].kinetic_friction = scene.substrate[0].static_friction = 0;
   scene.periodic = {0.05, 0.05};
   scene.initial[0].position.x() = 0.04;
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto frames = test::peer_run(engine, scene, {}, 1e-3, 100);
   EXPECT_NEAR(frames.back().bodies[0].position.x(), 0.09, 1e-12);
 }
 
 TEST(Lammps, StatesInsideAStepAreThoseOfShorterSteps) {
   const Scene scene = test::bouncing_ball();
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const Settings inner = {{"substeps", 2000.0}}, outer = {{"substeps", 500.0}};
   const auto shown = test::peer_run(engine, scene, test::with(inner, {{"frames", 4.0}}), 4e-3, 40);
   const auto apart = test::peer_run(engine, scene, outer, 1e-3, 160);
@@ -179,7 +179,7 @@ TEST(Lammps, StatesInsideAStepAreThoseOfShorterSteps) {
 
 TEST(Lammps, EveryStartIsTheSame) {
   const Scene scene = test::head_on(0.15, -0.15, 0.9);
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto first = test::peer_run(engine, scene, {}, 1 / kRate, 30);
   std::vector<Frame> second;
   engine.start(scene.initial);
@@ -190,7 +190,7 @@ TEST(Lammps, EveryStartIsTheSame) {
 
 TEST(Lammps, TwoRanksGiveTheSame) {
   const Scene scene = test::head_on(0.15, -0.15, 0.9);
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto one = test::peer_run(engine, scene, {}, 1 / kRate, 30);
   const auto two = test::peer_run(engine, scene, {{"ranks", 2.0}}, 1 / kRate, 30);
   for (std::size_t n = 0; n < one.size(); ++n)
@@ -200,7 +200,7 @@ TEST(Lammps, TwoRanksGiveTheSame) {
 
 TEST(Lammps, CpuTimeIsThatOfTheSteps) {
   const Scene scene = test::head_on(0.15, -0.15, 0.9);
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   engine.configure(scene, {}, 1 / kRate);
   const auto short_runs = engine.time_steps(scene.initial, 0, 10, 3);
   const auto long_runs = engine.time_steps(scene.initial, 0, 100, 3);
@@ -227,7 +227,7 @@ TEST(Lammps, NeedsNoNetwork) {
 }
 
 TEST(Lammps, RefusesWithTheReason) {
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto refusal = [&](const EngineScene& scene, const Settings& settings = {}) {
     return test::refusal_of<Refused>([&] { engine.configure(scene, settings, 1e-3); });
   };
@@ -253,7 +253,7 @@ TEST(Lammps, RefusesWithTheReason) {
 TEST(Lammps, SaysWhatIsNotRepresented) {
   Scene scene = test::roll_to_rest();
   scene.substrate[0].static_friction = 0.5;
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto texts = texts_of(engine.configure(scene, {}, 1e-3).not_represented);
   EXPECT_EQ(texts, (std::vector<std::string>{
                        "static friction (one coefficient, and damping below its limit)",

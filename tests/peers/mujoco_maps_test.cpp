@@ -54,7 +54,7 @@ TEST(MujocoMaps, ASpringReboundsInEveryPhase) {
 
 TEST(MujocoMaps, AsItShipsNothingBounces) {
   EXPECT_LT(head_on_restitution(kMujoco, "default", 0.9, 0.3, 0.5, 1000, {}), 0.2);
-  RemoteEngine worker(peer_executable(kMujoco));
+  RemoteEngine worker(peer_executable(kMujoco), kPatient);
   EXPECT_TRUE(lists(worker.configure(bundled_scene("symmetric-30cms"), {}, 1e-3), "restitution"));
 }
 
@@ -89,14 +89,14 @@ TEST(MujocoMaps, ABallInAShakenBoxStaysInItsPlane) {
 
 TEST(MujocoMaps, AFreshStartIsTheSameBitForBit) {
   const Scene scene = bundled_scene("ten-ball-break");
-  RemoteEngine worker(peer_executable(kMujoco));
+  RemoteEngine worker(peer_executable(kMujoco), kPatient);
   const Settings settings = peer_profile(kMujoco, "default");
   const auto first = run(worker, scene, settings, 240, 120);
   expect_same_bits(run(worker, scene, settings, 240, 120), first);
 }
 
 TEST(MujocoMaps, WhatItLacksIsSaid) {
-  RemoteEngine worker(peer_executable(kMujoco));
+  RemoteEngine worker(peer_executable(kMujoco), kPatient);
   const Scene scene = rolling_ball(0.02, 0.5, 0);
   EXPECT_TRUE(lists(worker.configure(scene, peer_profile(kMujoco, "naive"), 1e-3),
                     "rolling friction (condim leaves it out)"));
@@ -119,7 +119,7 @@ TEST(MujocoMaps, ACylinderRollsWithTwoThirdsAndABlockStopsAfterVSquaredOverTwoMu
 }
 
 TEST(MujocoMaps, WhatItCannotRunIsRefusedAndWhatItGivesUpIsNoResult) {
-  RemoteEngine worker(peer_executable(kMujoco));
+  RemoteEngine worker(peer_executable(kMujoco), kPatient);
   const Scene dust = scene_of(steel_ball(1e-6), {rolling_along_x(1e-6, 0, 1)}, {});
   EXPECT_THROW(worker.configure(dust, {}, 1e-3), Refused);
   // MuJoCo resets a state beyond 1e10 to where it began.

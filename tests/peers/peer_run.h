@@ -8,13 +8,10 @@
 
 #include "../bullet_backend/bullet_run.h"
 #include "../support/bundled.h"
+#include "peer_worker.h"
 #include "scene/contact_scene.h"
 
 namespace slipcheck::test {
-
-inline std::string peer_executable(const std::string& engine) {
-  return std::string(SLIPCHECK_BINARY_DIR) + "/slipcheck-engine-" + engine + "-double";
-}
 
 inline Settings peer_profile(const std::string& engine, const std::string& profile) {
   return load_profile(std::string(SLIPCHECK_SOURCE_DIR) + "/peer_backends/" + engine +
@@ -33,7 +30,7 @@ using States = std::vector<std::vector<BodyState>>;
 /// What a bare program yields is what the worker does with the profile `default`, for a second at
 /// 240 Hz, to the last bit.
 inline void expect_as_bare(const std::string& engine, const Scene& scene, const States& bare) {
-  RemoteEngine worker(peer_executable(engine));
+  RemoteEngine worker(peer_executable(engine), kPatient);
   const auto frames = run(worker, scene, peer_profile(engine, "default"), 240, bare.size());
   ASSERT_EQ(frames.size(), bare.size());
   ASSERT_NE(std::memcmp(frames.front().bodies.data(), frames.back().bodies.data(),
@@ -53,7 +50,7 @@ inline void expect_as_bare(const std::string& engine, const Scene& scene, const 
 inline std::vector<Frame> run_peer(const std::string& engine, const Scene& scene,
                                    const std::string& profile, double rate, std::size_t steps,
                                    const Settings& over = {}) {
-  RemoteEngine worker(peer_executable(engine));
+  RemoteEngine worker(peer_executable(engine), kPatient);
   return run(worker, scene, with(peer_profile(engine, profile), over), rate, steps);
 }
 

@@ -17,7 +17,7 @@ const Settings kPrecise = {{"tolerance", 1e-12}, {"iterations", 1e5}, {"newton_t
 
 void expect_same_bits(const Scene& scene, const std::vector<test::BareSphere>& balls,
                       const test::BareLaw& ground, const test::BareLaw& pair) {
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto frames = test::peer_run(engine, scene, {}, 1.0 / 240, 240);
   const auto expected = test::siconos_bare(balls, ground, pair, 240, 240);
   ASSERT_EQ(frames.size(), expected.size());
@@ -39,7 +39,7 @@ TEST(Siconos, NumbersAreThoseOfABareProgram) {
 
 TEST(Siconos, ABallSlidesIntoRolling) {
   const Scene scene = test::slide_to_roll();
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto frames = test::peer_run(engine, scene, kPrecise, 1e-3, 120);
   // Sliding is exact; it ends inside a step.
   EXPECT_NEAR(test::sliding_end(frames, 0.005, 1e-3), 2 * 0.5 / (7 * 0.2 * 9.81), 1e-9);
@@ -50,7 +50,7 @@ TEST(Siconos, ABallSlidesIntoRolling) {
 
 TEST(Siconos, ABallReboundsWithItsRestitutionUpToAStepOfGravity) {
   const Scene scene = test::bouncing_ball();
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const double landing = std::sqrt(2 * 9.81 * 0.05);
   for (const double step : {1.0 / 240, 1e-3, 1e-4}) {
     const auto steps = static_cast<std::size_t>(0.15 / step);
@@ -62,7 +62,7 @@ TEST(Siconos, ABallReboundsWithItsRestitutionUpToAStepOfGravity) {
 
 TEST(Siconos, RollingFrictionSlowsByItsCoefficientInAllHeadings) {
   Scene scene = test::roll_to_rest();
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   for (const double degrees : {0.0, 22.5, 30.0, 45.0}) {
     const double angle = degrees * M_PI / 180;
     const Vector3 velocity = 0.5 * Vector3(std::cos(angle), std::sin(angle), 0);
@@ -80,7 +80,7 @@ TEST(Siconos, TheSpinIsAlongTheAxesOfSpace) {
   Scene scene = test::slide_to_roll();
   scene.initial[0].angular_velocity =
       rolling_angular_velocity(scene.initial[0].velocity, 0.005) + Vector3(0, 0, 80);
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto frames = test::peer_run(engine, scene, kPrecise, 1e-4, 2000);
   const BodyState& last = frames.back().bodies[0];
   EXPECT_NEAR(last.velocity.x(), 0.5, 1e-3);
@@ -90,7 +90,7 @@ TEST(Siconos, TheSpinIsAlongTheAxesOfSpace) {
 
 TEST(Siconos, EveryStartIsTheSame) {
   const Scene scene = test::head_on(0.15, -0.15, 0.9);
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto first = test::peer_run(engine, scene, {}, 1.0 / 240, 30);
   std::vector<Frame> second;
   engine.start(scene.initial);
@@ -103,7 +103,7 @@ TEST(Siconos, SaysWhatIsNotRepresentedAndRefuses) {
   Scene scene = test::roll_to_rest();
   scene.substrate[0].static_friction = 0.5;
   scene.substrate[0].drilling_length = 1e-5;
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   EXPECT_EQ(texts_of(engine.configure(scene, {}, 1e-3).not_represented),
             (std::vector<std::string>{
                 "static friction (one coefficient for sticking and sliding)", "drilling friction",

@@ -21,7 +21,7 @@ double number(const Applied& applied, const std::string& name) {
 }
 
 void expect_same_bits(const Scene& scene, const std::vector<test::BareBall>& balls) {
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const Applied applied = engine.configure(scene, {}, 1.0 / 240);
   const auto typed = [&](const std::string& of) {
     return test::BareContact{1e9, number(applied, of + "_dissipation"),
@@ -49,7 +49,7 @@ TEST(Simbody, NumbersAreThoseOfABareProgram) {
 
 TEST(Simbody, ABallSlidesIntoRolling) {
   const Scene scene = test::slide_to_roll();
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto frames = test::peer_run(engine, scene, kPrecise, 1e-3, 120);
   // The contact's depth and what it takes to settle is what is left.
   EXPECT_NEAR(test::sliding_end(frames, 0.005, 1e-3), 2 * 0.5 / (7 * 0.2 * 9.81), 2e-4);
@@ -58,7 +58,7 @@ TEST(Simbody, ABallSlidesIntoRolling) {
 
 TEST(Simbody, ABallReboundsWithItsRestitution) {
   const Scene scene = test::bouncing_ball();
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   // The dissipation is set for just this impact; gravity over the collision is left.
   const auto frames = test::peer_run(engine, scene, kPrecise, 1e-3, 150);
   EXPECT_NEAR(test::rebound(frames, scene), 0.8, 5e-4);
@@ -74,7 +74,7 @@ TEST(Simbody, ASoftHertzContactHasItsDurationAndKeepsTheEnergy) {
   // Hertz 1882: 2.9433 ξ_max/v, ξ_max = ((5/4) m v²/ρ)^(2/5); L. Landau and E. Lifshitz, Theory of
   // elasticity, §9.
   const double depth = std::pow(1.25 * mass * 0.09 / rho, 0.4), time = 2.94326 * depth / 0.3;
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto frames =
       test::peer_run(engine, scene, {{"accuracy", 1e-10}, {"interpolate", false}}, time / 50, 100);
   const BodyState &a = frames.back().bodies[0], &b = frames.back().bodies[1];
@@ -86,7 +86,7 @@ TEST(Simbody, ASoftHertzContactHasItsDurationAndKeepsTheEnergy) {
 
 TEST(Simbody, HasNoRollingFrictionAndSaysSo) {
   const Scene scene = test::roll_to_rest();
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto texts = texts_of(engine.configure(scene, {}, 1e-3).not_represented);
   EXPECT_EQ(texts,
             (std::vector<std::string>{"rolling friction",
@@ -97,7 +97,7 @@ TEST(Simbody, HasNoRollingFrictionAndSaysSo) {
 
 TEST(Simbody, EveryStartIsTheSame) {
   const Scene scene = test::head_on(0.15, -0.15, 0.9);
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto first = test::peer_run(engine, scene, {}, 1.0 / 240, 30);
   std::vector<Frame> second;
   engine.start(scene.initial);
@@ -107,7 +107,7 @@ TEST(Simbody, EveryStartIsTheSame) {
 }
 
 TEST(Simbody, RefusesWithTheReason) {
-  RemoteEngine engine(executable());
+  RemoteEngine engine(executable(), test::kPatient);
   const auto refusal = [&](const EngineScene& scene) {
     return test::refusal_of<Refused>([&] { engine.configure(scene, {}, 1e-3); });
   };

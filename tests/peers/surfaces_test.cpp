@@ -69,7 +69,7 @@ class PeerSurfaces : public ::testing::TestWithParam<Peer> {
  protected:
   /// At the ends of steps, with all touches since the one before.
   std::vector<Frame> run(const Scene& scene, std::size_t steps) {
-    RemoteEngine worker(peer_executable(GetParam().name));
+    RemoteEngine worker(peer_executable(GetParam().name), kPatient);
     std::vector<Frame> ends;
     std::vector<Touch> since;
     for (Frame& frame : peer_run(worker, {scene}, physical(GetParam().name), kStep, steps)) {
@@ -82,7 +82,7 @@ class PeerSurfaces : public ::testing::TestWithParam<Peer> {
   }
   /// Why it does not take a scene; empty where it does.
   std::string refusal(const Scene& scene) {
-    RemoteEngine worker(peer_executable(GetParam().name));
+    RemoteEngine worker(peer_executable(GetParam().name), kPatient);
     try {
       worker.configure({scene}, physical(GetParam().name), kStep);
     } catch (const Refused& refused) {

@@ -7,13 +7,9 @@
 #include <vector>
 
 #include "engine/engine_scene.h"
-#include "engine/remote_engine.h"
+#include "peer_worker.h"
 
 namespace slipcheck::test {
-
-inline std::string peer_executable(const std::string& engine) {
-  return std::string(SLIPCHECK_BINARY_DIR) + "/slipcheck-engine-" + engine + "-double";
-}
 
 /// The frames of a run from the scene's initial states.
 inline std::vector<Frame> peer_run(RemoteEngine& engine, const EngineScene& scene,
