@@ -107,6 +107,7 @@ Vector3 SurfaceMotion::direction_now(double t, const Vector3& at_rest) const {
 }
 
 NearestPoint Surface::nearest(double t, const Vector3& to) const {
+  if (motion.is_still()) return nearest_point(shape, to);
   NearestPoint found = nearest_point(shape, motion.at_rest(t, to));
   found.point = motion.now(t, found.point);
   found.normal = motion.direction_now(t, found.normal);

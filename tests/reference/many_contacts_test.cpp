@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "../../bench/soft_bed.h"
 #include "physics/numbers.h"
@@ -31,6 +32,7 @@ struct Ended {
   EnergyBalance balance;
   std::size_t collisions = 0;
   double impulse = 0;
+  std::string features;
 };
 
 Ended run(const ContactScene& scene, std::size_t steps, const PileSettings& settings) {
@@ -38,7 +40,9 @@ Ended run(const ContactScene& scene, std::size_t steps, const PileSettings& sett
   Impulses sink;
   const SolvedRun run = solver.run(until_time(static_cast<double>(steps) * solver.step()), &sink);
   EXPECT_TRUE(run.reached) << run.reason;
-  return {solver.states(), *run.balance, run.collisions, sink.sum};
+  std::string features;
+  for (const std::string& each : solver.features()) features += each + "; ";
+  return {solver.states(), *run.balance, run.collisions, sink.sum, features};
 }
 
 /// In slabs only the order of sums differs from one list in the scene's order: 1e-16 of a force,
@@ -60,6 +64,36 @@ TEST(ManyContacts, InSlabsAreThoseOfOneList) {
     EXPECT_NEAR(slabs.balance.dissipated, list.balance.dissipated, 1e-9 * list.balance.dissipated);
     for (std::size_t i = 0; i < list.states.size(); ++i)
       ASSERT_NEAR((slabs.states[i].position - list.states[i].position).norm(), 0, 1e-11) << i;
+  }
+}
+
+/// Several at once in the lanes of vectors are the same as one by one by the laws that leave out
+/// nothing: in a container, sliding with less friction than held them, and on a periodic plane that
+/// is hard.
+TEST(ManyContacts, InLanesHaveTheBitsOfOneByOne) {
+  for (const bool walls : {true, false}) {
+    ContactScene scene = soft_bed({.count = 500, .ratio = walls ? 1.0 : 3.0, .walls = walls});
+    if (walls) scene.soft[0]->memory->sliding.kinetic_friction = 0.2;
+    const auto end = [&](bool general) {
+      return run(scene, 2000,
+                 {.steps_per_contact = 20,
+                  .collision_time = kOnPlane,
+                  .steps_per_frame = 100,
+                  .general = general,
+                  .ordered_from = 300});
+    };
+    const Ended lanes = end(false), one_by_one = end(true);
+    EXPECT_NE(lanes.features.find("in lanes"), std::string::npos) << lanes.features;
+    EXPECT_EQ(one_by_one.features.find("in lanes"), std::string::npos) << one_by_one.features;
+    EXPECT_GT(lanes.collisions, 50u);
+    EXPECT_EQ(lanes.collisions, one_by_one.collisions);
+    EXPECT_EQ(lanes.impulse, one_by_one.impulse);
+    EXPECT_EQ(lanes.balance.dissipated, one_by_one.balance.dissipated);
+    EXPECT_EQ(lanes.balance.energy, one_by_one.balance.energy);
+    for (std::size_t i = 0; i < lanes.states.size(); ++i) {
+      ASSERT_EQ(lanes.states[i].position, one_by_one.states[i].position) << i;
+      ASSERT_EQ(lanes.states[i].angular_velocity, one_by_one.states[i].angular_velocity) << i;
+    }
   }
 }
 

@@ -7,7 +7,7 @@
 namespace slipcheck {
 
 /// A sphere between two steps: positions at the instant, velocities half a step before.
-struct PileBody {
+struct alignas(64) PileBody {
   double radius = 0;                           ///< [m]
   Vector3 position = Vector3::Zero();          ///< [m]
   Vector3 velocity = Vector3::Zero();          ///< [m/s]

@@ -68,6 +68,10 @@ PileLaws::PileLaws(const ContactScene& scene, double collision_time)
 
 void PileLaws::look_at(const PileLaw& law) {
   linear_ = linear_ && std::holds_alternative<LinearForce>(law.normal);
+  const SpringFriction& sliding = law.sliding;
+  plain_ = plain_ && law.clamped &&
+           (sliding.static_friction == 0 || (sliding.form == SpringFriction::Form::constant &&
+                                             sliding.stiffness > 0 && sliding.damping_ratio == 0));
   turns_ = turns_ || law.rolling.length > 0 || law.drilling.length > 0 || law.rolling_table;
 }
 

@@ -48,6 +48,9 @@ class PileLaws {
   bool has_hard() const { return has_hard_; }  ///< one of them is taken as lasting
   bool is_linear() const { return linear_; }   ///< so are all normal forces
   bool turns() const { return turns_; }        ///< rolling or drilling is resisted somewhere
+  /// Where all normal forces are linear: no contact attracts, and what is against sliding is
+  /// nothing or a spring of one stiffness, with a dashpot of its own.
+  bool is_plain() const { return plain_; }
 
   /// Of a body and what Touch::second names: a body, the substrate or a surface.
   PileLaw of(std::size_t body, int second) const;
@@ -73,7 +76,7 @@ class PileLaws {
   std::vector<std::optional<Hard>> pairs_;        ///< by material × material
   std::vector<Hard> on_substrate_;                ///< by material
   std::vector<std::optional<Hard>> on_surfaces_;  ///< by material × surface
-  bool has_hard_ = false, linear_ = true, turns_ = false;
+  bool has_hard_ = false, linear_ = true, turns_ = false, plain_ = true;
 };
 
 /// The duration of hard contacts' collisions [s]: 1e-3 of the time in which the scene's smallest

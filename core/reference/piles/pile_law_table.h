@@ -21,6 +21,7 @@ class PileLawTable {
   bool renew(std::size_t needed);
   /// The number of the law of a body and what Touch::second names.
   std::uint32_t number(std::size_t body, int second);
+  std::size_t size() const { return table_.size(); }
   const PileLaw& operator[](std::uint32_t number) const { return table_[number]; }
 
  private:

@@ -176,8 +176,8 @@ void PileSlabs::find(PileWorld& world, PileLawTable& laws) {
       // In the order of Touch::second: the last surface is the lowest number.
       for (std::size_t k = scene.surfaces.size(); k-- > 0;) {
         const Surface& surface = scene.surfaces[k];
-        const bool turns = !surface.motion.rate().isZero(0) && !surface.motion.is_belt();
-        if (turns || surface.nearest(world.time(), b.position).distance - b.radius <= skin_)
+        if (turns(surface) ||
+            surface.nearest(world.time(), b.position).distance - b.radius <= skin_)
           by_share[share].push_back({p, surface_touch(k)});
       }
       if (scene.has_substrate && b.position.z() - b.radius <= skin_)

@@ -45,6 +45,10 @@ class PileSlabs {
   void exchange(StateArchive& archive) {
     archive(lists_, bodies_, searches_, skin_, surfaces_speed_, largest_radius_);
   }
+  /// Whether it may come nearer to a body than surfaces_speed() tells.
+  static bool turns(const Surface& surface) {
+    return !surface.motion.rate().isZero(0) && !surface.motion.is_belt();
+  }
   double skin() const { return skin_; }                      ///< [m]
   double surfaces_speed() const { return surfaces_speed_; }  ///< of the fastest [m/s]
   double largest_radius() const { return largest_radius_; }  ///< [m]

@@ -1,0 +1,254 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "base/state_archive.h"
+#include "physics/numbers.h"
+#include "reference/piles/pile_contacts.h"
+#include "reference/piles/pile_lanes.h"
+#include "reference/piles/pile_slabs.h"
+#include "reference/piles/pile_step.h"
+
+namespace slipcheck {
+
+/// The contacts within a slab and with the next, and what they do in a step. kLinear: all normal
+/// forces are linear; kTurns: rolling or drilling is resisted; kLanes: pairs that last are taken on
+/// several at once.
+///
+/// Those that may touch are looked at when the way that they had between them may be used up, and
+/// what acts on bodies is added in the order of the slab's list.
+template <bool kLinear, bool kTurns, bool kLanes>
+class PileShare {
+ public:
+  using Step = PileStep<kLinear, kTurns>;
+  using Contact = PileContact<kTurns>;
+  using List = std::vector<PileNear>;
+
+  void exchange(StateArchive& archive) {
+    archive(contacts_);
+    if constexpr (kLanes) archive(lanes_);
+  }
+
+  const typename Step::Sum& sum() const { return sum_; }
+  void begin_sum(const PileLedger& ledger) { sum_ = {.ledger = ledger}; }
+
+  /// Adds the forces of now. budget: of the way [m] that two may come nearer before the lists
+  /// change.
+  void find_forces(PileWorld& world, List& list, const PileLawTable& laws,
+                   std::span<const PileLaneLaw> lane_laws, double budget) {
+    if constexpr (kLanes) take_on(world, lane_laws);
+    meeting_.clear();
+    for (std::uint32_t k = 0; k < far_above_.size(); ++k)
+      if (budget <= far_above_[k]) look(world, list, k, budget);
+    meeting_.push_back(kNone);
+    after_.clear();
+    auto next = meeting_.begin();
+    for (const std::uint32_t k : known_) {
+      while (*next < k) act(world, laws, list, *next++);
+      if constexpr (kLanes)
+        if (const PileNear& near = list[k]; near.second >= 0 && lanes_.lasted(near.contact)) {
+          push(world, near, lanes_.force(near.contact));
+          after_.push_back(k);
+          continue;
+        }
+      act(world, laws, list, k);
+    }
+    while (*next != kNone) act(world, laws, list, *next++);
+    known_.swap(after_);
+  }
+
+  /// As the contact of an entry of the list.
+  void keep(PileNear& near, const Contact& contact, const PileLawTable& laws) {
+    of(*this, near, [&](auto& contacts) { contacts.keep(near, contact, laws); });
+  }
+
+  /// After the list or its contacts have changed.
+  void index(const List& list) {
+    known_.clear();
+    far_above_.assign(list.size(), kNever);
+    for (std::uint32_t k = 0; k < list.size(); ++k)
+      if (list[k].contact != PileNear::kNone) {
+        known_.push_back(k);
+        far_above_[k] = -kNever;
+      }
+  }
+
+  void set_law(const PileNear& near, const PileLawTable& laws) {
+    of(*this, near, [&](auto& contacts) { contacts.set_law(near, laws); });
+  }
+  bool touches(const PileNear& near) const {
+    return of(*this, near, [&](const auto& all) { return all.touches(near.contact); });
+  }
+  double impulse(const PileNear& near) const {
+    return of(*this, near, [&](const auto& all) { return all.impulse(near.contact); });
+  }
+  Contact get(const PileNear& near, const PileLaw& law) const {
+    return of(*this, near, [&](const auto& all) { return Contact(all.get(near.contact, law)); });
+  }
+
+  /// Calls visit(near) for those that touch, or have touched and are to be told.
+  template <class Visit>
+  void for_each(const List& list, const Visit& visit) const {
+    for (const std::uint32_t k : known_) visit(list[k]);
+  }
+  /// Lets `what` change those that touch.
+  template <class What>
+  void change_touching(const List& list, const PileLawTable& laws, const What& what) {
+    for (const std::uint32_t k : known_)
+      if (touches(list[k])) change(list[k], laws, what);
+  }
+
+  /// Calls tell(near, impulse) for those that have one, and takes it from them.
+  template <class Tell>
+  void take_impulses(List& list, const PileLawTable& laws, const Tell& tell) {
+    after_.clear();
+    for (const std::uint32_t k : known_) {
+      PileNear& near = list[k];
+      if (const double had = impulse(near); had > 0) {
+        tell(near, had);
+        change(near, laws, [](Contact& c) { c.impulse = 0; });
+      }
+      if (touches(near))
+        after_.push_back(k);
+      else
+        drop(near, k);
+    }
+    known_.swap(after_);
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  /// What keeps the contact of `near`.
+  template <class Share, class Use>
+  static decltype(auto) of(Share& share, const PileNear& near, const Use& use) {
+    if constexpr (kLanes)
+      if (near.second >= 0) return use(share.lanes_);
+    return use(share.contacts_);
+  }
+  template <class What>
+  void change(const PileNear& near, const PileLawTable& laws, const What& what) {
+    of(*this, near, [&](auto& contacts) { contacts.change(near, laws, what); });
+  }
+
+  void drop(PileNear& near, std::uint32_t k) {
+    of(*this, near, [&](auto& contacts) { contacts.drop(near); });
+    far_above_[k] = kNever;
+  }
+
+  // --- a body and another one, or a surface ------------------------------------------------------
+
+  struct Apart {
+    Vector3 by;
+    double reach = 0;
+    double distance2 = 0;
+  };
+
+  static Apart apart(const PileWorld& world, const PileNear& near, double offset) {
+    const PileBody &a = world.bodies[near.first],
+                   &b = world.bodies[static_cast<std::size_t>(near.second)];
+    const Vector2& periodic = world.scene->hard.periodic;
+    Vector3 by = a.position - b.position;
+    if (!periodic.isZero(0))
+      by.head<2>() -= Vector2(near.across_x * periodic.x(), near.across_y * periodic.y());
+    return {by, a.radius + b.radius + offset, by.squaredNorm()};
+  }
+
+  static NearestPoint nearest(const PileWorld& world, const PileNear& near) {
+    const Vector3& x = world.bodies[near.first].position;
+    if (near.second == kSubstrate) return {.point = {x.x(), x.y(), 0}, .distance = x.z()};
+    return world.scene->hard.surfaces[touched_surface(near.second)].nearest(world.time(), x);
+  }
+
+  /// Two that did not touch: do they now, or when may they?
+  void look(const PileWorld& world, const List& list, std::uint32_t k, double budget) {
+    const PileNear& near = list[k];
+    double gap, reach = world.bodies[near.first].radius;
+    if (near.second >= 0) {
+      const Apart two = apart(world, near, 0);
+      reach = two.reach;
+      gap = two.distance2 > reach * reach ? std::sqrt(two.distance2) - reach : -1;
+    } else {
+      const double distance = nearest(world, near).distance;
+      gap = distance > reach ? distance - reach : -1;
+      if (gap >= 0 && near.second != kSubstrate &&
+          PileSlabs::turns(world.scene->hard.surfaces[touched_surface(near.second)]))
+        return;
+    }
+    if (gap < 0)
+      meeting_.push_back(k);
+    else
+      far_above_[k] = budget - ((1 - 1e-9) * gap - 1e-12 * reach);  // whatever is rounded
+  }
+
+  /// A contact that begins is kept; one that has ended, where somebody watches, until its impulse
+  /// has been asked for.
+  [[gnu::noinline, gnu::flatten]] void act(PileWorld& world, const PileLawTable& laws, List& list,
+                                           std::uint32_t k) {
+    PileNear& near = list[k];
+    Step step(world, sum_);
+    if (near.contact == PileNear::kNone) {
+      Contact made;
+      made.first = near.first;
+      made.second = near.second;
+      made.law = &laws[near.law];
+      act_on(world, step, near, made);
+      if (!made.touching) return;
+      keep(near, made, laws);
+      far_above_[k] = -kNever;
+    } else {
+      change(near, laws, [&](Contact& c) { act_on(world, step, near, c); });
+      if (!world.watched && !touches(near)) {
+        drop(near, k);
+        return;
+      }
+    }
+    after_.push_back(k);
+  }
+
+  static void act_on(PileWorld& world, Step& step, const PileNear& near, Contact& c) {
+    if (near.second >= 0) {
+      const Apart two = apart(world, near, c.touching ? c.offset : 0);
+      if (two.distance2 > two.reach * two.reach && !c.touching) return;
+      step.act_on_bodies(c, two.by, two.reach, std::sqrt(two.distance2));
+    } else {
+      const NearestPoint at = nearest(world, near);
+      if (at.distance > world.bodies[near.first].radius && !c.touching) return;
+      step.act_on_surface(c, at);
+    }
+  }
+
+  /// Those that last, of whose forces push() is the rest. What dilates is for one by one.
+  void take_on(const PileWorld& world, std::span<const PileLaneLaw> laws) {
+    if (world.dilates)
+      lanes_.forget_forces();
+    else if (take_on_lanes(world, laws, lanes_))
+      sum_.slid = true;
+  }
+
+  void push(PileWorld& world, const PileNear& near, const PileLaneForce& f) {
+    PileBody& a = world.bodies[near.first];
+    PileBody& b = world.bodies[static_cast<std::size_t>(near.second)];
+    a.force += f.all;
+    a.torque += a.radius * f.lever;
+    b.force -= f.all;
+    b.torque += b.radius * f.lever;
+    sum_.ledger.dissipated += f.lost;
+  }
+
+  struct None {};
+  PileContacts<kTurns> contacts_;  ///< that are not in lanes
+  [[no_unique_address]] std::conditional_t<kLanes, PileLaneContacts, None> lanes_;
+  typename Step::Sum sum_;
+  // Of the list:
+  std::vector<double> far_above_;               ///< do not touch before the budget is so small [m]
+  std::vector<std::uint32_t> known_;            ///< have a contact, in order
+  std::vector<std::uint32_t> meeting_, after_;  ///< of one step: overlap anew, and have one then
+};
+
+}  // namespace slipcheck
