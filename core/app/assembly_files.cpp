@@ -1,5 +1,7 @@
 #include "app/assembly_files.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -26,6 +28,12 @@ struct StreamedScene {
       : scenario(of), stream(scenario, folder, std::move(stem), form) {}
 };
 
+/// "lammps-double-default-1000Hz"
+std::string words_of(const EngineRecord& run) {
+  return fmt::format("{}-{}-{}-{:g}Hz", run.engine, run.precision,
+                     fs::path(run.profile).filename().string(), run.rate);
+}
+
 }  // namespace
 
 void AssemblyFiles::add_to(std::map<std::string, ReferenceExtras>& extras,
@@ -33,14 +41,22 @@ void AssemblyFiles::add_to(std::map<std::string, ReferenceExtras>& extras,
   if (folder.empty()) {
     if (!trajectory.empty())
       throw BadOption("--trajectory: needs --assembly, the folder to write to");
+    if (whole) throw BadOption("--whole: needs --assembly, the folder to write to");
+    if (engines_only) throw BadOption("--engines-only: needs --assembly and --whole");
     return;
   }
+  if (engines_only && !whole)
+    throw BadOption("--engines-only: needs --whole: else engines are held against the reference");
+  if (engines_only && !trajectory.empty())
+    throw BadOption("--trajectory: is of the reference, which --engines-only leaves out");
   check_output("--assembly", folder, true);
   fs::create_directories(folder);
   std::set<std::string> taken;
   for (const Scenario& scenario : scenarios) {
     ReferenceExtras& wanted = extras[scenario.name];
     wanted.samples = samples;
+    wanted.whole = whole;
+    wanted.left_out = engines_only;
     const std::string stem = file_stem(scenario.name, taken);
     if (trajectory.empty()) continue;
     const auto streamed = std::make_shared<StreamedScene>(
@@ -59,12 +75,19 @@ void AssemblyFiles::write(const std::vector<SceneRecord>& scenes) const {
   for (const SceneRecord& scene : scenes) {
     const std::string& name = scene.scenario.name;
     const std::string stem = file_stem(name, taken);
-    if (!scene.reference.assembly) continue;
-    const Assembly& seen = *scene.reference.assembly;
-    write_file_atomically(fs::path(folder) / (stem + ".series.csv"),
-                          assembly_series_csv(name, seen));
-    write_file_atomically(fs::path(folder) / (stem + ".distributions.csv"),
-                          assembly_distributions_csv(name, seen));
+    const auto write_tables = [&](const std::string& file, const Assembly& seen) {
+      const fs::path path = fs::path(folder) / file;
+      write_file_atomically(path.string() + ".series.csv", assembly_series_csv(name, seen));
+      write_file_atomically(path.string() + ".distributions.csv",
+                            assembly_distributions_csv(name, seen));
+    };
+    if (scene.reference.assembly) write_tables(stem, *scene.reference.assembly);
+    std::set<std::string> runs;
+    for (const EngineRecord& run : scene.runs)
+      if (run.assembly) write_tables(stem + "." + file_stem(words_of(run), runs), *run.assembly);
+    if (scene.reference.assembly && !runs.empty())
+      write_file_atomically(fs::path(folder) / (stem + ".comparison.csv"),
+                            assembly_comparison_csv(scene));
   }
 }
 

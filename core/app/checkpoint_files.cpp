@@ -36,8 +36,8 @@ std::string program() {
 }
 
 std::string scene_of(const Scenario& scenario, bool general, const ReferenceExtras& wanted) {
-  return sha256_hex(fmt::format("{} {} {} {}", content_digest(scenario), general, wanted.samples,
-                                static_cast<bool>(wanted.states)));
+  return sha256_hex(fmt::format("{} {} {} {} {}", content_digest(scenario), general, wanted.samples,
+                                static_cast<bool>(wanted.states), wanted.whole));
 }
 
 std::string text_of(std::string_view scene, std::string_view state) {
@@ -70,8 +70,8 @@ std::string state_in(const fs::path& file, const Scenario& scenario, const std::
                        words[1], program()));
   if (words[2] != scene)
     refuse(
-        fmt::format("is of another scene than {} is now, or of another --general, --samples or "
-                    "--trajectory",
+        fmt::format("is of another scene than {} is now, or of another --general, --samples, "
+                    "--trajectory or --whole",
                     scenario.name));
   std::string state = text.substr(end + 1);
   std::size_t bytes = 0;

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -91,10 +92,28 @@ void print_warnings(const std::vector<SceneRecord>& scenes) {
             run.profile, run.rate_text(), name_of(run.status), printable(run.reason));
 }
 
+/// Of engines that are looked at as a whole where none is asked for [Hz].
+constexpr double kRateOfWhole = 1000;
+
+/// A run of many bodies answers when a sample is due and no sooner; its worker holds them some
+/// times over, as states, as messages and as text.
+void widen_limits(RunOptions& options, const std::vector<Scenario>& scenarios) {
+  constexpr std::size_t kBytesOfBody = 4096;
+  std::size_t most = 0;
+  for (const Scenario& scenario : scenarios) most = std::max(most, scenario.bodies.size());
+  options.limits.reply = std::max(options.limits.reply, options.time_limit);
+  options.limits.memory = std::max(options.limits.memory, kBytesOfBody * most);
+}
+
 /// What is asked for in place of what the scenes say. Profiles that are paths are taken from the
 /// working directory.
 void choose(const RunArguments& arguments, std::vector<Scenario>& scenarios) {
   EngineChoice engines = arguments.engines;
+  if (arguments.assembly.whole && !engines.engines.empty()) {
+    // One look at the whole is long: not one for each of the profiles and rates of a comparison.
+    if (engines.profiles.empty()) engines.profiles = {"default"};
+    if (engines.rates.empty()) engines.rates = {kRateOfWhole};
+  }
   for (std::string& profile : engines.profiles)
     if (is_profile_path(profile)) profile = fs::absolute(profile).string();
   for (Scenario& scenario : scenarios) {
@@ -119,6 +138,10 @@ std::string command_of(const RunArguments& arguments) {
   add("--scales", arguments.scales);
   for (const std::string& setting : arguments.settings) command += " --set " + setting;
   if (arguments.options.general) command += " --general";
+  if (arguments.assembly.whole)
+    command += fmt::format(" --assembly {} --samples {} --whole{}", arguments.assembly.folder,
+                           arguments.assembly.samples,
+                           arguments.assembly.engines_only ? " --engines-only" : "");
   return command;
 }
 
@@ -145,6 +168,8 @@ int run(RunArguments& arguments) {
   std::vector<Scenario> scenarios = load_files(arguments.files);
   choose(arguments, scenarios);
 
+  arguments.options.whole = arguments.assembly.whole;
+  if (arguments.assembly.whole) widen_limits(arguments.options, scenarios);
   arguments.checkpoints.general = arguments.options.general;
   arguments.assembly.add_to(arguments.options.extras, scenarios);
   arguments.checkpoints.add_to(arguments.options.extras, scenarios);
@@ -245,6 +270,12 @@ void add_run_command(CLI::App& app, int& exit_code) {
                    "Write each sample's bodies into that folder too, as the run goes on: xyz for "
                    "OVITO, vtk for ParaView")
       ->check(CLI::IsMember({"xyz", "vtk"}));
+  command->add_flag("--whole", arguments->assembly.whole,
+                    "With --assembly: look at nothing else. One run of the reference and of each "
+                    "engine, whatever the number of bodies, and how their means compare; nothing "
+                    "is judged");
+  command->add_flag("--engines-only", arguments->assembly.engines_only,
+                    "With --whole: leave out the reference, where it would take too long");
   command->add_option("--checkpoint", arguments->checkpoints.folder,
                       "Keep the state of long references in this folder on their way: of contacts "
                       "that last, in steps");
@@ -271,6 +302,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       "  slipcheck run scenarios/symmetric-steel.yaml --scales 0.01,1,100\n"
       "  slipcheck run scene.yaml --set erp2=0.4 --html what-if.html\n"
       "  slipcheck run pile.yaml --time-limit 1e6 --checkpoint pile.kept --resume\n"
+      "  slipcheck run gas.yaml --engines lammps --set ranks=4 --assembly gas --whole\n"
       "  slipcheck run scene.yaml --json - | jq .verdict");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

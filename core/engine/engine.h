@@ -96,6 +96,10 @@ class Engine {
   /// The state after the last step, into `frame` (its storage is reused).
   virtual void read(Frame& frame) const = 0;
 
+  /// The bodies of that frame alone, for steps that are skipped: what read() tells beside them may
+  /// cost more than the steps. What they touched is not asked for afterwards.
+  virtual void read_states(std::vector<BodyState>& states) const;
+
   /// The instants inside the last step at which the engine ended steps of its own, in order, each
   /// with its `part` < 1. None unless overridden.
   virtual std::span<const Frame> parts() const { return {}; }

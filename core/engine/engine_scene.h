@@ -32,6 +32,9 @@ struct EngineScene : Scene {
         if (contact && contact->memory) contact.reset();
   }
 
+  /// Bodies go over in one piece, to a worker that takes many (scene_part::kMany).
+  bool packed = false;
+
   /// Nothing where every contact is hard.
   std::optional<SoftContacts> soft;
 

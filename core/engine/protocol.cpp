@@ -27,11 +27,11 @@ constexpr std::size_t kTouchBytes = 4 + 4 + 8;  // first, second, normal impulse
 static_assert(static_cast<std::uint32_t>(kSubstrate) == 0xffffffff);
 static_assert(static_cast<std::uint32_t>(surface_touch(0)) == 0xfffffffe);
 
-Bytes pack(const json& message) {
+Bytes pack(const json& message, std::size_t most) {
   Bytes bytes(kPrefix);
   json::to_cbor(message, bytes);
   const std::size_t length = bytes.size() - kPrefix;
-  if (length > kMaxMessage) {
+  if (length > most) {
     throw std::length_error(fmt::format("a message of {} bytes is too long", length));
   }
   for (std::size_t k = 0; k < kPrefix; ++k) bytes[k] = static_cast<std::uint8_t>(length >> (8 * k));
@@ -217,6 +217,11 @@ void describe(Fields& f, Step& request) {
 }
 
 template <class Fields>
+void describe(Fields& f, Skip& request) {
+  describe_count(f, "count", request.count);
+}
+
+template <class Fields>
 void describe(Fields& f, Time& request) {
   describe_start(f, request);
   describe_count(f, "steps", request.steps);
@@ -276,7 +281,7 @@ void describe(Fields& f, Failed& reply) {
 namespace {
 
 template <class Message>
-Bytes encoded(const Message& message) {
+Bytes encoded(const Message& message, std::size_t most) {
   json object = [&] {
     if constexpr (std::is_same_v<Message, Frames>)
       return frames_json(message);
@@ -284,7 +289,7 @@ Bytes encoded(const Message& message) {
       return message_json(message);
   }();
   object["type"] = Message::kType;
-  return pack(object);
+  return pack(object, most);
 }
 
 template <class Message>
@@ -306,20 +311,20 @@ void decode(const JsonNode& node, std::variant<Messages...>& message, std::vecto
 
 }  // namespace
 
-Bytes encode(const Request& request) {
-  return std::visit([](const auto& each) { return encoded(each); }, request);
+Bytes encode(const Request& request, std::size_t most) {
+  return std::visit([most](const auto& each) { return encoded(each, most); }, request);
 }
 
-Bytes encode(const Reply& reply) {
-  return std::visit([](const auto& each) { return encoded(each); }, reply);
+Bytes encode(const Reply& reply, std::size_t most) {
+  return std::visit([most](const auto& each) { return encoded(each, most); }, reply);
 }
 
-std::size_t body_length(std::span<const std::uint8_t, kPrefix> prefix) {
+std::size_t body_length(std::span<const std::uint8_t, kPrefix> prefix, std::size_t most) {
   const std::size_t length = read_u32(prefix.data());
-  if (length > kMaxMessage) {
+  if (length > most) {
     const std::string letters(prefix.begin(), prefix.end());
     const bool is_text = std::ranges::all_of(letters, [](char c) { return c >= ' ' && c <= '~'; });
-    throw Rubbish(fmt::format("a message of {} bytes, more than {}{}", length, kMaxMessage,
+    throw Rubbish(fmt::format("a message of {} bytes, more than {}{}", length, most,
                               is_text ? fmt::format(": a text that begins \"{}\"?", letters) : ""));
   }
   return length;

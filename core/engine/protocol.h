@@ -16,6 +16,8 @@ namespace slipcheck::protocol {
 
 inline constexpr std::size_t kVersion = 5;
 inline constexpr std::size_t kMaxMessage = std::size_t{64} << 20;  ///< of a message's body [bytes]
+/// The same to and from a worker that takes many bodies (scene_part::kMany).
+inline constexpr std::size_t kMaxOfMany = std::size_t{512} << 20;
 inline constexpr std::size_t kPrefix = 4;  ///< the body's length before it, u32 little-endian
 
 // --- requests ------------------------------------------------------------------------------------
@@ -39,6 +41,11 @@ struct Step {
   static constexpr const char* kType = "step";
   std::size_t count = 1;  ///< >= 1
 };
+/// Steps of which the last one's end alone is shown, without touches.
+struct Skip {
+  static constexpr const char* kType = "skip";
+  std::size_t count = 1;  ///< >= 1
+};
 /// How long steps take, with nothing looked at in between.
 struct Time {
   static constexpr const char* kType = "time";
@@ -50,7 +57,7 @@ struct Time {
 struct Quit {
   static constexpr const char* kType = "quit";
 };
-using Request = std::variant<Hello, Configure, Start, Step, Time, Quit>;
+using Request = std::variant<Hello, Configure, Start, Step, Skip, Time, Quit>;
 
 // --- replies -------------------------------------------------------------------------------------
 
@@ -86,12 +93,13 @@ struct Failed {
 };
 using Reply = std::variant<Welcome, Configured, Refusal, Started, Frames, Timed, Failed>;
 
-/// A whole message, prefix included. A message longer than kMaxMessage throws std::length_error.
-Bytes encode(const Request& request);
-Bytes encode(const Reply& reply);
+/// A whole message, prefix included. A message longer than `most` bytes throws std::length_error.
+Bytes encode(const Request& request, std::size_t most = kMaxMessage);
+Bytes encode(const Reply& reply, std::size_t most = kMaxMessage);
 
-/// The length of the body that follows a prefix; throws Rubbish beyond kMaxMessage.
-std::size_t body_length(std::span<const std::uint8_t, kPrefix> prefix);
+/// The length of the body that follows a prefix; throws Rubbish beyond `most` bytes.
+std::size_t body_length(std::span<const std::uint8_t, kPrefix> prefix,
+                        std::size_t most = kMaxMessage);
 
 /// A message's body, checked in full: types, ranges, indices, sizes. Throws Rubbish and nothing
 /// else. States may hold any float64: an engine that blows up is no breach of the protocol.

@@ -21,6 +21,12 @@ namespace {
 // come soon and a slow engine is not taken for a dead one.
 constexpr std::size_t kReplySize = std::size_t{1} << 20;
 
+/// A message of bodies one by one holds so many: 64 MiB and 4 million items, of which each takes
+/// about 140 bytes and 9 items.
+constexpr std::size_t kMostOneByOne = 400'000;
+/// More than so many go over in one piece where the worker takes that.
+constexpr std::size_t kPackedFrom = 20'000;
+
 /// Steps in one request: in a dense layer each body touches the substrate and three others.
 std::size_t steps_at_once(std::size_t bodies) {
   const std::size_t frame = bodies * (protocol::kStateBytes + 4 * 16) + 4;
@@ -38,11 +44,13 @@ RemoteEngine::RemoteEngine(const WorkerCommand& command, const WorkerLimits& lim
                   fmt::format("speaks protocol {}, not {}", welcome.version, protocol::kVersion));
   }
   info_ = std::move(welcome.info);
+  if (takes(scene_part::kMany)) process_.allow_messages(protocol::kMaxOfMany);
 }
 
 template <class Expected>
 Expected RemoteEngine::ask(const protocol::Request& request) {
-  const protocol::Bytes body = process_.exchange(protocol::encode(request), deadline_);
+  const protocol::Bytes body =
+      process_.exchange(protocol::encode(request, process_.longest_message()), deadline_);
   protocol::Reply reply;
   try {
     reply = protocol::decode_reply(body, spare_);
@@ -70,6 +78,11 @@ Applied RemoteEngine::configure(const EngineScene& scene, const Settings& settin
   const bool simpler = needs_of(scene, time_step).friction_law && !takes(scene_part::kFrictionLaw);
   EngineScene given = scene;
   if (simpler) static_cast<Scene&>(given) = with_friction_numbers(scene);
+  given.packed =
+      scene.bodies.size() > kPackedFrom && scene.extents.empty() && takes(scene_part::kMany);
+  if (!given.packed && scene.bodies.size() > kMostOneByOne)
+    throw Refused(fmt::format("{}: the scene has {} bodies, and it takes {} at most", info_.engine,
+                              scene.bodies.size(), kMostOneByOne));
   auto reply =
       ask<protocol::Configured>(protocol::Configure{std::move(given), settings, time_step});
   bodies_ = scene.bodies.size();
@@ -101,16 +114,32 @@ std::vector<double> RemoteEngine::time_steps(std::span<const BodyState> states, 
   return std::move(reply.cpu_seconds);
 }
 
+/// A frame at the end of so many steps, and maybe others.
+protocol::Frames RemoteEngine::ask_for_frames(const protocol::Request& request, std::size_t steps) {
+  auto reply = ask<protocol::Frames>(request);
+  const auto ends = std::ranges::count(reply.frames, 1.0, &Frame::part);
+  if (static_cast<std::size_t>(ends) != steps || reply.frames.front().bodies.size() != bodies_)
+    process_.fail(Status::crashed, "spoke rubbish: not the frames asked for");
+  return reply;
+}
+
+double RemoteEngine::skip(std::size_t steps, std::vector<BodyState>& states) {
+  if (!takes(scene_part::kMany))
+    return advance(steps, [&](const Frame& frame) { states = frame.bodies; });
+  protocol::Frames reply = ask_for_frames(protocol::Skip{steps}, 1);
+  if (reply.frames.size() != 1)
+    process_.fail(Status::crashed, "spoke rubbish: not the frame asked for");
+  std::swap(states, reply.frames.front().bodies);
+  spare_.push_back(std::move(reply.frames.front()));
+  return reply.cpu_seconds;
+}
+
 double RemoteEngine::advance(std::size_t steps, const std::function<void(const Frame&)>& callback) {
   double cpu_seconds = 0;
   const std::size_t most = steps_at_once(bodies_);
   while (steps > 0) {
     const std::size_t count = std::min(steps, most);
-    auto reply = ask<protocol::Frames>(protocol::Step{count});
-    const auto ends = std::ranges::count(reply.frames, 1.0, &Frame::part);
-    if (static_cast<std::size_t>(ends) != count || reply.frames.front().bodies.size() != bodies_) {
-      process_.fail(Status::crashed, "spoke rubbish: not the frames asked for");
-    }
+    auto reply = ask_for_frames(protocol::Step{count}, count);
     for (const Frame& frame : reply.frames)
       for (const Touch& touch : frame.touches)
         if (touch.second < kSubstrate && touched_surface(touch.second) >= surfaces_)

@@ -37,6 +37,10 @@ class RemoteEngine {
   /// Returns the CPU time that the engine took for its steps [s].
   double advance(std::size_t steps, const std::function<void(const Frame&)>& callback);
 
+  /// Takes `steps` >= 1 steps of which nobody sees anything but the bodies at the end of the last,
+  /// `states`. Returns the CPU time that the engine took for them [s].
+  double skip(std::size_t steps, std::vector<BodyState>& states);
+
   /// The CPU time [s] that the first `steps` steps take from these states at `time` [s] on, in each
   /// of `repeats` runs, with nothing looked at in between; both >= 1. All of it is one exchange,
   /// for which the limit of a reply holds. A run of its own begins with start() afterwards.
@@ -52,6 +56,7 @@ class RemoteEngine {
 
  private:
   bool takes(const std::string& word) const;
+  protocol::Frames ask_for_frames(const protocol::Request& request, std::size_t steps);
   template <class Expected>
   Expected ask(const protocol::Request& request);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -102,6 +103,41 @@ struct MaterialBody {
   std::optional<Extent> extent;
 };
 
+/// A sphere of many: radius, mass and shape factor as float64, and the material as u32.
+constexpr std::size_t kPackedBytes = 3 * 8 + 4;
+
+protocol::Bytes packed_bodies(const Scene& scene) {
+  protocol::Bytes bytes;
+  bytes.reserve(scene.bodies.size() * kPackedBytes);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Sphere& body = scene.bodies[i];
+    for (const double value : {body.radius, body.mass, body.shape_factor})
+      protocol::append_f64(bytes, value);
+    protocol::append_u32(bytes, static_cast<std::uint32_t>(scene.material[i]));
+  }
+  return bytes;
+}
+
+void unpack_bodies(const JsonNode& node, Scene& scene) {
+  const protocol::Bytes& bytes = node.bytes();
+  if (bytes.size() % kPackedBytes != 0)
+    node.fault_alone(
+        fmt::format("has {} bytes, must be a multiple of {}", bytes.size(), kPackedBytes));
+  scene.bodies.reserve(bytes.size() / kPackedBytes);
+  scene.material.reserve(bytes.size() / kPackedBytes);
+  for (std::size_t at = 0; at < bytes.size(); at += kPackedBytes) {
+    const std::uint8_t* const from = bytes.data() + at;
+    const Sphere body{protocol::read_f64(from), protocol::read_f64(from + 8),
+                      protocol::read_f64(from + 16)};
+    for (const double value : {body.radius, body.mass, body.shape_factor})
+      if (!(value > 0 && std::isfinite(value)))
+        node.fault_alone(
+            fmt::format("has {} in body {}, must be finite and > 0", value, at / kPackedBytes));
+    scene.bodies.push_back(body);
+    scene.material.push_back(protocol::read_u32(from + 24));
+  }
+}
+
 std::vector<SubstrateMotion::Point> motion_points(const JsonNode& node) {
   std::vector<SubstrateMotion::Point> points;
   for (const JsonNode& row : node.items()) {
@@ -199,13 +235,22 @@ void describe(Fields& f, Box& box) {
     if (box.lid && !(*box.lid > 0)) f["lid"].fault("must be > 0");
 }
 
+/// packed: the bodies are to be written so.
 template <class Fields>
-void describe(Fields& f, Scene& scene) {
+void describe_scene(Fields& f, Scene& scene, bool packed) {
   std::vector<MaterialBody> bodies;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    bodies.push_back({scene.bodies[i], scene.material[i],
-                      scene.extents.empty() ? std::nullopt : scene.extents[i]});
-  f("bodies", bodies);
+  if constexpr (Fields::kReads) packed = f.has("packed_bodies");
+  if (packed) {
+    if constexpr (Fields::kReads)
+      unpack_bodies(f["packed_bodies"], scene);
+    else
+      f("packed_bodies", nlohmann::json::binary(packed_bodies(scene)));
+  } else {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      bodies.push_back({scene.bodies[i], scene.material[i],
+                        scene.extents.empty() ? std::nullopt : scene.extents[i]});
+    f("bodies", bodies);
+  }
   f("substrate", scene.substrate);
   f("pairs", scene.pairs);
   f("gravity", scene.gravity, kNotBelowZero);
@@ -233,7 +278,7 @@ void describe(Fields& f, Scene& scene) {
 
 template <class Fields>
 void describe(Fields& f, EngineScene& scene) {
-  describe(f, static_cast<Scene&>(scene));
+  describe_scene(f, scene, scene.packed);
   f("soft", scene.soft);
 }
 
@@ -266,10 +311,15 @@ EngineScene scene_from_json(const JsonNode& node) {
   auto scene = read_finite<EngineScene>(node);
   const std::size_t materials = scene.substrate.size();
   if (materials == 0) node["substrate"].fault("must have an entry");
-  if (scene.bodies.empty()) node["bodies"].fault("must have an entry");
+  const char* const bodies = node.has("packed_bodies") ? "packed_bodies" : "bodies";
+  if (scene.bodies.empty()) node[bodies].fault("must have an entry");
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    if (scene.material[i] >= materials)
-      node["bodies"].items()[i]["material"].fault(fmt::format("must be below {}", materials));
+    if (scene.material[i] >= materials) {
+      if (node.has("packed_bodies"))
+        node[bodies].fault_alone(fmt::format("has the material {} in body {}, must be below {}",
+                                             scene.material[i], i, materials));
+      node[bodies].items()[i]["material"].fault(fmt::format("must be below {}", materials));
+    }
   check_size(node["pairs"], scene.pairs.size(), materials * materials, "pairs of materials");
   check_size(node["initial"], scene.initial.size(), scene.bodies.size(), "bodies");
   if (scene.periodic.minCoeff() < 0) node["periodic"].fault("must hold lengths >= 0");

@@ -51,6 +51,8 @@ namespace scene_part {
 inline constexpr const char* kFrictionLaw = "friction_law";  ///< of pairs, over the speed of slip
 inline constexpr const char* kBlock = "block";
 inline constexpr const char* kCylinder = "cylinder";
+/// Of spheres alone: the request `skip`, bodies that are packed, longer messages.
+inline constexpr const char* kMany = "many";
 inline constexpr const char* kSurfaces = "surfaces";  ///< beside the substrate, or without one
 }  // namespace scene_part
 

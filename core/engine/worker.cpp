@@ -6,6 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "engine/protocol.h"
+#include "engine/scene_needs.h"
 #include "engine/settings.h"
 
 namespace slipcheck {
@@ -36,11 +38,12 @@ class Connection {
     close(null);
   }
 
-  /// The next message's body; nothing at the end of the input, even in the middle of a message.
-  std::optional<Bytes> receive() {
+  /// The next message's body, of `most` bytes; nothing at the end of the input, even in the middle
+  /// of a message.
+  std::optional<Bytes> receive(std::size_t most) {
     std::array<std::uint8_t, protocol::kPrefix> prefix;
     if (!read_all(prefix)) return std::nullopt;
-    Bytes body(protocol::body_length(prefix));
+    Bytes body(protocol::body_length(prefix, most));
     if (!read_all(body)) return std::nullopt;
     return body;
   }
@@ -137,6 +140,21 @@ class Worker {
     return reply;
   }
 
+  protocol::Reply handle(const protocol::Skip& request) {
+    if (!started_) return protocol::Failed{"skip before start"};
+    protocol::Frames reply;
+    reply.frames = std::move(frames_);
+    reply.frames.resize(1);
+    Frame& frame = reply.frames.front();
+    const double before = engine_.cpu_seconds();
+    for (std::size_t k = 0; k < request.count; ++k) engine_.step();
+    engine_.read_states(frame.bodies);  // an engine may take its steps when it is looked at
+    reply.cpu_seconds = engine_.cpu_seconds() - before;
+    frame.touches.clear();
+    frame.part = 1;
+    return reply;
+  }
+
   protocol::Reply handle(const protocol::Time& request) {
     if (const char* fault = fault_of_start(request.states)) return protocol::Failed{fault};
     started_ = false;
@@ -179,9 +197,9 @@ class Worker {
   std::vector<Frame> frames_;  // for the next reply
 };
 
-Bytes encode_or_fail(const protocol::Reply& reply) {
+Bytes encode_or_fail(const protocol::Reply& reply, std::size_t most) {
   try {
-    return protocol::encode(reply);
+    return protocol::encode(reply, most);
   } catch (const std::exception& error) {  // too long, or text that is no UTF-8
     return protocol::encode(protocol::Reply(protocol::Failed{error.what()}));
   }
@@ -199,6 +217,12 @@ int leave() {
 
 }  // namespace
 
+void Engine::read_states(std::vector<BodyState>& states) const {
+  Frame frame;
+  read(frame);
+  states = std::move(frame.bodies);
+}
+
 double Engine::cpu_seconds() const {
   timespec now;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -210,12 +234,15 @@ int run_worker(Engine& engine) {
   signal(SIGPIPE, SIG_IGN);  // a harness that is gone shows as a failed write
   Connection connection;
   Worker worker(engine);
+  const std::vector<std::string> takes = engine.info().takes;
+  const bool many = std::ranges::find(takes, scene_part::kMany) != takes.end();
+  const std::size_t most = many ? protocol::kMaxOfMany : protocol::kMaxMessage;
   try {
-    while (const std::optional<Bytes> body = connection.receive()) {
+    while (const std::optional<Bytes> body = connection.receive(most)) {
       const protocol::Request request = protocol::decode_request(*body);
       if (std::holds_alternative<protocol::Quit>(request)) return leave();
       protocol::Reply reply = worker.answer(request);
-      if (!connection.send(encode_or_fail(reply))) return leave();
+      if (!connection.send(encode_or_fail(reply, most))) return leave();
       worker.take_back(std::move(reply));
     }
     return leave();

@@ -76,6 +76,7 @@ std::string with_words(const std::string& reason, const std::string& words) {
 /// One request on its way out and its reply on its way in.
 struct WorkerProcess::Exchange {
   const Bytes& message;
+  std::size_t longest_reply;
   std::size_t sent = 0;
   Bytes received;
 
@@ -86,7 +87,7 @@ struct WorkerProcess::Exchange {
     if (received.size() < protocol::kPrefix) return protocol::kPrefix;
     const std::span<const std::uint8_t, protocol::kPrefix> prefix(received.data(),
                                                                   protocol::kPrefix);
-    return protocol::kPrefix + protocol::body_length(prefix);
+    return protocol::kPrefix + protocol::body_length(prefix, longest_reply);
   }
   bool complete() const {
     return received.size() >= protocol::kPrefix && received.size() >= expected();
@@ -95,7 +96,10 @@ struct WorkerProcess::Exchange {
 
 WorkerProcess::WorkerProcess(WorkerCommand command, const WorkerLimits& limits,
                              const std::atomic<bool>* stop)
-    : command_(std::move(command)), limits_(limits), stop_(stop) {
+    : command_(std::move(command)),
+      limits_(limits),
+      stop_(stop),
+      longest_message_(protocol::kMaxMessage) {
   try {
     // The limit proper is on resident memory. This one only stops what grows by more than the
     // limit between two looks.
@@ -133,7 +137,7 @@ Bytes WorkerProcess::exchange(const Bytes& message, Clock::time_point deadline) 
   const bool by_reply = deadline - begin > limit;
   if (by_reply) deadline = begin + limit;
 
-  Exchange exchange{message, 0, {}};
+  Exchange exchange{message, longest_message_, 0, {}};
   // The worker waits for it. One that has gone may have left a text that says more.
   static_cast<void>(send_some(exchange));
   while (!exchange.complete()) {

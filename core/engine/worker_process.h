@@ -66,6 +66,10 @@ class WorkerProcess {
   protocol::Bytes exchange(const protocol::Bytes& message,
                            Clock::time_point deadline = Clock::time_point::max());
 
+  /// Of a message's body either way [bytes]; protocol::kMaxMessage unless set.
+  void allow_messages(std::size_t longest) { longest_message_ = longest; }
+  std::size_t longest_message() const { return longest_message_; }
+
   /// Ends the worker because of something in its reply: throws WorkerFailure with that reason.
   [[noreturn]] void fail(WorkerFailure::Status status, const std::string& reason);
 
@@ -107,6 +111,7 @@ class WorkerProcess {
   Clock::time_point looked_ = Clock::now();   // at the real time, when now() was asked last
   Clock::duration lost_ = Clock::duration{};  // while nobody looked
   bool memory_exceeded_ = false;
+  std::size_t longest_message_;
 };
 
 }  // namespace slipcheck

@@ -47,6 +47,9 @@ class FrameSink {
   virtual ~FrameSink() = default;
   /// `time` [s] never falls; two frames of one time are the state before and after an event.
   virtual void take(double time, const Frame& frame) = 0;
+  /// From when on [s] it looks next, at states alone: a solver in steps need not show what comes
+  /// before, nor touches. None: it looks at everything.
+  virtual std::optional<double> next_look() const { return std::nullopt; }
   /// The same where a solver knows who changes: costs as much as these are, not as all bodies are.
   /// False: all of them are wanted, and the frame comes whole.
   virtual bool take_partial(double /*time*/, const PartialFrame& /*frame*/) { return false; }

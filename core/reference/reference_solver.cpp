@@ -298,7 +298,7 @@ SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink, const SolverA
       softer->hard.laws = instant_collisions(*scene_, accuracy.softness);
   }
   std::optional<StepsAsEvents> events;
-  if (is_stepped() && !is_piled() && sink) events.emplace(*sink);
+  if (is_stepped() && !is_piled() && sink && !sink->next_look()) events.emplace(*sink);
   const std::unique_ptr<Solver> solver =
       at_start(softer ? *softer : scene(), accuracy, end, !(keeper && keeper->resumed()));
   if (keeper)

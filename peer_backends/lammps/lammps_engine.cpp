@@ -96,7 +96,11 @@ class LammpsEngine final : public Engine {
  public:
   EngineInfo info() const override {
     static const std::string version = lammps_version();
-    return {"lammps", version, "double", infos_of(setting_rows()), {scene_part::kSurfaces}};
+    return {"lammps",
+            version,
+            "double",
+            infos_of(setting_rows()),
+            {scene_part::kMany, scene_part::kSurfaces}};
   }
 
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
@@ -104,7 +108,7 @@ class LammpsEngine final : public Engine {
     refuse_what_cannot_be(scene);
     const MovingFrame frame(scene, "lammps");
     const InnerSteps steps = inner_steps(scene, settings, time_step);
-    input(scene, scene.initial, 0, settings, steps.length);  // refuses what cannot be said
+    input(scene, scene.initial, 0, settings, steps.length, "");  // refuses what cannot be said
     if (!process_ || settings.ranks != setup_->settings.ranks) {
       process_.reset();
       process_ = std::make_unique<LammpsProcess>(settings.ranks);
@@ -120,10 +124,13 @@ class LammpsEngine final : public Engine {
     run_ = std::make_unique<Run>();
     run_->states = setup_->frame.enter(states);
     run_->start = time;
-    process_->send(
-        input(setup_->scene, run_->states, time, setup_->settings, setup_->steps.length) +
-        dump_command(setup_->scene, process_->snapshot_file()) + "run 0\n");
+    const EngineScene& scene = setup_->scene;
+    const std::string file =
+        is_read(scene) ? process_->keep_file(data_text(scene, run_->states)) : "";
+    process_->send(input(scene, run_->states, time, setup_->settings, setup_->steps.length, file) +
+                   dump_command(scene, process_->snapshot_file()) + "run 0\n");
     process_->finish_run();
+    process_->forget_file();
   }
 
   void step() override { ++run_->pending; }
@@ -134,6 +141,23 @@ class LammpsEngine final : public Engine {
   }
 
   void read(Frame& frame) const override { frame = look().back(); }
+
+  /// A snapshot at the end alone, without its touches: of many bodies they cost more than the
+  /// steps.
+  void read_states(std::vector<BodyState>& states) const override {
+    Run& run = *run_;
+    if (run.pending > 0) {
+      if (run.pending > 1) advance(run.pending - 1, 0);
+      advance(1, setup_->steps.count);
+      run.pending = 0;
+      take_snapshot(run.taken);
+      run.shown.clear();
+      Frame& frame = run.shown.emplace_back();
+      frame.bodies = run.states;
+      setup_->frame.leave(frame.bodies, static_cast<double>(run.taken) * setup_->steps.length);
+    }
+    states = run.shown.back().bodies;
+  }
 
   double cpu_seconds() const override {
     if (run_ && run_->pending > 0) advance(std::exchange(run_->pending, 0), 0);
@@ -175,7 +199,7 @@ class LammpsEngine final : public Engine {
     std::vector<BodyState> last = run.states;
     int parts = 0;  // since `last`
     for (int k = 1; k <= setup_->settings.frames; ++k) {
-      read_states(before + k * each);
+      take_snapshot(before + k * each);
       ++parts;
       const double now = run.start + static_cast<double>(before + k * each) * setup_->steps.length;
       if (k < setup_->settings.frames && in_impact(setup_->scene, run.states, length, now))
@@ -208,7 +232,7 @@ class LammpsEngine final : public Engine {
     });
   }
 
-  void read_states(long step) const {
+  void take_snapshot(long step) const {
     attempt([&] { process_->read_snapshot(step, run_->states, run_->states.size()); });
   }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 
 #include "engine/engine.h"
 #include "peer_backends/lammps/regions.h"
@@ -154,21 +156,48 @@ std::pair<double, long> folded(double place, double length) {
   return {place - cells * length, static_cast<long>(cells)};
 }
 
-std::string box_commands(const Scene& scene, std::span<const BodyState> states, std::size_t types) {
-  std::string text =
-      fmt::format("boundary {} {} s\nregion world block", scene.periodic.x() > 0 ? 'p' : 's',
-                  scene.periodic.y() > 0 ? 'p' : 's');
+/// Its corners, the second beyond the first.
+struct WorldBox {
+  Vector3 low, high;
+};
+
+WorldBox world_box(const Scene& scene, std::span<const BodyState> states) {
+  WorldBox box{Vector3::Zero(), Vector3::Zero()};
   const double margin = 2 * std::ranges::max_element(scene.bodies, {}, &Sphere::radius)->radius;
   for (int k = 0; k < 3; ++k) {
     const double cell = k < 2 ? scene.periodic[k] : 0;
-    double low = 0, high = 0;
-    for (const BodyState& state : states) {
-      low = std::min(low, state.position[k]);
-      high = std::max(high, state.position[k]);
+    if (cell > 0) {
+      box.high[k] = cell;
+      continue;
     }
-    text += cell > 0 ? fmt::format(" 0 {}", exact(cell))
-                     : fmt::format(" {} {}", exact(low - margin), exact(high + margin));
+    for (const BodyState& state : states) {
+      box.low[k] = std::min(box.low[k], state.position[k]);
+      box.high[k] = std::max(box.high[k], state.position[k]);
+    }
+    box.low[k] -= margin;
+    box.high[k] += margin;
   }
+  return box;
+}
+
+/// Beyond so many bodies pairs are looked for in bins, which cost memory where bodies are far
+/// apart.
+constexpr std::size_t kBins = 400;
+
+/// Bins want a box that is no thinner than a body is thick, which a layer's own is.
+std::string boundary_command(const Scene& scene) {
+  const char own = scene.bodies.size() > kBins ? 'm' : 's';
+  return fmt::format("boundary {} {} {}\n", scene.periodic.x() > 0 ? 'p' : own,
+                     scene.periodic.y() > 0 ? 'p' : own, own);
+}
+
+std::string box_commands(const Scene& scene, std::span<const BodyState> states, std::size_t types) {
+  std::string text = boundary_command(scene) + "region world block";
+  const WorldBox box = world_box(scene, states);
+  for (int k = 0; k < 3; ++k)
+    text += k < 2 && scene.periodic[k] > 0
+                ? fmt::format(" 0 {}", exact(box.high[k]))
+                : fmt::format(" {} {}", exact(box.low[k]), exact(box.high[k]));
   return text + fmt::format(" units box\ncreate_box {} world\n", types);
 }
 
@@ -193,6 +222,26 @@ std::string atom_commands(const Scene& scene, std::span<const BodyState> states,
   return create + set;
 }
 
+/// A file's density is rounded once more on its way to a mass: each type is given its own.
+std::string read_commands(const Scene& scene, const AtomTypes& types, const std::string& file) {
+  std::string text = boundary_command(scene) + fmt::format("read_data {}\n", file);
+  for (std::size_t type = 0; type < types.first_body.size(); ++type)
+    text += fmt::format("set type {} mass {}\n", type + 1,
+                        exact(scene.bodies[types.first_body[type]].mass));
+  return text;
+}
+
+/// Every two types have a line of coefficients.
+constexpr std::size_t kMostTypes = 300;
+
+void refuse_many_types(const AtomTypes& types) {
+  if (types.first_body.size() > kMostTypes)
+    throw Refused(
+        fmt::format("lammps: each material, radius and mass is an atom type of its own, the scene "
+                    "has {} of them, and there must be at most {}",
+                    types.first_body.size(), kMostTypes));
+}
+
 std::string gravity_command(const Scene& scene) {
   const Vector3 gravity(scene.downhill.x(), scene.downhill.y(), -scene.gravity);
   if (gravity.isZero(0)) return "";
@@ -204,10 +253,6 @@ std::string gravity_command(const Scene& scene) {
                      exact(direction.y()), exact(direction.z()));
 }
 
-/// Beyond so many bodies pairs are looked for in bins, which cost memory where bodies are far
-/// apart.
-constexpr std::size_t kBins = 400;
-
 }  // namespace
 
 InnerSteps inner_steps(const EngineScene& scene, const LammpsSettings& settings, double time_step) {
@@ -217,6 +262,7 @@ InnerSteps inner_steps(const EngineScene& scene, const LammpsSettings& settings,
   };
   if (settings.substeps > 0) return steps_of(settings.substeps);
   const AtomTypes types = atom_types(scene);
+  refuse_many_types(types);
   const double speed = approach_speed(scene);
   double shortest = settings.collision_time > 0 ? settings.collision_time : time_step;
   if (scene.bodies.size() > 1)
@@ -230,13 +276,15 @@ InnerSteps inner_steps(const EngineScene& scene, const LammpsSettings& settings,
 }
 
 std::string input(const EngineScene& scene, std::span<const BodyState> states, double time,
-                  const LammpsSettings& settings, double inner_step) {
+                  const LammpsSettings& settings, double inner_step, const std::string& data_file) {
   const AtomTypes types = atom_types(scene);
+  refuse_many_types(types);
   std::string text =
       "clear\nunits si\natom_style sphere\nnewton off\n"
       "comm_modify mode single vel yes\natom_modify sort 0 0\n";
-  text += box_commands(scene, states, types.first_body.size());
-  text += atom_commands(scene, states, types);
+  text += is_read(scene) ? read_commands(scene, types, data_file)
+                         : box_commands(scene, states, types.first_body.size()) +
+                               atom_commands(scene, states, types);
   text += pair_commands(scene, types, settings);
   text += fmt::format("neighbor {} {}\nneigh_modify delay 0 every 1 check yes\n",
                       exact(settings.skin * smallest_radius(scene)),
@@ -245,6 +293,35 @@ std::string input(const EngineScene& scene, std::span<const BodyState> states, d
   text += region_commands(scene, time);
   text += wall_commands(scene, types, settings);
   return text + fmt::format("timestep {}\nthermo 1000000000\n", exact(inner_step));
+}
+
+std::string data_text(const Scene& scene, std::span<const BodyState> states) {
+  const AtomTypes types = atom_types(scene);
+  const WorldBox box = world_box(scene, states);
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "spheres\n\n{} atoms\n{} atom types\n", states.size(),
+                 types.first_body.size());
+  for (int k = 0; k < 3; ++k)
+    fmt::format_to(out, "{0:.17g} {1:.17g} {2}lo {2}hi\n", box.low[k], box.high[k], "xyz"[k]);
+  fmt::format_to(out, "\nAtoms # sphere\n\n");
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Sphere& body = scene.bodies[i];
+    const Vector3& position = states[i].position;
+    const auto [x, cells_x] = folded(position.x(), scene.periodic.x());
+    const auto [y, cells_y] = folded(position.y(), scene.periodic.y());
+    const double volume = 4 * std::numbers::pi / 3 * std::pow(body.radius, 3);
+    fmt::format_to(out, "{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {} {} 0\n", i + 1,
+                   types.of_body[i] + 1, 2 * body.radius, body.mass / volume, x, y, position.z(),
+                   cells_x, cells_y);
+  }
+  fmt::format_to(out, "\nVelocities\n\n");
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Vector3 &v = states[i].velocity, &spin = states[i].angular_velocity;
+    fmt::format_to(out, "{} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", i + 1, v.x(), v.y(),
+                   v.z(), spin.x(), spin.y(), spin.z());
+  }
+  return {text.data(), text.size()};
 }
 
 std::string dump_command(const Scene& scene, const std::string& file) {

@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -114,10 +115,14 @@ LammpsProcess::LammpsProcess(int ranks) {
   snapshots_ = snapshots.read;
   snapshots_write_ = snapshots.write;
   for (const int end : {words_, snapshots_}) fcntl(end, F_SETFL, O_NONBLOCK);
+  constexpr int kRoom =
+      1 << 20;  // many bodies: fewer turns to and fro; where it is not given, more
+  fcntl(snapshots_write_, F_SETPIPE_SZ, kRoom);
   snapshot_file_ = fmt::format("/proc/{}/fd/{}", getpid(), snapshots_write_);
 }
 
 LammpsProcess::~LammpsProcess() {
+  forget_file();
   for (const int end : {commands_, words_, snapshots_, snapshots_write_}) close(end);
   // Without commands it ends by itself, and mpirun with it, which so tidies up.
   for (int k = 0; k < 200 && waitpid(process_, nullptr, WNOHANG) == 0; ++k) usleep(10000);
@@ -133,6 +138,24 @@ void LammpsProcess::send(const std::string& commands) {
     if (n <= 0) fail();
     sent += static_cast<std::size_t>(n);
   }
+}
+
+std::string LammpsProcess::keep_file(std::string_view text) {
+  forget_file();
+  file_ = memfd_create("bodies", MFD_CLOEXEC);
+  if (file_ < 0) throw LammpsError("no file in memory can be made");
+  while (!text.empty()) {
+    const ssize_t n = write(file_, text.data(), text.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) throw LammpsError("a file in memory cannot hold the bodies");
+    text.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return fmt::format("/proc/{}/fd/{}", getpid(), file_);
+}
+
+void LammpsProcess::forget_file() {
+  if (file_ >= 0) close(file_);
+  file_ = -1;
 }
 
 void LammpsProcess::wait() {

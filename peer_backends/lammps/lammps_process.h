@@ -6,6 +6,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "physics/sphere.h"
@@ -18,8 +19,8 @@ class LammpsError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The program `lmp`, which reads commands from a pipe and writes snapshots into another: nothing
-/// is put into a file, and so nothing is left of it however it or this process ends. With more than
+/// The program `lmp`, which reads commands from a pipe and writes snapshots into another: no file
+/// is put on a disk, and so nothing is left of it however it or this process ends. With more than
 /// one rank mpirun starts it.
 class LammpsProcess {
  public:
@@ -32,6 +33,11 @@ class LammpsProcess {
   const std::string& snapshot_file() const { return snapshot_file_; }
 
   void send(const std::string& commands);
+
+  /// The name under which LAMMPS opens a file with this text, which is in memory alone and there
+  /// until forget_file().
+  std::string keep_file(std::string_view text);
+  void forget_file();
 
   /// Waits for the end of a `run` and gives the CPU time of its loop, summed over ranks [s].
   /// Snapshots on the way are kept. Throws LammpsError.
@@ -47,7 +53,7 @@ class LammpsProcess {
   [[noreturn]] void fail();
 
   pid_t process_ = -1;
-  int commands_ = -1, words_ = -1, snapshots_ = -1, snapshots_write_ = -1;
+  int commands_ = -1, words_ = -1, snapshots_ = -1, snapshots_write_ = -1, file_ = -1;
   std::string snapshot_file_;
   std::string said_, frames_, error_;  // not yet looked at
   bool ended_ = false;

@@ -331,6 +331,16 @@ TEST(Protocol, TheLengthIsLimited) {
   const std::array<std::uint8_t, 4> most = {0, 0, 0, 4}, more = {1, 0, 0, 4};
   EXPECT_EQ(body_length(most), std::size_t{64} << 20);
   EXPECT_THROW(body_length(more), Rubbish);
+  EXPECT_EQ(body_length(more, kMaxOfMany), (std::size_t{64} << 20) + 1);
+  Start start;
+  start.states.resize(1'000'000);  // of 72 bytes each
+  EXPECT_THROW(encode(start), std::length_error);
+  EXPECT_GT(encode(start, kMaxOfMany).size(), std::size_t{72'000'000});
+}
+
+TEST(Protocol, StepsThatAreSkippedAreCounted) {
+  EXPECT_EQ(request_through<Skip>(Skip{12}).count, 12u);
+  EXPECT_THROW(request_through<Skip>(Skip{0}), Rubbish);
 }
 
 /// docs/engine-protocol.md shows a message byte for byte: `step` for one step.

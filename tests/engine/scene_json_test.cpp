@@ -50,6 +50,27 @@ TEST(SceneJson, TheSceneComesThroughWhole) {
   EXPECT_EQ(request.scene.downhill, Vector2(0, -0.8));
 }
 
+TEST(SceneJson, BodiesInOnePieceAreTheSame) {
+  EngineScene scene = some_scene(5);
+  scene.bodies[3] = {1.0 / 3, 0.7, 2.0 / 3};
+  const json one_by_one = scene_to_json(scene);
+  scene.packed = true;
+  const json object = scene_to_json(scene);
+  EXPECT_FALSE(object.contains("bodies"));
+  EXPECT_EQ(object["packed_bodies"].get_binary().size(), 5u * 28);
+  EXPECT_EQ(scene_to_json(through(scene)), one_by_one);
+
+  expect_rubbish(
+      scene, [](json& o) { o["packed_bodies"].get_binary().pop_back(); },
+      "packed_bodies: has 139 bytes, must be a multiple of 28");
+  expect_rubbish(
+      scene, [](json& o) { o["packed_bodies"].get_binary()[28 + 7] |= 0x80; },
+      "packed_bodies: has -0.002 in body 1, must be finite and > 0");
+  expect_rubbish(
+      scene, [](json& o) { o["packed_bodies"].get_binary()[2 * 28 + 24] = 7; },
+      "packed_bodies: has the material 7 in body 2, must be below 2");
+}
+
 TEST(SceneJson, BlocksCylindersAndLawsOfFrictionComeThrough) {
   Scene scene = some_scene(2);
   scene.bodies[0] = {0.05, 2, 0.3, Shape::block};

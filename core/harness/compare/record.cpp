@@ -44,7 +44,7 @@ Verdict SceneRecord::verdict() const {
   const bool by_reference = runs.empty() || !std::ranges::all_of(runs, [](const EngineRecord& run) {
                               return run.expect.has_value();
                             });
-  const bool has_end = reference.run.reached || !by_reference;
+  const bool has_end = reference.run.reached || reference.left_out || !by_reference;
   Verdict worst = has_end ? Verdict::unjudged : Verdict::undecided;
   for (const EngineRecord& run : runs) worst = std::max(worst, run.verdict());
   return worst;

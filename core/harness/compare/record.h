@@ -87,6 +87,7 @@ struct EngineRecord {
   std::size_t phases = 0;  ///< in each heading
   std::map<std::string, EnsembleValue> observables;
   std::map<std::string, Deviation> errors;
+  std::optional<Assembly> assembly;  ///< of a run that was looked at as a whole alone
   Applied applied;
   std::vector<std::string> warnings;
   std::optional<Expectation> expect;  ///< judges the run in place of the tolerances

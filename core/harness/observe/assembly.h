@@ -35,6 +35,10 @@ struct AssemblyState {
   double sonine = 0;
 
   double pressure() const { return stress.trace() / 3; }  ///< [Pa]
+  /// All of these energies [J].
+  double energy() const {
+    return kinetic_energy + rotational_energy + weight_energy + elastic_energy;
+  }
 };
 
 /// Where the bodies are.

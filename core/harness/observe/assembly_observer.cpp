@@ -13,6 +13,9 @@ namespace {
 constexpr double kFastest = 5;           // root mean squares
 constexpr std::size_t kVelocities = 50;  // intervals
 constexpr double kFurthest = 4;          // mean diameters
+/// In space a body has some 250 others in that distance, all of which are listed at once: of more
+/// bodies than so many only those in half of it are.
+constexpr std::size_t kMostFar = 200'000;
 constexpr std::size_t kDistances = 100;  // intervals
 /// Below this part of the fastest speed in the run nothing moves.
 constexpr double kStill = 1e-9;
@@ -69,11 +72,22 @@ AssemblyObserver::AssemblyObserver(const ContactScene& scene, double end, std::s
   assembly_.pairs.expected.assign(kDistances, 0.0);
 }
 
+namespace {
+
+/// Of the interval: rounding of a step's time must not put a sample off by a frame.
+constexpr double kEarly = 1e-9;
+
+}  // namespace
+
+std::optional<double> AssemblyObserver::next_look() const {
+  if (next_ >= samples_) return std::numeric_limits<double>::infinity();
+  const double interval = end_ / static_cast<double>(samples_ - 1);
+  return (static_cast<double>(next_) - kEarly) * interval;
+}
+
 void AssemblyObserver::take(double time, const Frame& frame) {
   const double interval = end_ / static_cast<double>(samples_ - 1);
-  // Rounding of a step's time must not put a sample off by a frame.
-  constexpr double kEarly = 1e-9;
-  if (next_ >= samples_ || time < (static_cast<double>(next_) - kEarly) * interval) return;
+  if (time < *next_look()) return;
   // Where frames are further apart than samples, one counts once.
   next_ = std::max(next_ + 1, static_cast<std::size_t>(time / interval + kEarly) + 1);
   if (assembly_.time.empty()) assembly_.flat = assembly_region(scene_->hard, frame.bodies).flat;
@@ -111,7 +125,8 @@ void AssemblyObserver::add_pairs(const std::vector<BodyState>& bodies) {
   Histogram& seen = assembly_.pairs;
   const double d = assembly_.mean_diameter;
   // Points, found within a distance: of spheres half as large the surfaces are in touch.
-  const double furthest = std::min(kFurthest * d, region.longest());
+  const double furthest =
+      std::min((bodies.size() > kMostFar ? 0.5 : 1) * kFurthest * d, region.longest());
   std::vector<NearSphere> points;
   points.reserve(bodies.size());
   for (const BodyState& body : bodies) {

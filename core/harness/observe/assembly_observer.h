@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "base/state_archive.h"
@@ -59,6 +60,7 @@ class AssemblyObserver final : public FrameSink {
   AssemblyObserver(const ContactScene& scene, double end, std::size_t samples, States states = {});
 
   void take(double time, const Frame& frame) override;
+  std::optional<double> next_look() const override;
   const Assembly& assembly() const { return assembly_; }
   /// What it goes on with.
   void exchange(StateArchive& archive) { archive(next_, assembly_); }

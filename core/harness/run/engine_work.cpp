@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "harness/compare/comparison.h"
+#include "harness/run/whole_run.h"
 #include "scenario/scaled_lengths.h"
 
 namespace slipcheck {
@@ -51,12 +52,16 @@ EngineWork::EngineWork(const EngineTask& task, const RunOptions& options, std::s
                 .phases = options.phases,
                 .time_limit = options.time_limit,
                 .watch = task.watch},
-      records_motion_(options.record_motion && !task.watch && is_recorded(*task.scene)),
+      records_motion_(options.record_motion && !options.whole && !task.watch &&
+                      is_recorded(*task.scene)),
       shares_(phase_shares(options.phases * task.record->headings,
-                           task.watch || records_motion_ ? 1 : workers)) {}
+                           task.watch || records_motion_ || options.whole ? 1 : workers)) {
+  if (options.whole) samples_ = options.extras.at(task.scene->scenario.name).samples;
+}
 
 void EngineWork::run(RemoteEngine& engine, std::size_t part) {
   engine.limit_run(options_->time_limit);
+  if (samples_ > 0) return run_whole(engine, ensemble_, samples_, record());
   if (records_motion_) recorder_.emplace(ensemble_.solver->scene().hard);
   EnsembleTask ensemble = ensemble_;
   if (recorder_) ensemble.watch = &*recorder_;
@@ -64,6 +69,7 @@ void EngineWork::run(RemoteEngine& engine, std::size_t part) {
 }
 
 void EngineWork::finish() {
+  if (samples_ > 0) return;  // the run has filled in the record
   ended_ = finish_ensemble(ensemble_, shares_, record());
   if (!recorder_) return;
   record().motions = record().status == EngineRecord::Status::ok

@@ -43,6 +43,7 @@ class EngineWork {
   std::size_t ended_ = 0;  ///< runs
   EnsembleTask ensemble_;
   bool records_motion_;
+  std::size_t samples_ = 0;  ///< of the whole, where nothing else is looked at
   std::vector<PhaseShare> shares_;
   std::optional<MotionRecorder> recorder_;
 };

@@ -13,6 +13,7 @@ namespace {
 /// Where contacts last that were taken as instants, and nobody asked for that, the solver that
 /// resolves them takes over from the start.
 ReferenceResult reference_of(PreparedScene& scene, const ReferenceExtras& extras) {
+  if (extras.whole) return run_reference_whole(scene.solver, run_end(scene.scenario), extras);
   if (scene.contact->hard.box) return run_box_reference(scene.solver, scene.scenario);
   const auto solve = [&] {
     return run_reference(scene.solver, run_end(scene.scenario), body_names(scene.scenario), extras);
@@ -57,17 +58,22 @@ std::vector<PreparedScene> prepare_scenes(std::vector<Scenario> scenarios, bool 
                                           const std::map<std::string, ReferenceExtras>* extras) {
   std::vector<PreparedScene> scenes;
   scenes.reserve(scenarios.size());
+  const auto extras_of = [&](const std::string& name) {
+    if (extras)
+      if (const auto named = extras->find(name); named != extras->end()) return named->second;
+    return ReferenceExtras{};
+  };
   for (Scenario& scenario : scenarios) {
     auto contact = std::make_unique<const ContactScene>(make_contact_scene(scenario));
     const ReferenceSolver solver(*contact, reference_settings(scenario, general, in_scene));
+    if (const ReferenceExtras wanted = extras_of(scenario.name); wanted.whole)
+      if (const std::string why = no_whole_reason(solver, wanted); !why.empty())
+        throw Unsupported(scenario.name + ": " + why);
     scenes.push_back({std::move(scenario), std::move(contact), solver, {}});
   }
   in_parallel(scenes.size(), threads, [&](std::size_t k) {
-    ReferenceExtras wanted;
-    if (extras)
-      if (const auto named = extras->find(scenes[k].scenario.name); named != extras->end())
-        wanted = named->second;
-    scenes[k].reference = guarded_reference(scenes[k], time_limit, wanted);
+    scenes[k].reference =
+        guarded_reference(scenes[k], time_limit, extras_of(scenes[k].scenario.name));
   });
   return scenes;
 }

@@ -22,7 +22,8 @@ struct PreparedScene {
 };
 
 /// Solves these scenes, as many at once as there are threads (0: one for each core); how many
-/// changes no bit. Throws Unsupported where no solver knows a model, before any is run. general: as
+/// changes no bit. Throws Unsupported where no solver knows a model, or a scene is to
+/// be looked at as a whole and cannot (no_whole_reason()), before any is run. general: as
 /// of ReferenceSettings. time_limit: of wall time for each scene's reference, all its runs [s].
 /// in_scene: threads that share one scene, as of ReferenceSettings.
 ///

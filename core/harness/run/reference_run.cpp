@@ -50,16 +50,19 @@ ObservedRun solve(const ReferenceSolver& solver, const RunEnd& end, int rounding
     if (const ObservedRun* before = keeper->next()) return *before;
   const RoundingMode mode(rounding);
   const Scene& scene = solver.scene().hard;
-  Observer observer(scene, 0, speed_scale(solver.scene()), solver.is_resolved());
+  const bool whole = extras && extras->whole;
+  std::optional<Observer> observer;
+  if (!whole) observer.emplace(scene, 0, speed_scale(solver.scene()), solver.is_resolved());
   std::optional<AssemblyObserver> assembly;
   if (extras) assembly.emplace(solver.scene(), end.last(), extras->samples, extras->states);
-  std::vector<FrameSink*> sinks = {&observer};
+  std::vector<FrameSink*> sinks;
+  if (observer) sinks.push_back(&*observer);
   if (assembly) sinks.push_back(&*assembly);
   EachSink each(sinks);
-  FrameSink& sink = assembly ? static_cast<FrameSink&>(each) : observer;
+  FrameSink& sink = sinks.size() > 1 ? static_cast<FrameSink&>(each) : *sinks.front();
   if (keeper)
     keeper->begin([&](StateArchive& archive) {
-      archive(observer);
+      if (observer) archive(*observer);
       if (assembly) archive(*assembly);
       if (assembly && extras->exchange_states) extras->exchange_states(archive);
     });
@@ -67,7 +70,7 @@ ObservedRun solve(const ReferenceSolver& solver, const RunEnd& end, int rounding
   const double begin = thread_cpu_seconds();
   solved.run = solver.run(end, &sink, accuracy, keeper);
   solved.cpu_seconds = thread_cpu_seconds() - begin + (keeper ? keeper->cpu_before() : 0);
-  solved.seen = observer.finish(solved.run.end_time);
+  if (observer) solved.seen = observer->finish(solved.run.end_time);
   if (assembly) solved.assembly = assembly->assembly();
   if (keeper) keeper->finish(solved);
   return solved;
@@ -136,12 +139,11 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
   return runs;
 }
 
+constexpr const char* kNoSamples =
+    "no samples of the whole: only scenes of soft contacts between all bodies, in steps, have them";
+
 /// Every two bodies that meet push each other by a law that their states tell.
-bool is_soft_assembly(const ReferenceSolver& solver) {
-  return solver.keeps_state() && std::ranges::all_of(solver.scene().soft, [](const auto& contact) {
-           return contact.has_value();
-         });
-}
+bool is_soft_assembly(const ReferenceSolver& solver) { return no_whole_reason(solver, {}).empty(); }
 
 /// Of each of these values, which may be NaN. Takes the other runs apart: of many bodies they are
 /// large.
@@ -241,10 +243,7 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
   if (solver.settings().threads != 1 && !solver.shares_steps())
     result.warnings.emplace_back(
         "one thread: only scenes of many bodies in soft contacts are shared between several");
-  if (extras.samples > 0 && !samples)
-    result.warnings.emplace_back(
-        "no samples of the whole: only scenes of soft contacts between all bodies, in steps, have "
-        "them");
+  if (extras.samples > 0 && !samples) result.warnings.emplace_back(kNoSamples);
   if (extras.checkpoints && !keeper)
     result.warnings.emplace_back(
         "no state was kept on the way: only scenes of contacts that last, in steps, can go on");
@@ -256,6 +255,38 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
     result.warnings.push_back(
         fmt::format("inelastic collapse: the rule of run.collapse ({}) changed {} of {} collisions",
                     name_of(scene.collapse.model), result.run.collapses, result.run.collisions));
+  return result;
+}
+
+std::string no_whole_reason(const ReferenceSolver& solver, const ReferenceExtras& extras) {
+  const bool soft =
+      std::ranges::all_of(solver.scene().soft, [](const auto& each) { return each.has_value(); });
+  if (!soft) return "--whole needs soft contacts between all bodies, whose states tell the forces";
+  if (extras.left_out || solver.keeps_state()) return "";
+  return "--whole needs a reference in steps; compare.reference may be steps";
+}
+
+ReferenceResult run_reference_whole(const ReferenceSolver& solver, const RunEnd& end,
+                                    const ReferenceExtras& extras) {
+  ReferenceResult result;
+  result.solver = solver.name();
+  result.first_contact = std::numeric_limits<double>::infinity();
+  if (extras.left_out) {
+    result.left_out = true;
+    result.run.reason = "it was left out";
+    return result;
+  }
+  std::optional<ReferenceKeeper> keeping;
+  if (extras.checkpoints) keeping.emplace(*extras.checkpoints);
+  ReferenceKeeper* const keeper = keeping ? &*keeping : nullptr;
+  const ObservedRun solved = solve(solver, end, FE_TONEAREST, {}, keeper, &extras);
+  result.cpu_seconds = solved.cpu_seconds;
+  result.run = solved.run;
+  result.assembly = solved.assembly;
+  result.warnings = solver.scene().warnings;
+  if (keeper && !keeper->trouble().empty())
+    result.warnings.push_back("its state could not be kept on the way: " + keeper->trouble());
+  if (!result.run.reached) result.warnings.push_back("the run did not end: " + result.run.reason);
   return result;
 }
 

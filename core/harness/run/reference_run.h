@@ -22,6 +22,9 @@ struct ReferenceExtras {
   std::optional<Checkpoints> checkpoints = {};  ///< how it is kept on its way
   /// Of what many bodies show as a whole (AssemblyObserver), >= 2; 0: none.
   std::size_t samples = 0;
+  /// Nothing but the samples: one run, no observables of bodies and pairs.
+  bool whole = false;
+  bool left_out = false;                 ///< engines run alone
   AssemblyObserver::States states = {};  ///< takes each sample's states
   /// Writes or reads what `states` goes on with.
   std::function<void(StateArchive&)> exchange_states = {};
@@ -52,6 +55,7 @@ struct ReferenceResult {
   std::optional<BoxReference> box;  ///< of a scene in a box
   std::optional<RecordedMotion> motion;  ///< where it is recorded
   std::optional<Assembly> assembly;      ///< where it was asked for
+  bool left_out = false;                 ///< engines ran alone, nothing here is known
   std::vector<std::string> warnings;
 };
 
@@ -63,6 +67,15 @@ struct ReferenceResult {
 ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
                               const std::vector<std::string>& body_names,
                               const ReferenceExtras& extras = {});
+
+/// Why a scene cannot be looked at as a whole alone, "" where it can: two of its bodies have a hard
+/// contact, of which their states tell no force, or the reference, unless it is left out, has no
+/// steps to show them at.
+std::string no_whole_reason(const ReferenceSolver& solver, const ReferenceExtras& extras);
+/// The same of a scene that can, of which the samples alone are wanted, or where it is left out
+/// nothing.
+ReferenceResult run_reference_whole(const ReferenceSolver& solver, const RunEnd& end,
+                                    const ReferenceExtras& extras);
 
 /// What computed a NaN has no result: the run has failed, its reason names what is NaN, and nothing
 /// else of it is shown. Does nothing where `names` is empty.

@@ -237,12 +237,13 @@ void choose_headings(const Scenario& scenario, EngineRecord& record) {
 std::vector<std::vector<EngineRecord>> requested_runs(const std::vector<Scenario>& scenarios,
                                                       const WorkerLimits& limits,
                                                       const std::atomic<bool>* stop,
-                                                      const Settings& settings, bool general) {
+                                                      const Settings& settings, bool general,
+                                                      bool whole) {
   Profiles profiles(limits, stop, settings, general);
   std::vector<std::vector<EngineRecord>> runs;
   for (const Scenario& scenario : scenarios) {
     std::vector<EngineRecord>& records = runs.emplace_back();
-    profiles.check_size(scenario);
+    if (!whole) profiles.check_size(scenario);
     const std::vector<EngineRequest> requests = requests_of(scenario);
     for (std::size_t k = 0; k < requests.size(); ++k) {
       const EngineRequest& request = requests[k];

@@ -63,8 +63,8 @@ void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
 
 std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOptions& options) {
   const StopScope scope(options.stop);
-  std::vector<std::vector<EngineRecord>> runs =
-      requested_runs(scenarios, options.limits, options.stop, options.settings, options.general);
+  std::vector<std::vector<EngineRecord>> runs = requested_runs(
+      scenarios, options.limits, options.stop, options.settings, options.general, options.whole);
   std::vector<PreparedScene> prepared =
       prepare_scenes(std::move(scenarios), options.general, options.workers, options.time_limit,
                      options.threads, options.extras.empty() ? nullptr : &options.extras);
@@ -73,7 +73,7 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
     for (EngineRecord& record : runs[s])
       if (record.reason.empty()) tasks.push_back({&prepared[s], &record});
   run_engines(tasks, options);
-  if (options.record_motion)
+  if (options.record_motion && !options.whole)
     for (PreparedScene& scene : prepared) record_motion_of(scene, options.time_limit);
 
   std::vector<SceneRecord> scenes;

@@ -21,7 +21,10 @@ class WorkerPool;
 struct RunOptions {
   std::size_t phases = 32;  ///< size of each engine's ensemble, >= 1
   Settings settings;        ///< of engines, over those of every profile
-  bool general = false;     ///< nothing is left out, as of ReferenceSettings and requested_runs()
+  /// Scenes are looked at as a whole alone, as their `extras` say: one run of each engine, and
+  /// nothing is judged.
+  bool whole = false;
+  bool general = false;  ///< nothing is left out, as of ReferenceSettings and requested_runs()
   /// Of the reference and of what no EngineTask::watch looks at; not in a box, nor of more bodies
   /// than kMostRecordedBodies.
   bool record_motion = false;

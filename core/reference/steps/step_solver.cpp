@@ -144,7 +144,7 @@ class StepSolver::Impl {
     if (!std::exchange(goes_on_, false)) quiet_from_ = world_.n;
     while (true) {
       kernel_->find_forces(world_);
-      if (sink) {
+      if (sink && world_.time() >= sink->next_look().value_or(0)) {
         kernel_->show(world_, frame_);
         sink->take(world_.time(), frame_);
       }
@@ -155,11 +155,19 @@ class StepSolver::Impl {
       }
       if (world_.n >= last) return to_a_time;
       const bool is_watched = world_.n >= quiet_from_;
-      std::size_t steps = sink ? 1 : last - world_.n;
+      std::size_t steps = sink ? steps_to_look(*sink, last) : last - world_.n;
       if (!is_watched) steps = std::min(steps, quiet_from_ - world_.n);
       kernel_->advance(world_, steps, is_watched ? wanted : StepStop::never);
       look();
     }
+  }
+
+  /// Until it looks again, at least one, and not so many that nothing else is heeded.
+  std::size_t steps_to_look(const FrameSink& sink, std::size_t last) const {
+    constexpr double kMost = 64;
+    const double until = (sink.next_look().value_or(0) - world_.time()) / world_.step;
+    return std::min(static_cast<std::size_t>(std::clamp(std::ceil(until), 1.0, kMost)),
+                    last - world_.n);
   }
 
   /// In what time bodies that all roll collide again, or infinity: exact on a level substrate at

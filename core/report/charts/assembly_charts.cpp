@@ -19,10 +19,16 @@ struct AssemblyStrip {
   double (*of)(const AssemblyState& state);
 };
 
-/// Quantities of one dimension over time.
-Panel strip_of_assembly(const Assembly& assembly, const std::string& label,
-                        const Dimension& dimension, const std::vector<AssemblyStrip>& all,
-                        const QuantityFormat& time) {
+/// An engine's run beside what is shown.
+struct AssemblyBeside {
+  std::string label;
+  const Assembly* assembly;
+};
+
+/// Quantities of one dimension over time, and the first of them in the runs beside.
+Panel strip_of_assembly(const Assembly& assembly, const std::vector<AssemblyBeside>& beside,
+                        const std::string& label, const Dimension& dimension,
+                        const std::vector<AssemblyStrip>& all, const QuantityFormat& time) {
   double most = 0;
   for (const AssemblyStrip& each : all)
     for (const AssemblyState& state : assembly.states)
@@ -35,6 +41,14 @@ Panel strip_of_assembly(const Assembly& assembly, const std::string& label,
     for (std::size_t k = 0; k < assembly.time.size(); ++k) {
       curve.x.push_back(assembly.time[k] / time.factor());
       curve.y.push_back(each.of(assembly.states[k]) / format.factor());
+    }
+    panel.curves.push_back(std::move(curve));
+  }
+  for (const auto& [name, other] : beside) {
+    Curve curve{name, {Ink::black, Line::dotted}, {}, {}};
+    for (std::size_t k = 0; k < other->time.size(); ++k) {
+      curve.x.push_back(other->time[k] / time.factor());
+      curve.y.push_back(all.front().of(other->states[k]) / format.factor());
     }
     panel.curves.push_back(std::move(curve));
   }
@@ -80,9 +94,18 @@ Panel pairs_panel(const Assembly& assembly) {
 }  // namespace
 
 std::vector<Chart> assembly_charts(const SceneRecord& scene, std::set<std::string>& taken) {
-  if (!scene.reference.assembly || scene.reference.assembly->time.size() < 2) return {};
-  const Assembly& assembly = *scene.reference.assembly;
-  const std::string name = plot_literal(scene.scenario.name);
+  std::vector<AssemblyBeside> beside;
+  for (const EngineRecord& run : scene.runs)
+    if (run.assembly) beside.push_back({plot_literal(run.engine), &*run.assembly});
+  const Assembly* shown = scene.reference.assembly ? &*scene.reference.assembly : nullptr;
+  std::string name = plot_literal(scene.scenario.name);
+  if (!shown && !beside.empty()) {  // the reference was left out
+    shown = beside.front().assembly;
+    name += " in " + beside.front().label;
+    beside.erase(beside.begin());
+  }
+  if (!shown || shown->time.size() < 2) return {};
+  const Assembly& assembly = *shown;
   const QuantityFormat time(assembly.time.back(), kTime);
   Chart series{file_stem("assembly-" + scene.scenario.name, taken),
                name + " as a whole",
@@ -94,10 +117,10 @@ std::vector<Chart> assembly_charts(const SceneRecord& scene, std::set<std::strin
                1,
                110};
   series.panels.push_back(strip_of_assembly(
-      assembly, "height of the centre of mass", kLength,
+      assembly, beside, "height of the centre of mass", kLength,
       {{"", {Ink::blue, Line::solid}, [](const auto& s) { return s.height; }}}, time));
   series.panels.push_back(strip_of_assembly(
-      assembly, "energy", kEnergy,
+      assembly, beside, "energy", kEnergy,
       {{"of translation", {Ink::blue, Line::solid}, [](const auto& s) { return s.kinetic_energy; }},
        {"of rotation",
         {Ink::vermilion, Line::dashed},
@@ -105,14 +128,14 @@ std::vector<Chart> assembly_charts(const SceneRecord& scene, std::set<std::strin
        {"elastic", {Ink::green, Line::dotted}, [](const auto& s) { return s.elastic_energy; }}},
       time));
   series.panels.push_back(strip_of_assembly(
-      assembly, "contacts of a body", kPureNumber,
+      assembly, beside, "contacts of a body", kPureNumber,
       {{"all bodies", {Ink::blue, Line::solid}, [](const auto& s) { return s.coordination; }},
        {"without rattlers",
         {Ink::vermilion, Line::dashed},
         [](const auto& s) { return s.coordination_of_carried; }}},
       time));
   series.panels.push_back(strip_of_assembly(
-      assembly, "pressure", kPressure,
+      assembly, beside, "pressure", kPressure,
       {{"", {Ink::blue, Line::solid}, [](const auto& s) { return s.pressure(); }}}, time));
   series.panels.front().title = name;
   series.panels.back().x.label = "time [" + time.unit() + "]";

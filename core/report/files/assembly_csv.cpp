@@ -3,45 +3,32 @@
 #include <cmath>
 #include <functional>
 
+#include "harness/compare/assembly_comparison.h"
 #include "report/rows/csv_rows.h"
 
 namespace slipcheck {
-namespace {
-
-struct AssemblyColumn {
-  const char* name;
-  const char* unit;
-  double (*of)(const AssemblyState& state);
-};
-
-constexpr AssemblyColumn kAssemblyColumns[] = {
-    {"height", "m", [](const auto& s) { return s.height; }},
-    {"kinetic_energy", "J", [](const auto& s) { return s.kinetic_energy; }},
-    {"rotational_energy", "J", [](const auto& s) { return s.rotational_energy; }},
-    {"weight_energy", "J", [](const auto& s) { return s.weight_energy; }},
-    {"elastic_energy", "J", [](const auto& s) { return s.elastic_energy; }},
-    {"contacts", "", [](const auto& s) { return static_cast<double>(s.contacts); }},
-    {"coordination", "", [](const auto& s) { return s.coordination; }},
-    {"coordination_of_carried", "", [](const auto& s) { return s.coordination_of_carried; }},
-    {"pressure", "Pa", [](const auto& s) { return s.pressure(); }},
-    {"stress.xx", "Pa", [](const auto& s) { return s.stress(0, 0); }},
-    {"stress.yy", "Pa", [](const auto& s) { return s.stress(1, 1); }},
-    {"stress.zz", "Pa", [](const auto& s) { return s.stress(2, 2); }},
-    {"stress.xy", "Pa", [](const auto& s) { return s.stress(0, 1); }},
-    {"stress.xz", "Pa", [](const auto& s) { return s.stress(0, 2); }},
-    {"stress.yz", "Pa", [](const auto& s) { return s.stress(1, 2); }},
-    {"temperature", "J", [](const auto& s) { return s.temperature; }},
-    {"sonine", "", [](const auto& s) { return s.sonine; }},
-};
-
-}  // namespace
-
 std::string assembly_series_csv(const std::string& scene, const Assembly& assembly) {
   CsvRows rows({"scene", "quantity", "unit", "time", "value"});
-  for (const AssemblyColumn& column : kAssemblyColumns)
+  for (const AssemblyQuantity& column : assembly_quantities())
     for (std::size_t k = 0; k < assembly.time.size(); ++k)
       rows.add({scene, std::string(column.name), std::string(column.unit), assembly.time[k],
                 column.of(assembly.states[k])});
+  return rows.text();
+}
+
+std::string assembly_comparison_csv(const SceneRecord& scene) {
+  CsvRows rows({"scene", "engine", "version", "precision", "profile", "rate", "quantity", "unit",
+                "reference", "reference_error", "value", "error", "difference",
+                "difference_error"});
+  for (const EngineRecord& run : scene.runs) {
+    if (!run.assembly || !scene.reference.assembly) continue;
+    for (const AssemblyDifference& each :
+         assembly_differences(*scene.reference.assembly, *run.assembly))
+      rows.add({scene.scenario.name, run.engine, run.version, run.precision, run.profile, run.rate,
+                std::string(each.quantity->name), std::string(each.quantity->unit),
+                each.reference.value, each.reference.error, each.engine.value, each.engine.error,
+                each.difference.value, each.difference.error});
+  }
   return rows.text();
 }
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "harness/observe/assembly_observer.h"
+#include "harness/compare/record.h"
 
 namespace slipcheck {
 
@@ -11,6 +11,10 @@ namespace slipcheck {
 
 /// scene, quantity, unit, time, value: of each sample.
 std::string assembly_series_csv(const std::string& scene, const Assembly& assembly);
+
+/// A row for each quantity and run of an engine beside the reference: means over the second half of
+/// both with standard errors, and the mean of the differences at the same times.
+std::string assembly_comparison_csv(const SceneRecord& scene);
 
 /// scene, distribution, curve, x, density: velocities and pairs over the second half of the run, as
 /// measured and as Maxwell, Sonine and an ideal gas have them.

@@ -13,6 +13,7 @@
 #include "report/rows/summary.h"
 #include "report/rows/told_verdict.h"
 #include "report/rows/verdict_look.h"
+#include "report/rows/whole_rows.h"
 #include "report/terminal/text.h"
 
 namespace slipcheck {
@@ -76,6 +77,7 @@ std::string run_block(const SceneRecord& scene, const EngineRecord& run,
   if (ok) {
     result +=
         noted_table(comparison_table(comparison_rows(scene, run, names), most_rows(style)), style);
+    if (run.assembly) result += noted_table(whole_table(scene, run), style);
     TextTable expected = expectation_table(run);
     expected.columns[3].right = false;  // beside the verdict
     result += noted_table(expected, style);

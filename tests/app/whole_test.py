@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+"""Scenes of many bodies that are looked at as a whole alone: `run --assembly DIR --whole`.
+
+usage: whole_test.py SLIPCHECK
+"""
+import csv
+import math
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SLIPCHECK = sys.argv[1]
+COUNT, RADIUS, SPEED, DENSITY = 1200, 0.01, 1.0, 1000
+
+GAS = f"""slipcheck: 1
+name: gas
+title: A granular gas that cools
+gravity: 9.81
+materials: {{m: {{density: {DENSITY}}}}}
+contacts:
+  - {{between: [m, m], normal: {{model: linear, restitution: 0.9, collision_time: 1e-3}}}}
+  - {{between: [m, substrate], friction: 0}}
+substrate: {{periodic: [1, 1]}}
+fill: {{prefix: g, count: {COUNT}, material: m, radius: {RADIUS}, area: [0, 0, 1, 1], speed: {SPEED}, seed: 3}}
+run: {{until: 0.1}}
+compare: {{engines: []}}
+"""
+HARD = GAS.replace("{model: linear, restitution: 0.9, collision_time: 1e-3}",
+                   "{model: hard, restitution: 0.9}").replace(f"count: {COUNT}", "count: 20")
+
+
+class Whole(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = Path(folder.name)
+        (self.path / "gas.yaml").write_text(GAS)
+        (self.path / "hard.yaml").write_text(HARD)
+
+    def run_it(self, *arguments):
+        done = subprocess.run([SLIPCHECK, "run", *arguments], cwd=self.path, text=True,
+                              capture_output=True, timeout=300)
+        return done.returncode, done.stdout, done.stderr
+
+    def rows(self, name):
+        with (self.path / "out" / name).open() as table:
+            return list(csv.DictReader(table))
+
+    def series(self, name, quantity):
+        return [(float(row["time"]), float(row["value"])) for row in self.rows(name)
+                if row["quantity"] == quantity]
+
+    def test_reference_alone(self):
+        code, said, wrong = self.run_it("gas.yaml", "--assembly", "out", "--whole", "--samples", "5")
+        self.assertEqual(code, 0, said + wrong)
+        kinetic = self.series("gas.series.csv", "kinetic_energy")
+        self.assertEqual(len(kinetic), 5)
+        mass = DENSITY * 4 / 3 * math.pi * RADIUS**3
+        self.assertAlmostEqual(kinetic[0][1] / (COUNT * mass * SPEED**2 / 2), 1, 12)
+        # So few bodies lose nothing on a substrate without friction but by collisions.
+        self.assertTrue(all(a[1] > b[1] for a, b in zip(kinetic, kinetic[1:])), kinetic)
+        self.assertFalse((self.path / "out" / "gas.comparison.csv").exists())
+
+    @unittest.skipUnless(shutil.which("lmp"), "LAMMPS is not installed")
+    def test_lammps_beside_the_reference(self):
+        code, said, wrong = self.run_it("gas.yaml", "--engines", "lammps", "--set", "ranks=2",
+                                        "--assembly", "out", "--whole", "--samples", "101")
+        self.assertEqual(code, 0, said + wrong)
+        self.assertIn("101 samples of 1200 bodies", said)
+        run = "gas.lammps-double-default-1000Hz"
+        self.assertTrue((self.path / "out" / f"{run}.distributions.csv").exists())
+        ours = self.series("gas.series.csv", "kinetic_energy")
+        theirs = self.series(f"{run}.series.csv", "kinetic_energy")
+        self.assertEqual(len(theirs), 101)
+        self.assertEqual(ours[0], theirs[0])
+        # Frames of the reference end its steps, of t_col/50.
+        for a, b in zip(ours, theirs):
+            self.assertAlmostEqual(a[0], b[0], delta=2.1e-5)
+        # Which pairs collide when is chance after some collisions of each, 4 in this time at
+        # n = 1200/m²; 19 % of the energy of the relative motion along the line is lost in each, so
+        # that of N K/4 independent losses the sum scatters by 1/sqrt(2400) of itself, 2 %.
+        loss = [series[0][1] - series[-1][1] for series in (ours, theirs)]
+        self.assertAlmostEqual(loss[0] / loss[1], 1, delta=0.1)
+        compared = {row["quantity"]: row for row in self.rows("gas.comparison.csv")}
+        kinetic = compared["kinetic_energy"]
+        self.assertEqual(kinetic["engine"], "lammps")
+        mean = sum(value for time, value in theirs if time >= 0.05) / 51
+        self.assertAlmostEqual(float(kinetic["value"]) / mean, 1, 12)
+        self.assertAlmostEqual(float(kinetic["difference"]),
+                               float(kinetic["value"]) - float(kinetic["reference"]), 12)
+
+    @unittest.skipUnless(shutil.which("lmp"), "LAMMPS is not installed")
+    def test_without_the_reference(self):
+        code, said, wrong = self.run_it("gas.yaml", "--engines", "lammps", "--assembly", "out",
+                                        "--whole", "--engines-only", "--samples", "3")
+        self.assertEqual(code, 0, said + wrong)
+        self.assertFalse((self.path / "out" / "gas.series.csv").exists())
+        times = self.series("gas.lammps-double-default-1000Hz.series.csv", "height")
+        self.assertEqual([time for time, _ in times], [0, 0.05, 0.1])
+
+    def test_refusals(self):
+        for words, rule in (
+                (["gas.yaml", "--whole"], "--whole: needs --assembly, the folder to write to"),
+                (["gas.yaml", "--engines-only"], "--engines-only: needs --assembly and --whole"),
+                (["gas.yaml", "--assembly", "out", "--engines-only"],
+                 "--engines-only: needs --whole"),
+                (["hard.yaml", "--assembly", "out", "--whole"],
+                 "hard: --whole needs soft contacts between all bodies")):
+            code, said, wrong = self.run_it(*words)
+            self.assertEqual(code, 2, said + wrong)
+            self.assertIn(rule if not rule.startswith("hard") else rule[6:], wrong)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "../support/bundled.h"
+#include "../support/refusal.h"
+#include "harness/compare/assembly_comparison.h"
+#include "harness/observe/energy_budget.h"
+#include "harness/run/prepared_scene.h"
+
+namespace slipcheck {
+namespace {
+
+/// `samples` looks at times from 0 to `end`, with the height h(t) and nothing else.
+template <class Height>
+Assembly assembly_of(std::size_t samples, double end, const Height& height) {
+  Assembly assembly;
+  for (std::size_t k = 0; k < samples; ++k) {
+    assembly.time.push_back(end * static_cast<double>(k) / static_cast<double>(samples - 1));
+    assembly.states.emplace_back().height = height(assembly.time.back());
+  }
+  return assembly;
+}
+
+AssemblyDifference height_of(const std::vector<AssemblyDifference>& all) {
+  for (const AssemblyDifference& each : all)
+    if (each.quantity->name == std::string("height")) return each;
+  ADD_FAILURE() << "no height";
+  return {};
+}
+
+/// Over the second half of t from 0 to 2 the mean of t is 1.5; what is added throughout is the
+/// difference, and has no scatter but that of rounding, however both of them rise.
+TEST(AssemblyComparison, ComparesAtTheSameTimes) {
+  const Assembly reference = assembly_of(401, 2, [](double t) { return t; });
+  const Assembly engine = assembly_of(201, 2, [](double t) { return t + 0.25; });
+  const AssemblyDifference height = height_of(assembly_differences(reference, engine));
+  EXPECT_NEAR(height.reference.value, 1.5, 1e-12);
+  EXPECT_NEAR(height.engine.value, 1.75, 1e-12);
+  EXPECT_NEAR(height.difference.value, 0.25, 1e-12);
+  EXPECT_LT(height.difference.error, 1e-12);
+  EXPECT_GT(height.engine.error, 0.01);
+}
+
+TEST(AssemblyComparison, KnowsWhatItCannotCompare) {
+  const auto flat = [](double) { return 1.0; };
+  const Assembly engine = assembly_of(21, 2, flat);
+  EXPECT_TRUE(assembly_differences({}, engine).empty());
+  EXPECT_TRUE(assembly_differences(assembly_of(21, 0.5, flat), engine).empty());  // it ended early
+  // Eleven samples tell no error.
+  EXPECT_TRUE(std::isnan(height_of(assembly_differences(engine, engine)).difference.error));
+}
+
+/// Energy turns from one kind into another, and 1 J of 10 J comes from nowhere.
+TEST(EnergyBudget, FindsWhatRises) {
+  Assembly assembly;
+  const auto add = [&](double kinetic, double weight) {
+    AssemblyState& state = assembly.states.emplace_back();
+    state.kinetic_energy = kinetic;
+    state.weight_energy = weight;
+    assembly.time.push_back(static_cast<double>(assembly.time.size()));
+  };
+  add(0, 10), add(9, 1), add(4, 4), add(5, 4), add(2, 2);
+  const EnergyBudget budget = energy_budget(assembly);
+  EXPECT_EQ(budget.first, 10);
+  EXPECT_EQ(budget.last, 4);
+  EXPECT_EQ(budget.rise, 1);
+  EXPECT_EQ(budget.scale, 9 + 9);
+}
+
+// --- the reference -------------------------------------------------------------------------------
+
+ReferenceResult sampled(const std::string& name, const ReferenceExtras& extras) {
+  const std::map<std::string, ReferenceExtras> wanted = {{name, extras}};
+  std::vector<PreparedScene> scenes =
+      prepare_scenes({test::bundled(name)}, false, 1, 600, 1, &wanted);
+  return std::move(scenes.front().reference);
+}
+
+/// Nobody else looks, so that steps are taken many at a time: the samples are the same bits.
+TEST(WholeReference, HasTheSamplesOfOneThatIsWatched) {
+  ReferenceExtras extras;
+  extras.samples = 7;
+  const ReferenceResult watched = sampled("gas-soft", extras);
+  extras.whole = true;
+  const ReferenceResult whole = sampled("gas-soft", extras);
+  ASSERT_TRUE(watched.assembly && whole.assembly);
+  EXPECT_TRUE(whole.run.reached);
+  EXPECT_EQ(whole.run.steps, watched.run.steps);
+  EXPECT_TRUE(whole.observables.empty());
+  EXPECT_EQ(whole.assembly->time, watched.assembly->time);
+  ASSERT_EQ(whole.assembly->states.size(), 7u);
+  for (std::size_t k = 0; k < 7; ++k)
+    for (const AssemblyQuantity& quantity : assembly_quantities())
+      EXPECT_EQ(quantity.of(whole.assembly->states[k]), quantity.of(watched.assembly->states[k]))
+          << quantity.name << " at " << k;
+}
+
+TEST(WholeReference, CanBeLeftOut) {
+  ReferenceExtras extras;
+  extras.samples = 7;
+  extras.whole = extras.left_out = true;
+  const ReferenceResult none = sampled("gas-soft", extras);
+  EXPECT_TRUE(none.left_out);
+  EXPECT_FALSE(none.assembly);
+  EXPECT_EQ(none.run.steps, 0u);
+}
+
+TEST(WholeReference, RefusesWhatHasNoForces) {
+  ReferenceExtras extras;
+  extras.samples = 7;
+  extras.whole = true;
+  EXPECT_EQ(
+      test::refusal_of<Unsupported>([&] { sampled("symmetric-30cms", extras); }),
+      "symmetric-30cms: --whole needs soft contacts between all bodies, whose states tell the "
+      "forces");
+}
+
+}  // namespace
+}  // namespace slipcheck
