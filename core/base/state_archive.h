@@ -58,8 +58,8 @@ class StateArchive {
     text.resize(size_of(text.size(), 1));
     raw(text.data(), text.size());
   }
-  template <class T>
-  void one(std::vector<T>& values) {
+  template <class T, class Allocator>
+  void one(std::vector<T, Allocator>& values) {
     constexpr bool kRaw = std::is_trivially_destructible_v<T> && !requires(T & each) {
       each.exchange(*this);
     };

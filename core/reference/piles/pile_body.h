@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "physics/vector.h"
+#include "reference/events/huge_pages.h"
 
 namespace slipcheck {
 
@@ -21,6 +22,8 @@ struct alignas(64) PileBody {
   Vector3 rounded = Vector3::Zero();           ///< of its way, not yet in the position [m]
   Vector3 turned = Vector3::Zero();            ///< ∫Ω dt since the start [rad]
 };
+
+using PileBodies = std::vector<PileBody, HugePages<PileBody>>;
 
 /// What the contacts have done since the start.
 struct PileLedger {

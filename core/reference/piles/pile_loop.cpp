@@ -148,7 +148,8 @@ class PileLoopOf final : public PileLoop {
     const bool alone = shares_.size() == 1;
     for (Share& share : shares_) share.begin_sum(alone ? world.ledger : PileLedger());
     slabs_.for_each(world.team, [&](std::size_t s) {
-      shares_[s].find_forces(world, slabs_.lists()[s], table_, lane_laws_, budget_);
+      shares_[s].find_forces(world, slabs_.spheres(), slabs_.lists()[s], table_, lane_laws_,
+                             budget_);
     });
     if (alone) world.ledger = {};
     for (const Share& share : shares_) {
@@ -161,7 +162,7 @@ class PileLoopOf final : public PileLoop {
   }
 
   void move(PileWorld& world) {
-    const double speed = mover_.move(world);
+    const double speed = mover_.move(world, slabs_.spheres());
     if (!(speed * world.step < slabs_.largest_radius())) throw_lost(world, speed);
     budget_ -= world.step * (2 * speed + slabs_.surfaces_speed());
     world.started = true;

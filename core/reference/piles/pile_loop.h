@@ -29,7 +29,7 @@ struct PileWorld {
   ThreadTeam* team = nullptr;  ///< null: this thread alone
   /// In an order of the loop's own, in which neighbours are near in memory; and of each scene's
   /// body its place among them. add() keeps both.
-  std::vector<PileBody> bodies;
+  PileBodies bodies;
   std::vector<std::uint32_t> place;
   PileLedger ledger;
   std::size_t collisions = 0;  ///< contacts of two bodies that have begun

@@ -18,7 +18,7 @@ namespace slipcheck {
 
 /// The contacts within a slab and with the next, and what they do in a step. kLinear: all normal
 /// forces are linear; kTurns: rolling or drilling is resisted; kLanes: pairs that last are taken on
-/// several at once.
+/// several at once. spheres: the bodies as of PileSlabs.
 ///
 /// Those that may touch are looked at when the way that they had between them may be used up, and
 /// what acts on bodies is added in the order of the slab's list.
@@ -39,12 +39,13 @@ class PileShare {
 
   /// Adds the forces of now. budget: of the way [m] that two may come nearer before the lists
   /// change.
-  void find_forces(PileWorld& world, List& list, const PileLawTable& laws,
-                   std::span<const PileLaneLaw> lane_laws, double budget) {
+  void find_forces(PileWorld& world, std::span<const NearSphere> spheres, List& list,
+                   const PileLawTable& laws, std::span<const PileLaneLaw> lane_laws,
+                   double budget) {
     if constexpr (kLanes) take_on(world, lane_laws);
     meeting_.clear();
     for (std::uint32_t k = 0; k < far_above_.size(); ++k)
-      if (budget <= far_above_[k]) look(world, list, k, budget);
+      if (budget <= far_above_[k]) look(world, spheres, list[k], k, budget);
     meeting_.push_back(kNone);
     after_.clear();
     auto next = meeting_.begin();
@@ -149,9 +150,10 @@ class PileShare {
     double distance2 = 0;
   };
 
-  static Apart apart(const PileWorld& world, const PileNear& near, double offset) {
-    const PileBody &a = world.bodies[near.first],
-                   &b = world.bodies[static_cast<std::size_t>(near.second)];
+  /// Of bodies, or of their spheres.
+  template <class Body>
+  static Apart apart(const PileWorld& world, const Body& a, const Body& b, const PileNear& near,
+                     double offset) {
     const Vector2& periodic = world.scene->hard.periodic;
     Vector3 by = a.position - b.position;
     if (!periodic.isZero(0))
@@ -159,22 +161,23 @@ class PileShare {
     return {by, a.radius + b.radius + offset, by.squaredNorm()};
   }
 
-  static NearestPoint nearest(const PileWorld& world, const PileNear& near) {
-    const Vector3& x = world.bodies[near.first].position;
+  static NearestPoint nearest(const PileWorld& world, const PileNear& near, const Vector3& x) {
     if (near.second == kSubstrate) return {.point = {x.x(), x.y(), 0}, .distance = x.z()};
     return world.scene->hard.surfaces[touched_surface(near.second)].nearest(world.time(), x);
   }
 
   /// Two that did not touch: do they now, or when may they?
-  void look(const PileWorld& world, const List& list, std::uint32_t k, double budget) {
-    const PileNear& near = list[k];
-    double gap, reach = world.bodies[near.first].radius;
+  void look(const PileWorld& world, std::span<const NearSphere> spheres, const PileNear& near,
+            std::uint32_t k, double budget) {
+    const NearSphere& first = spheres[near.first];
+    double gap, reach = first.radius;
     if (near.second >= 0) {
-      const Apart two = apart(world, near, 0);
+      const Apart two =
+          apart(world, first, spheres[static_cast<std::size_t>(near.second)], near, 0);
       reach = two.reach;
       gap = two.distance2 > reach * reach ? std::sqrt(two.distance2) - reach : -1;
     } else {
-      const double distance = nearest(world, near).distance;
+      const double distance = nearest(world, near, first.position).distance;
       gap = distance > reach ? distance - reach : -1;
       if (gap >= 0 && near.second != kSubstrate &&
           PileSlabs::turns(world.scene->hard.surfaces[touched_surface(near.second)]))
@@ -212,13 +215,15 @@ class PileShare {
   }
 
   static void act_on(PileWorld& world, Step& step, const PileNear& near, Contact& c) {
+    const PileBody& a = world.bodies[near.first];
     if (near.second >= 0) {
-      const Apart two = apart(world, near, c.touching ? c.offset : 0);
+      const PileBody& b = world.bodies[static_cast<std::size_t>(near.second)];
+      const Apart two = apart(world, a, b, near, c.touching ? c.offset : 0);
       if (two.distance2 > two.reach * two.reach && !c.touching) return;
       step.act_on_bodies(c, two.by, two.reach, std::sqrt(two.distance2));
     } else {
-      const NearestPoint at = nearest(world, near);
-      if (at.distance > world.bodies[near.first].radius && !c.touching) return;
+      const NearestPoint at = nearest(world, near, a.position);
+      if (at.distance > a.radius && !c.touching) return;
       step.act_on_surface(c, at);
     }
   }

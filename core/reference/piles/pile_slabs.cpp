@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <tuple>
 
 #include "physics/numbers.h"
 
@@ -77,7 +78,7 @@ struct NearSurface {
 }  // namespace
 
 void PileSlabs::sort_bodies(PileWorld& world) {
-  std::vector<PileBody>& bodies = world.bodies;
+  PileBodies& bodies = world.bodies;
   const Vector2& periodic = world.scene->hard.periodic;
   Vector3 low = in_period(bodies[0].position, periodic), high = low;
   for (const PileBody& b : bodies) {
@@ -87,20 +88,22 @@ void PileSlabs::sort_bodies(PileWorld& world) {
   }
   constexpr double kCells = 1 << 21;
   const double width = std::max(2 * largest_radius_, (high - low).maxCoeff() / (kCells - 1));
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(bodies.size());
+  std::vector<std::uint32_t> slab_of;
+  share_out(world, slab_of);
+  std::vector<std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>> keys(bodies.size());
   for (std::uint32_t p = 0; p < bodies.size(); ++p) {
     const Vector3 cell = (in_period(bodies[p].position, periodic) - low) / width;
     std::uint64_t key = 0;
     for (int k = 0; k < 3; ++k) key |= spread(static_cast<std::uint64_t>(cell[k])) << (2 - k);
-    keys[p] = {key, p};
+    keys[p] = {slab_of[p], key, p};
   }
   std::ranges::sort(keys);
-  std::vector<PileBody> sorted;
+  PileBodies sorted;
   sorted.reserve(bodies.size());
   std::vector<std::uint32_t> numbers(bodies.size());
   for (std::uint32_t p = 0; p < bodies.size(); ++p) {
-    sorted.push_back(bodies[keys[p].second]);
-    numbers[p] = bodies_[keys[p].second];
+    sorted.push_back(bodies[std::get<2>(keys[p])]);
+    numbers[p] = bodies_[std::get<2>(keys[p])];
     world.place[numbers[p]] = p;
   }
   bodies = std::move(sorted);
@@ -108,7 +111,7 @@ void PileSlabs::sort_bodies(PileWorld& world) {
 }
 
 void PileSlabs::share_out(const PileWorld& world, std::vector<std::uint32_t>& slab_of) {
-  const std::vector<PileBody>& bodies = world.bodies;
+  const PileBodies& bodies = world.bodies;
   slab_of.assign(bodies.size(), 0);
   lists_.assign(1, {});
   if (!is_ordered(world)) return;
@@ -163,16 +166,16 @@ void PileSlabs::find(PileWorld& world, PileLawTable& laws) {
     if (!surface.motion.is_belt())
       surfaces_speed_ = std::max(surfaces_speed_, surface.motion.course().largest_speed());
 
-  std::vector<NearSphere> spheres(n);
+  spheres_.resize(n);
   for (std::size_t p = 0; p < n; ++p)
-    spheres[p] = {world.bodies[p].position, world.bodies[p].radius};
-  const std::vector<NearPair> pairs = near_pairs(spheres, skin_, scene.periodic, world.team);
+    spheres_[p] = {world.bodies[p].position, world.bodies[p].radius};
+  const std::vector<NearPair> pairs = near_pairs(spheres_, skin_, scene.periodic, world.team);
 
   std::vector<std::vector<NearSurface>> by_share((n + kShare - 1) / kShare);
   const auto look_at_surfaces = [&](std::size_t share) {
     const auto last = static_cast<std::uint32_t>(std::min(n, (share + 1) * kShare));
     for (auto p = static_cast<std::uint32_t>(share * kShare); p < last; ++p) {
-      const NearSphere& b = spheres[p];
+      const NearSphere& b = spheres_[p];
       // In the order of Touch::second: the last surface is the lowest number.
       for (std::size_t k = scene.surfaces.size(); k-- > 0;) {
         const Surface& surface = scene.surfaces[k];
@@ -205,7 +208,7 @@ void PileSlabs::find(PileWorld& world, PileLawTable& laws) {
       near.law = laws.number(bodies_[a], static_cast<int>(bodies_[b]));
       const auto across = [&](int k) {
         if (!(scene.periodic[k] > 0)) return std::int32_t{0};
-        const double apart = spheres[a].position[k] - spheres[b].position[k];
+        const double apart = spheres_[a].position[k] - spheres_[b].position[k];
         return static_cast<std::int32_t>(std::round(apart / scene.periodic[k]));
       };
       near.across_x = across(0);

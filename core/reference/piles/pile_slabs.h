@@ -27,8 +27,8 @@ struct PileNear {
 /// then all odd ones: no body is in two of them, and what acts on it is added in the same order
 /// whichever thread takes which slab. What the slabs are follows from the bodies alone.
 ///
-/// Few bodies are one slab, in the scene's order. Many are sorted along a curve through space every
-/// few searches, so that neighbours share cache lines.
+/// Few bodies are one slab, in the scene's order. Many are sorted by their slabs and within these
+/// along a curve through space every few searches, so that neighbours share cache lines.
 class PileSlabs {
  public:
   /// ordered_from: so many bodies are many.
@@ -42,8 +42,10 @@ class PileSlabs {
   const std::vector<std::vector<PileNear>>& lists() const { return lists_; }
   /// The scene's numbers of the bodies, by place.
   const std::vector<std::uint32_t>& bodies() const { return bodies_; }
+  /// The bodies as a search sees them, by place; who moves bodies moves these.
+  std::vector<NearSphere>& spheres() { return spheres_; }
   void exchange(StateArchive& archive) {
-    archive(lists_, bodies_, searches_, skin_, surfaces_speed_, largest_radius_);
+    archive(lists_, bodies_, spheres_, searches_, skin_, surfaces_speed_, largest_radius_);
   }
   /// Whether it may come nearer to a body than surfaces_speed() tells.
   static bool turns(const Surface& surface) {
@@ -73,6 +75,7 @@ class PileSlabs {
   std::size_t ordered_from_;
   std::vector<std::vector<PileNear>> lists_;  ///< by slab
   std::vector<std::uint32_t> bodies_;
+  std::vector<NearSphere> spheres_;
   std::uint64_t searches_ = 0;
   double skin_ = 0, surfaces_speed_ = 0, largest_radius_ = 0;
 };
