@@ -2,34 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <utility>
 
 #include "physics/contact/elastic_pair.h"
 #include "reference/events/event_solver.h"
+#include "reference/near_pairs.h"
 #include "scenario/rules/overlap.h"
 
 namespace slipcheck {
+namespace {
+
+/// From so many bodies on they are sorted into cells.
+constexpr std::size_t kMany = 16;
+/// Of the largest radius, more than what rounding does to an overlap.
+constexpr double kRounding = 1e-9;
+
+}  // namespace
 
 std::vector<InitialContact> overlapping_pairs(const Scene& scene,
                                               std::span<const BodyState> states) {
   std::vector<InitialContact> found;
   if (scene.box || !scene.periodic.isZero(0)) return found;
-  // Sorted along x, only those whose shadows meet are looked at.
-  const auto left = [&](std::size_t i) { return states[i].position.x() - scene.bodies[i].radius; };
-  std::vector<std::size_t> order(states.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, left);
-  for (std::size_t p = 0; p < order.size(); ++p) {
-    const double right = left(order[p]) + 2 * scene.bodies[order[p]].radius;
-    for (std::size_t q = p + 1; q < order.size() && left(order[q]) < right; ++q) {
-      const auto [i, j] = std::minmax(order[p], order[q]);
-      const double overlap = overlap_of(states[i].position, scene.bodies[i].radius,
-                                        states[j].position, scene.bodies[j].radius);
-      if (overlap > 0) found.push_back({i, j, overlap});
-    }
+  const auto look_at = [&](std::size_t i, std::size_t j) {
+    const double overlap = overlap_of(states[i].position, scene.bodies[i].radius,
+                                      states[j].position, scene.bodies[j].radius);
+    if (overlap > 0) found.push_back({i, j, overlap});
+  };
+  if (states.size() < kMany) {
+    for (std::size_t i = 0; i < states.size(); ++i)
+      for (std::size_t j = i + 1; j < states.size(); ++j) look_at(i, j);
+    return found;
   }
-  std::ranges::sort(found, {}, [](const auto& pair) { return std::pair(pair.first, pair.second); });
+  double largest = 0;
+  std::vector<NearSphere> spheres;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    spheres.push_back({states[i].position, scene.bodies[i].radius});
+    largest = std::max(largest, scene.bodies[i].radius);
+  }
+  for (const auto& [i, j] : near_pairs(spheres, kRounding * largest)) look_at(i, j);
   return found;
 }
 
