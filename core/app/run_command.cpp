@@ -171,6 +171,12 @@ int run(RunArguments& arguments) {
   arguments.options.whole = arguments.assembly.whole;
   if (arguments.assembly.whole) widen_limits(arguments.options, scenarios);
   arguments.checkpoints.general = arguments.options.general;
+  if (arguments.assembly.engines_only && arguments.assembly.whole)
+    for (const Scenario& scenario : scenarios)
+      if (requests_of(scenario).empty())
+        throw BadOption(
+            fmt::format("--engines-only: {} has no engine; --engines lammps, say, gives it one",
+                        scenario.name));
   arguments.assembly.add_to(arguments.options.extras, scenarios);
   arguments.checkpoints.add_to(arguments.options.extras, scenarios);
   arguments.options.stop = &interrupted();

@@ -169,6 +169,7 @@ void describe_reference(Fields& f, SceneRecord& scene) {
   f("reached", run.reached);
   f.reason(run.reason);
   f.if_any("failed", run.failed);
+  f.if_any("left_out", reference.left_out);
   if constexpr (Fields::kReads) reference.first_contact = kInfinity;
   f.if_finite("first_contact", reference.first_contact);
   f("collisions", run.collisions);

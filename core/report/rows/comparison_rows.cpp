@@ -231,6 +231,7 @@ std::string ensemble_text(const EngineRecord& run) {
 
 std::string reference_summary(const ReferenceResult& reference) {
   const SolvedRun& run = reference.run;
+  if (reference.left_out) return "left out";
   std::string text =
       fmt::format("{} solver, {}, ends at {}, {} of CPU time", reference.solver,
                   counted(run.collisions, "collision"), quantity(run.end_time, kTime),

@@ -16,7 +16,7 @@ Verdict told_verdict(const SceneRecord& scene) {
       scene.runs.empty() || !std::ranges::all_of(scene.runs, [](const EngineRecord& run) {
         return run.expect.has_value();
       });
-  const bool has_end = scene.reference.run.reached || !by_reference;
+  const bool has_end = scene.reference.run.reached || scene.reference.left_out || !by_reference;
   Verdict worst = has_end ? Verdict::unjudged : Verdict::undecided;
   for (const EngineRecord& run : scene.runs)
     if (decides(scene, run)) worst = std::max(worst, run.verdict());
