@@ -1,15 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numeric>
 
-#include "../support/extremes.h"
-#include "random_scene.h"
 #include "reference/events/event_solver.h"
-#include "scene/similarity.h"
+#include "scene_images.h"
 
 // What holds whatever the scene is: two and three bodies of any kind that the solver takes, seed by
 // seed. A scene and its image under a symmetry are solved both, and the image of the one's end must
@@ -23,6 +19,8 @@ constexpr unsigned kSeeds = 300;
 constexpr double kEnd = 1;  // [s]
 constexpr std::size_t kMostCollisions = 5;
 constexpr double kRounding = 1e-8;  // of 1e-16, after kMostCollisions and some dozens of events
+
+using test::Image;
 
 struct Ended {
   std::vector<BodyState> states;
@@ -39,23 +37,6 @@ Ended solved(const Scene& scene, double end = kEnd) {
   return {solver.states(), run.collisions, run.reached};
 }
 
-/// The largest difference of two states of a body, in its radius, in `speed` and in that over the
-/// radius.
-double difference(const BodyState& a, const BodyState& b, double radius, double speed) {
-  return test::largest_of((a.position - b.position).norm() / radius,
-                          (a.velocity - b.velocity).norm() / speed,
-                          (a.angular_velocity - b.angular_velocity).norm() * radius / speed);
-}
-
-/// What a symmetry makes of a scene and of the state of one body at the end.
-struct Image {
-  Scene scene;
-  double end = kEnd;
-  std::function<BodyState(const BodyState&)> of;
-  std::vector<std::size_t> from = {};  ///< by body of the image, the one it was; empty: the same
-  double speed = 1;                    ///< what 1 m/s becomes
-};
-
 /// Solves scenes of two and three bodies and their images. At least `least` of them must tell.
 void expect_symmetry(const std::function<Image(const Scene&, test::Random&)>& image_of,
                      std::size_t least) {
@@ -71,9 +52,9 @@ void expect_symmetry(const std::function<Image(const Scene&, test::Random&)>& im
     ASSERT_TRUE(other.reached);
     ASSERT_EQ(one.collisions, other.collisions);
     for (std::size_t i = 0; i < other.states.size(); ++i) {
-      const std::size_t k = image.from.empty() ? i : image.from[i];
-      EXPECT_LE(difference(image.of(one.states[k]), other.states[i], image.scene.bodies[i].radius,
-                           image.speed),
+      const std::size_t k = image.origin_of(i);
+      EXPECT_LE(test::difference(image.of(one.states[k]), other.states[i],
+                                 image.scene.bodies[i].radius, image.speed),
                 kRounding)
           << "body " << i;
     }
@@ -85,44 +66,24 @@ void expect_symmetry(const std::function<Image(const Scene&, test::Random&)>& im
 }
 
 TEST(SceneProperties, AMirrorImageHasTheMirroredEnd) {
-  // y → −y: a spin is an axial vector.
-  const auto mirrored = [](BodyState state) {
-    state.position.y() *= -1;
-    state.velocity.y() *= -1;
-    state.angular_velocity.x() *= -1;
-    state.angular_velocity.z() *= -1;
-    return state;
-  };
-  expect_symmetry(
-      [&](Scene scene, test::Random&) {
-        for (BodyState& state : scene.initial) state = mirrored(state);
-        return Image{.scene = scene, .of = mirrored};
-      },
-      150);
+  expect_symmetry([](const Scene& scene, test::Random&) { return test::mirrored(scene, kEnd); },
+                  150);
 }
 
 TEST(SceneProperties, ATurnedSceneHasTheTurnedEnd) {
   expect_symmetry(
       [](const Scene& scene, test::Random& random) {
         const double angle = random(0, 2 * M_PI);
-        const Similarity turn{1, {std::cos(angle), std::sin(angle)}};
-        return Image{.scene = turned(scene, turn.heading),
-                     .of = [turn](const BodyState& state) { return turn.of(state); }};
+        return test::turned_by(scene, kEnd, {std::cos(angle), std::sin(angle)});
       },
       150);
 }
 
 TEST(SceneProperties, OnABeltOfTheSameSpeedEverythingIsAsOnAStillPlane) {
   expect_symmetry(
-      [](Scene scene, test::Random& random) {
-        const Vector3 belt(random(-1, 1), random(-1, 1), 0);
-        scene.motion = SubstrateMotion::constant(belt.head<2>());
-        for (BodyState& state : scene.initial) state.velocity += belt;
-        return Image{.scene = scene, .of = [belt](BodyState state) {
-                       state.position += kEnd * belt;
-                       state.velocity += belt;
-                       return state;
-                     }};
+      [](const Scene& scene, test::Random& random) {
+        const double x = random(-1, 1), y = random(-1, 1);
+        return test::on_a_belt(scene, kEnd, {x, y});
       },
       150);
 }
@@ -153,22 +114,9 @@ TEST(SceneProperties, OtherUnitsOfLengthMassAndTimeChangeNothingElse) {
 }
 
 TEST(SceneProperties, TheOrderOfTheBodiesIsNoMatter) {
-  expect_symmetry(
-      [](const Scene& scene, test::Random& random) {
-        std::vector<std::size_t> from(scene.bodies.size());
-        std::iota(from.begin(), from.end(), std::size_t{0});
-        std::rotate(from.begin(), from.begin() + 1, from.end());
-        if (random.chance(0.5)) std::swap(from[0], from[1]);
-        Scene other = scene;
-        for (std::size_t i = 0; i < from.size(); ++i) {
-          other.bodies[i] = scene.bodies[from[i]];
-          other.material[i] = scene.material[from[i]];
-          other.initial[i] = scene.initial[from[i]];
-        }
-        return Image{
-            .scene = other, .of = [](const BodyState& state) { return state; }, .from = from};
-      },
-      150);
+  expect_symmetry([](const Scene& scene,
+                     test::Random& random) { return test::in_another_order(scene, kEnd, random); },
+                  150);
 }
 
 /// Linear momentum, angular momentum about the origin, and kinetic energy of all bodies.
