@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <variant>
 
 #include "explain/explain_parts.h"
 #include "physics/contact/elastic_pair.h"
@@ -228,8 +230,9 @@ std::optional<LinearContact> linear_contact_between(const ContactScene& scene, s
 
 ExplainSections explain_contacts(const Scenario& scenario, const ContactScene& scene,
                                  const std::optional<Meeting>& meeting, double typical_speed) {
-  constexpr const char* kNormal[] = {"linear", "hertz", "power", "viscoelastic, expanded",
-                                     "viscoelastic, compact"};
+  constexpr std::array kNormal = {"linear", "hertz", "power", "viscoelastic, expanded",
+                                  "viscoelastic, compact"};
+  static_assert(kNormal.size() == std::variant_size_v<NormalForce>);
   constexpr const char* kTangential[] = {"no rubbing", "viscous rubbing", "asperities",
                                          "sticking or sliding by the impact's angle"};
   ExplainSections sections;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <variant>
 
 #include "scene/ode.h"
 
@@ -120,6 +121,7 @@ ImpactScales impact_scales(const NormalForce& force, double reduced_mass, double
     scales.length = std::pow(m / modulus * v * v, 1 / (1 + alpha));
     scales.time = scales.length / v;
   };
+  static_assert(std::variant_size_v<NormalForce> == 5, "a law has scales of its own here");
   if (const auto* linear = std::get_if<LinearForce>(&force)) {
     scales.law.gamma = 0;
     set(linear->stiffness, 1);

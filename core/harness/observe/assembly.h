@@ -31,7 +31,7 @@ struct AssemblyState {
   /// memory keep to themselves, and those of walls are not in it.
   Matrix3 stress = Matrix3::Zero();
   double temperature = 0;  ///< m δv²/d, mean over the bodies, d directions [J]
-  /// a_2 = d/(d+2) <δv⁴>/<δv²>² − 1 [-]: how far speeds are from Maxwell's; 0 where nothing moves.
+  /// a_2 = d/(d+2) ⟨δv⁴⟩/⟨δv²⟩² − 1 [-]: how far speeds are from Maxwell's; 0 where nothing moves.
   double sonine = 0;
 
   double pressure() const { return stress.trace() / 3; }  ///< [Pa]

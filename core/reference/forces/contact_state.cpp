@@ -22,11 +22,10 @@ struct ImpactScale {
   double operator()(const LinearForce& law) const {
     return speed * std::sqrt(reduced_mass / law.stiffness);
   }
+  double operator()(const HertzForce& law) const { return power(law.modulus, 1.5); }
   double operator()(const PowerForce& law) const { return power(law.modulus, law.alpha); }
-  template <class Law>
-  double operator()(const Law& law) const {
-    return power(law.modulus, 1.5);
-  }
+  double operator()(const ViscoelasticForce& law) const { return power(law.modulus, 1.5); }
+  double operator()(const CompactViscoelasticForce& law) const { return power(law.modulus, 1.5); }
   double power(double modulus, double alpha) const {
     return std::pow(0.5 * (1 + alpha) * reduced_mass * speed * speed / modulus, 1 / (1 + alpha));
   }

@@ -158,7 +158,10 @@ class Batch {
 }  // namespace
 
 bool can_batch(const SoftContact& contact) {
-  return !std::holds_alternative<PowerForce>(contact.normal);
+  const NormalForce& law = contact.normal;
+  return std::holds_alternative<LinearForce>(law) || std::holds_alternative<HertzForce>(law) ||
+         std::holds_alternative<ViscoelasticForce>(law) ||
+         std::holds_alternative<CompactViscoelasticForce>(law);
 }
 
 void collide_batch(const SoftContact& contact, const Sphere& first, const Sphere& second,
