@@ -19,6 +19,7 @@
 #include "app/set_option.h"
 #include "app/update_baselines.h"
 #include "base/regular_file.h"
+#include "base/text.h"
 #include "harness/run/scene_run.h"
 #include "report/files/check_files.h"
 #include "report/files/files.h"
@@ -143,6 +144,18 @@ std::string engines_of(const std::vector<SceneRecord>& scenes) {
   return fmt::format("{}", fmt::join(engines, ", "));
 }
 
+/// Tells of each reference that has failed and left nothing that could be held against anything.
+bool reference_fails(const std::vector<SceneRecord>& scenes) {
+  bool fails = false;
+  for (const SceneRecord& scene : scenes) {
+    if (!scene.reference.run.failed || !scene.reference.observables.empty()) continue;
+    fails = true;
+    say("{}: its reference failed, and no baseline was written: {}\n", scene.scenario.name,
+        printable(scene.reference.run.reason));
+  }
+  return fails;
+}
+
 void update(const CheckArguments& arguments, const Baselines& old,
             const std::vector<SceneRecord>& scenes, const CheckReport& report, bool all) {
   std::vector<SceneBaseline> now;
@@ -153,6 +166,12 @@ void update(const CheckArguments& arguments, const Baselines& old,
     write_update(update, arguments.baselines, arguments.changes,
                  changes_line(update, report, engines_of(scenes), arguments.why));
   if (arguments.quiet) return;
+  for (const SceneRecord& scene : scenes)
+    for (const EngineRecord& run : scene.runs)
+      if (run.status != EngineRecord::Status::ok && run.verdict() != Verdict::within)
+        say("warning: the baseline of {} has no values of {} {} {} at {}, {}: {}\n",
+            scene.scenario.name, run.engine, run.precision, run.profile, run.rate_text(),
+            name_of(run.status), printable(run.reason));
   // Scenes that are new or gone are counted below.
   CheckReport compared = report;
   std::erase_if(compared.scenes, [](const SceneCheck& scene) { return scene.compared == 0; });
@@ -201,6 +220,7 @@ int check(CheckArguments& arguments) {
   write_files(arguments, report);
   if (!arguments.html.empty()) write_page(arguments, report, scenes, all);
   if (arguments.update) {
+    if (reference_fails(scenes)) return kEngineFailed;
     update(arguments, baselines, scenes, report, all);
     return kWithinTolerance;
   }

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <sstream>
@@ -141,17 +143,35 @@ int run_command_line(int argc, char** argv) {
   return exit_code;
 }
 
+constexpr char kOutOfMemory[] = "slipcheck: out of memory\n";
+
+/// Destructors that need memory (a JSON tree's, to take itself apart) end here where there is none:
+/// that too is told, and no abort.
+[[noreturn]] void end_for_want_of_memory() {
+  const std::exception_ptr thrown = std::current_exception();
+  if (!thrown) std::abort();
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    static_cast<void>(!::write(STDERR_FILENO, kOutOfMemory, sizeof kOutOfMemory - 1));
+    ::_exit(kNotWritten);
+  } catch (...) {
+    std::abort();
+  }
+}
+
 }  // namespace
 }  // namespace slipcheck
 
 int main(int argc, char** argv) {
   // What grows beyond the limit of a file's size is then an error of its write.
   std::signal(SIGXFSZ, SIG_IGN);
+  std::set_terminate(slipcheck::end_for_want_of_memory);
   try {
     return slipcheck::printed(slipcheck::run_command_line(argc, argv));
   } catch (const std::bad_alloc&) {
     // There may be none to word it with either.
-    std::fputs("slipcheck: out of memory\n", stderr);
+    std::fputs(slipcheck::kOutOfMemory, stderr);
     return slipcheck::kNotWritten;
   }
 }

@@ -1,6 +1,7 @@
 #include "base/thread_team.h"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 namespace slipcheck {
@@ -24,10 +25,19 @@ void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
 
 ThreadTeam::ThreadTeam(std::size_t threads) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  for (std::size_t t = 1; t < threads; ++t) others_.emplace_back([this] { wait_for_work(); });
+  others_.reserve(threads - 1);
+  try {
+    while (others_.size() + 1 < threads) others_.emplace_back([this] { wait_for_work(); });
+  } catch (const std::system_error&) {  // the system gives no more; fewer do the same work
+  } catch (...) {
+    end();  // those that there are wait for work, and are waited for
+    throw;
+  }
 }
 
-ThreadTeam::~ThreadTeam() {
+ThreadTeam::~ThreadTeam() { end(); }
+
+void ThreadTeam::end() {
   ends_ = true;
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();

@@ -18,7 +18,8 @@ namespace slipcheck {
 /// part of it.
 class ThreadTeam {
  public:
-  /// `threads`: with the one that gives the work, >= 1; 0: one for each core.
+  /// `threads`: with the one that gives the work, >= 1; 0: one for each core. Fewer where the system
+  /// gives no more.
   explicit ThreadTeam(std::size_t threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -40,6 +41,7 @@ class ThreadTeam {
  private:
   using Call = void (*)(void*, std::size_t);
 
+  void end();
   void share(std::size_t count, Call call, void* work);
   void take_turns();
   void wait_for_work();

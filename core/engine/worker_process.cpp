@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <span>
 #include <system_error>
 #include <thread>
@@ -105,10 +106,13 @@ WorkerProcess::WorkerProcess(WorkerCommand command, const WorkerLimits& limits,
     // limit between two looks.
     const Child child = spawn(command_, kLimitsData ? 2 * limits_.memory : 0);
     pid_ = child.pid;
-    guard_group(pid_);
     in_ = child.in;
     out_ = child.out;
     err_ = child.err;
+    guard_group(pid_);
+  } catch (const std::bad_alloc&) {
+    if (pid_ >= 0) kill_and_reap();
+    throw;
   } catch (const std::system_error& error) {
     throw WorkerFailure(Status::crashed,
                         fmt::format("{}: {}", command_.program.string(), error.what()));
@@ -201,7 +205,11 @@ void WorkerProcess::drain_errors() {
       err_ = -1;  // poll passes over it
       return;
     }
-    errors_.append(some.data(), static_cast<std::size_t>(n));
+    try {
+      errors_.append(some.data(), static_cast<std::size_t>(n));
+    } catch (const std::bad_alloc&) {  // destructors read it to its end too
+      errors_.clear();
+    }
     if (errors_.size() > kErrorTail) errors_.erase(0, errors_.size() - kErrorTail);
   }
 }

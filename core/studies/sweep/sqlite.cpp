@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <cstring>
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -178,7 +179,7 @@ SqliteTransaction::~SqliteTransaction() {
   if (!open_) return;
   try {
     file_.execute("ROLLBACK");
-  } catch (const SqliteFailure&) {  // it was rolled back already
+  } catch (const std::exception&) {  // it was rolled back already
   }
 }
 

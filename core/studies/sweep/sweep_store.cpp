@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <limits>
 #include <thread>
@@ -196,7 +197,7 @@ SweepStore::~SweepStore() {
   try {
     sqlite3_busy_timeout(file_->get(), 0);
     file_->execute("PRAGMA journal_mode = DELETE");  // one file, where nobody reads it now
-  } catch (const SqliteFailure&) {
+  } catch (const std::exception&) {
   }
   file_.reset();
   ::close(lock_);  // after SQLite: closing any descriptor of the file lets its locks go
