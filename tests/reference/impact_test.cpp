@@ -407,6 +407,22 @@ TEST(AsperityPassivity, TheBoundOfAnyPowerIsWhereTheSlipsEnergyIsKept) {
     }
 }
 
+TEST(AsperityPassivity, TheBoundIsFoundWhereDampingGrowsWithTheSpeed) {
+  // With γ = α/2 the damping D goes as g^(1/(1+α)); 3 % of it at the undamped law's bound.
+  const RoughIce b;
+  const ContactEnd end = ContactEnd::zero_overlap;
+  for (const double alpha : {1.0, 2.0, 2.5}) {
+    PowerForce force{b.rho * std::pow(1e-5, 1.5 - alpha), 0, alpha, 0.5 * alpha};
+    const double undamped = b.passive_speed(force, end);
+    force.viscosity = 1;
+    force.viscosity = 0.03 / impact_scales(force, b.mass, undamped).dissipation;
+    const double bound = b.passive_speed(force, end);
+    ASSERT_TRUE(std::isfinite(bound)) << alpha;
+    EXPECT_GT(bound, undamped) << alpha;
+    EXPECT_NEAR(std::abs(b.slip(force, end, bound)), 1, 1e-4) << alpha;  // four digits of D
+  }
+}
+
 TEST(AsperityPassivity, AnAttractionAtTheEndAddsEnergyAllTheSame) {
   const RoughIce b;
   const ViscoelasticForce damped{b.rho, 4.6e-5};

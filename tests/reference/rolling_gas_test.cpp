@@ -387,6 +387,20 @@ TEST(RollingGas, ABallThatRollsDownASlopeMeetsAHeldOneWhenItMust) {
   }
 }
 
+TEST(RollingGas, ASmoothBallOnASlopeCatchesARollingOneWhenItMust) {
+  // Both from rest, the one without friction above: g sin θ against (5/7) g sin θ.
+  const double angle = 0.05, gap = 0.013, a = 2.0 / 7 * 9.81 * std::sin(angle);
+  Scene scene = ball_above_a_held_one(angle, gap);
+  scene.material = {1, 0};
+  scene.substrate[1] = SubstrateContact{};
+  for (const int turn : {0, 1}) {
+    EventSolver solver(scene, scene.initial);
+    EXPECT_NEAR(solver.next_collision(10, 0), std::sqrt(2 * gap / a), 1e-14) << turn;
+    std::swap(scene.initial[0], scene.initial[1]);
+    std::swap(scene.material[0], scene.material[1]);
+  }
+}
+
 TEST(RollingGas, ABallOnASlopeHitsAHeldOneAgainAndAgainAsIntegrated) {
   // In the end it leans on the other one, after ever weaker collisions: the first three of them.
   const Scene scene = ball_above_a_held_one(0.05, 0.002);
