@@ -42,6 +42,8 @@ SWEEP = "sweep: {grid: {engine: bullet, rate: [60, 240], phases: 2}}\n"
 OLD = '{"old": true}\n'
 PATIENCE = 60
 EXIT_CODES = range(0, 5)
+# A store and what SQLite keeps beside it until it has been opened again.
+STORE = (".db", ".db-wal", ".db-shm", ".db-journal")
 
 # What may stay in a folder after each command, and what it is asked to do.
 COMMANDS = {
@@ -115,7 +117,7 @@ def files_of(folder):
 
 def whole(path, name):
     """Why the file is not a whole one; empty for one that is."""
-    if name.endswith((".db", ".db-wal", ".db-shm")):
+    if name.endswith(STORE):
         if name.endswith(".db"):
             with sqlite3.connect(path) as store:
                 if path.stat().st_size and store.execute("PRAGMA integrity_check").fetchone() != ("ok",):
@@ -214,12 +216,12 @@ class Case:
         if self.alive:
             return f"left processes: {self.alive}"
         for name, path in files_of(folder).items():
-            if name not in self.files and not re.search(r"\.db-(wal|shm)$|\.db$", name):
+            if name not in self.files and not name.endswith(STORE):
                 return f"left {name}"
             if why := whole(path, name):
                 return f"{name} {why}"
             now = path.read_bytes()
-            if name.endswith((".db", ".db-wal", ".db-shm")) or now == self.before.get(name):
+            if name.endswith(STORE) or now == self.before.get(name):
                 continue
             if code == self.code and not says_so and judged(now.decode()) != judged(self.files[name].decode()):
                 return f"{name} is another one, without a word"
