@@ -11,7 +11,8 @@ namespace slipcheck {
 enum class LinePlace { stays, follows };
 
 /// Shows on stderr how far a longer piece of work has come, as long as it lives: first after a
-/// second and then five times a second in one place, or every half minute in a log. Where there is no memory or no thread for it the work goes on unseen.
+/// second and then five times a second in one place, or every half minute in a log. Where there is
+/// no memory or no thread for it the work goes on unseen.
 class ProgressLine {
  public:
   /// `text`: what stands there after so many seconds; called from a thread of its own.

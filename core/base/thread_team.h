@@ -18,8 +18,8 @@ namespace slipcheck {
 /// part of it.
 class ThreadTeam {
  public:
-  /// `threads`: with the one that gives the work, >= 1; 0: one for each core. Fewer where the system
-  /// gives no more.
+  /// `threads`: with the one that gives the work, >= 1; 0: one for each core. Fewer where the
+  /// system gives no more.
   explicit ThreadTeam(std::size_t threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
