@@ -108,7 +108,7 @@ class PileLaneStep {
     load_rows(second, 8, b);
     wa.y = a[0], wa.z = a[1], wb.y = b[0], wb.z = b[1];
     const V distance = hn::Sqrt(dot(apart, apart));
-    const V overlap = ra + rb + load(lanes.offset, l) - distance;
+    const V overlap = ra + rb - distance;
     const V3 n{apart.x / distance, apart.y / distance, apart.z / distance};
     const V3 velocity = dv + half * V3{a[2] - b[2], a[3] - b[3], a[4] - b[4]};
     const V3 turning = ra * wa + rb * wb;

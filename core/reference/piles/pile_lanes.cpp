@@ -62,7 +62,6 @@ PileLaneContacts::Contact PileLaneContacts::get(std::size_t k, const PileLaw& la
   c.second = static_cast<int>(lanes.second[l]);
   c.touching = touches(k);
   c.impulse = lanes.impulse[l];
-  c.offset = lanes.offset[l];
   c.law = &law;
   if (!c.touching) return c;
   c.overlap = lanes.overlap[l];
@@ -103,7 +102,6 @@ void PileLaneContacts::put(const PileNear& near, const Contact& contact) {
   lanes.periods[1][l] = near.across_y;
   lanes.overlap[l] = contact.overlap;
   lanes.normal_force[l] = contact.normal_force;
-  lanes.offset[l] = contact.offset;
   lanes.impulse[l] = contact.impulse;
   set_vector(lanes.normal, contact.normal);
   set_vector(lanes.across, contact.force.across);

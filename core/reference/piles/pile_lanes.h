@@ -18,7 +18,7 @@ struct alignas(64) PileLanes {
   using Row = std::array<double, kCount>;
   using Numbers = std::array<std::uint32_t, kCount>;
 
-  Row overlap, normal_force, offset, impulse;  ///< as of PileContact
+  Row overlap, normal_force, impulse;          ///< as of PileContact
   std::array<Row, 3> normal, across, stretch;  ///< across: the tangential force on the first [N]
   Numbers first, second, law;                  ///< as of PileNear
   std::array<std::array<std::int32_t, kCount>, 2> periods;  ///< as of PileNear
@@ -72,9 +72,6 @@ class PileLaneContacts {
   /// Whether take_on_lanes() has told its force.
   bool lasted(std::size_t k) const { return bit(lanes_[k / kLanes].lasted, k); }
   const PileLaneForce& force(std::size_t k) const { return forces_[k]; }
-  void forget_forces() {
-    for (PileLanes& lanes : lanes_) lanes.lasted = 0;
-  }
   std::span<PileLanes> lanes() { return lanes_; }
   std::vector<PileLaneForce>& forces() { return forces_; }
 

@@ -62,6 +62,8 @@ PileLaws::PileLaws(const ContactScene& scene, double collision_time)
     if (of.has_substrate) look_at(this->of(i, kSubstrate));
     for (std::size_t s = 0; s < surfaces; ++s) look_at(this->of(i, surface_touch(s)));
   }
+  // What dilates remembers an offset, and its dashpot does not follow from its force.
+  plain_ = plain_ && std::ranges::none_of(pairs_, [](const auto& p) { return !!p; });
   for (const auto& soft : scene.soft)
     if (soft) look_at(of_soft(*soft));
 }

@@ -48,8 +48,8 @@ class PileLaws {
   bool has_hard() const { return has_hard_; }  ///< one of them is taken as lasting
   bool is_linear() const { return linear_; }   ///< so are all normal forces
   bool turns() const { return turns_; }        ///< rolling or drilling is resisted somewhere
-  /// Where all normal forces are linear: no contact attracts, and what is against sliding is
-  /// nothing or a spring of one stiffness, with a dashpot of its own.
+  /// Where all normal forces are linear: bodies are soft for each other, no contact attracts, and
+  /// what is against sliding is nothing or a spring of one stiffness, with a dashpot of its own.
   bool is_plain() const { return plain_; }
 
   /// Of a body and what Touch::second names: a body, the substrate or a surface.

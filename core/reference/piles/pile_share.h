@@ -228,12 +228,9 @@ class PileShare {
     }
   }
 
-  /// Those that last, of whose forces push() is the rest. What dilates is for one by one.
+  /// Those that last, of whose forces push() is the rest.
   void take_on(const PileWorld& world, std::span<const PileLaneLaw> laws) {
-    if (world.dilates)
-      lanes_.forget_forces();
-    else if (take_on_lanes(world, laws, lanes_))
-      sum_.slid = true;
+    if (take_on_lanes(world, laws, lanes_)) sum_.slid = true;
   }
 
   void push(PileWorld& world, const PileNear& near, const PileLaneForce& f) {
