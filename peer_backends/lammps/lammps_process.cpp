@@ -15,6 +15,7 @@
 #include <charconv>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace slipcheck::lammps {
 namespace {
@@ -124,6 +125,7 @@ LammpsProcess::LammpsProcess(int ranks) {
 LammpsProcess::~LammpsProcess() {
   forget_file();
   for (const int end : {commands_, words_, snapshots_, snapshots_write_}) close(end);
+  if (process_ < 0) return;
   // Without commands it ends by itself, and mpirun with it, which so tidies up.
   for (int k = 0; k < 200 && waitpid(process_, nullptr, WNOHANG) == 0; ++k) usleep(10000);
   kill(process_, SIGKILL);
@@ -174,7 +176,17 @@ void LammpsProcess::fail() {
   while (!ended_) wait();
   while (const auto line = take_line(said_))
     if (line->find("ERROR") != std::string::npos && error_.empty()) error_ = *line;
-  throw LammpsError(error_.empty() ? "lmp has ended: is it installed?" : error_);
+  throw LammpsError(error_.empty() ? reap() : error_);
+}
+
+/// How it ended, of one that has closed its output.
+std::string LammpsProcess::reap() {
+  int status = 0;
+  waitpid(std::exchange(process_, -1), &status, 0);
+  if (WIFSIGNALED(status)) return fmt::format("lmp was ended by signal {}", WTERMSIG(status));
+  constexpr int kNotFound = 127;  // as become_lammps() and stdbuf say it
+  if (WEXITSTATUS(status) == kNotFound) return "lmp was not found: is it installed?";
+  return fmt::format("lmp ended with exit code {}", WEXITSTATUS(status));
 }
 
 double LammpsProcess::finish_run() {

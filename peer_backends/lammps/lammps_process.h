@@ -51,6 +51,7 @@ class LammpsProcess {
   /// Takes in what there is of both streams; waits for some.
   void wait();
   [[noreturn]] void fail();
+  std::string reap();
 
   pid_t process_ = -1;
   int commands_ = -1, words_ = -1, snapshots_ = -1, snapshots_write_ = -1, file_ = -1;
