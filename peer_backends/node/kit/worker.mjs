@@ -15,13 +15,13 @@ function cpuSeconds() {
 }
 
 export class Worker {
-  /// `engine` is what open() of a file in engines/ gives.
-  constructor(name, engine) {
+  /// `engine` is what open() of a file in engines/ gives. isWarm: its CPU time needs no warming up.
+  constructor(name, engine, isWarm = false) {
     this.name = name;
     this.engine = engine;
     this.bodies = 0; // 0: not configured
     this.started = false;
-    this.isWarm = false;
+    this.isWarm = isWarm;
   }
 
   /// The reply to a request. Throws Rubbish for what is no request.

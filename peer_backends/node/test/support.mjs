@@ -14,10 +14,10 @@ if (!folder) throw new Error('SLIPCHECK_NODE_ENGINE must name the folder of an e
 export const engine = basename(folder).split('@')[0];
 export const codec = await codecIn(folder);
 
-/// Replies to requests, given as messages or as bytes.
-export function replies(requests) {
+/// Replies to requests, given as messages or as bytes. warm: as the harness has it, seconds later.
+export function replies(requests, { warm = false } = {}) {
   const input = Buffer.concat(requests.map((each) => (each instanceof Uint8Array ? each : frame(codec, each))));
-  const { status, stdout, stderr } = spawnSync(process.execPath, [MAIN, engine, folder],
+  const { status, stdout, stderr } = spawnSync(process.execPath, [MAIN, engine, folder, ...(warm ? [] : ['cold'])],
     { input, maxBuffer: 1 << 28 });
   const found = [];
   for (let rest = stdout; rest.length > 0; ) {
@@ -50,16 +50,16 @@ export function sceneOf(bodies, states, ground, pair) {
 }
 
 /// Frames of so many steps: states and touches, each frame's own.
-export function framesOf(scene, settings, timeStep, count, time = 0) {
-  return framesOfStarts(scene, settings, timeStep, count, [scene.initial], time)[0];
+export function framesOf(scene, settings, timeStep, count, options) {
+  return framesOfStarts(scene, settings, timeStep, count, [scene.initial], options)[0];
 }
 
 /// The same from each of several starts, in one process.
-export function framesOfStarts(scene, settings, timeStep, count, starts, time = 0) {
+export function framesOfStarts(scene, settings, timeStep, count, starts, options) {
   const { found, stderr } = replies([
     { type: 'configure', scene, settings, time_step: timeStep },
-    ...starts.flatMap((states) => [{ type: 'start', states, time }, { type: 'step', count }]),
-  ]);
+    ...starts.flatMap((states) => [{ type: 'start', states, time: 0 }, { type: 'step', count }]),
+  ], options);
   const runs = found.filter(({ type }) => type === 'frames');
   if (runs.length !== starts.length) throw new Error(JSON.stringify(found.at(-1)) + stderr);
   return runs.map((run) => framesIn(run, count));

@@ -46,7 +46,7 @@ test('a plate, a peg and a belt: the numbers of a bare program, to the last bit'
     { shape: { kind: 'ball', ...peg }, motion: STILL },
     plane([0, 0, belt.height], [0, 0, 1], moving('belt', [belt.velocity, 0, 0])),
   ], [state], { friction, restitution, radius });
-  const frames = framesOf(scene, {}, SURFACE_STEP, SURFACE_STEPS);
+  const frames = framesOf(scene, {}, SURFACE_STEP, SURFACE_STEPS, { warm: true });
   const { runSurfaces } = await import(`./bare/${engine}.mjs`);
   const { mass } = ball(radius);
   const expected = await runSurfaces(await api(), { ...surfaceScene, mass }, SURFACE_STEP, SURFACE_STEPS);
