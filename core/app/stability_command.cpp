@@ -78,8 +78,7 @@ void write_folder(const fs::path& directory, const StabilityArguments& arguments
 
 StabilityResults run_all(StabilityArguments& arguments, std::vector<Scenario> cases) {
   GridArguments& common = arguments.common;
-  common.options.pool =
-      std::make_shared<WorkerPool>(common.options.workers, common.options.limits);
+  common.options.pool = std::make_shared<WorkerPool>(common.options.workers, common.options.limits);
   StabilityResults results;
   {
     ProgressBar bar("catalogue", !common.quiet);
