@@ -5,7 +5,6 @@ usage: whole_test.py SLIPCHECK
 """
 import csv
 import math
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -13,6 +12,7 @@ import unittest
 from pathlib import Path
 
 SLIPCHECK = sys.argv[1]
+LAMMPS = Path(SLIPCHECK).parent / "slipcheck-engine-lammps-double"
 COUNT, RADIUS, SPEED, DENSITY = 1200, 0.01, 1.0, 1000
 
 GAS = f"""slipcheck: 1
@@ -64,7 +64,7 @@ class Whole(unittest.TestCase):
         self.assertTrue(all(a[1] > b[1] for a, b in zip(kinetic, kinetic[1:])), kinetic)
         self.assertFalse((self.path / "out" / "gas.comparison.csv").exists())
 
-    @unittest.skipUnless(shutil.which("lmp"), "LAMMPS is not installed")
+    @unittest.skipUnless(LAMMPS.exists(), "its worker is not built here")
     def test_lammps_beside_the_reference(self):
         code, said, wrong = self.run_it("gas.yaml", "--engines", "lammps", "--assembly", "out",
                                         "--whole", "--samples", "101", "--set",
@@ -97,7 +97,7 @@ class Whole(unittest.TestCase):
         self.assertAlmostEqual(float(kinetic["difference"]),
                                float(kinetic["value"]) - float(kinetic["reference"]), 12)
 
-    @unittest.skipUnless(shutil.which("lmp"), "LAMMPS is not installed")
+    @unittest.skipUnless(LAMMPS.exists(), "its worker is not built here")
     def test_without_the_reference(self):
         code, said, wrong = self.run_it("gas.yaml", "--engines", "lammps", "--assembly", "out",
                                         "--whole", "--engines-only", "--samples", "3", "--set",
