@@ -29,7 +29,7 @@ class WorkerFailure : public std::runtime_error {
 
 struct WorkerLimits {
   std::size_t memory = std::size_t{2} << 30;  ///< resident [bytes], > 0
-  double reply = 10;                          ///< for each reply [s], > 0
+  double reply = 10;  ///< for each reply, without the time for which it has no processor [s], > 0
 };
 
 /// How a worker ended that was let go.

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <iostream>
 #include <limits>
@@ -30,6 +31,13 @@ void write_raw(const std::vector<std::uint8_t>& bytes) {
 
 [[noreturn]] void sleep_for_ever() {
   while (true) pause();
+}
+
+/// Takes so much of a processor's time [s].
+void calculate(double seconds) {
+  const std::clock_t begin = std::clock();
+  while (static_cast<double>(std::clock() - begin) < seconds * CLOCKS_PER_SEC) {
+  }
 }
 
 void die_of(int signal_number) {
@@ -97,7 +105,8 @@ class FaultyEngine final : public Engine {
     fault.about = "how it fails";
     fault.shipped = shipped_fault();
     pause.name = "pause";
-    pause.about = "before each step where the fault is slow";
+    pause.about =
+        "before each step where the fault is slow; of its processor's time where it is busy";
     pause.unit = "ms";
     pause.shipped = 30.0;
     pause.low = 0;
@@ -132,6 +141,7 @@ class FaultyEngine final : public Engine {
     const auto fault = kFaults.find(fault_);
     if (fault != kFaults.end() && steps_ == 10) fault->second();
     if (fault_ == "slow") usleep(static_cast<useconds_t>(1000 * pause_));
+    if (fault_ == "busy") calculate(1e-3 * pause_);
     for (BodyState& state : states_) state.position += time_step_ * state.velocity;
     if (fault_ == "nan" && steps_ == 10) {
       states_[0].velocity.setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,6 +18,7 @@
 #include <initializer_list>
 #include <sstream>
 #include <thread>
+#include <vector>
 
 #include "../support/refusal.h"
 #include "base/stop_scope.h"
@@ -94,6 +96,36 @@ TEST_F(WorkerFailureTest, AHangTimesOut) {
                  {.memory = std::size_t{2} << 30, .reply = 2});
   expect_failure("half-a-reply", Status::timed_out, "no reply within 2 s", kSoon,
                  {.memory = std::size_t{2} << 30, .reply = 2});
+}
+
+// Five that calculate share a processor: 1 s of its time takes the worker 5 s, of which it may
+// take 3.
+TEST_F(WorkerFailureTest, AWorkerIsNotToBlameForABusyMachine) {
+  if (!std::ifstream("/proc/self/schedstat")) GTEST_SKIP() << "Linux does not say who has to wait";
+  cpu_set_t mine, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof mine, &mine), 0);
+  CPU_ZERO(&one);
+  for (int k = 0; k < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++k)
+    if (CPU_ISSET(k, &mine)) CPU_SET(k, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  std::vector<pid_t> others(4);
+  for (pid_t& other : others) {
+    other = fork();
+    if (other == 0)
+      while (getppid() != 1) continue;
+  }
+  EXPECT_NO_THROW({
+    RemoteEngine engine(faulty_engine(), {.memory = std::size_t{2} << 30, .reply = 3});
+    const Scene scene = some_scene();
+    engine.configure(scene, {{"fault", "busy"}, {"pause", 50.0}}, 1e-3);
+    engine.start(scene.initial);
+    engine.advance(20, [](const Frame&) {});
+  });
+  for (const pid_t other : others) {
+    kill(other, SIGKILL);
+    waitpid(other, nullptr, 0);
+  }
+  EXPECT_EQ(sched_setaffinity(0, sizeof mine, &mine), 0);
 }
 
 TEST_F(WorkerFailureTest, ARunHasItsTimeLimit) {

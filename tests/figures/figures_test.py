@@ -87,7 +87,7 @@ class Figures(unittest.TestCase):
     def test_files(self):
         self.assertEqual(self.result.returncode, 0)
         # Nothing but how far it is, which a slow machine says every half minute.
-        self.assertRegex(self.result.stderr, r"\A(drawing \d+/\d+  \d+ s(, about [^\n]* left)?\n)*\Z")
+        self.assertRegex(self.result.stderr, r"\A(drawing \d+/\d+  \d+ (s|min)(, about [^\n]* left)?\n)*\Z")
         self.assertEqual(self.result.stdout, f"{self.path}/index.html\n")
         self.assertEqual({file.name for file in self.path.iterdir()},
                          {f"{name}.{kind}" for name in NAMES for kind in ("svg", "csv")}
