@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -108,11 +109,15 @@ TEST_F(WorkerFailureTest, AWorkerIsNotToBlameForABusyMachine) {
   for (int k = 0; k < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++k)
     if (CPU_ISSET(k, &mine)) CPU_SET(k, &one);
   ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  const pid_t test = getpid();
   std::vector<pid_t> others(4);
   for (pid_t& other : others) {
     other = fork();
-    if (other == 0)
-      while (getppid() != 1) continue;
+    if (other == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      while (getppid() == test) continue;
+      _exit(0);
+    }
   }
   EXPECT_NO_THROW({
     RemoteEngine engine(faulty_engine(), {.memory = std::size_t{2} << 30, .reply = 3});
