@@ -134,6 +134,8 @@ std::string command_of(const RunArguments& arguments) {
   add("--precision", arguments.engines.precisions);
   add("--profiles", arguments.engines.profiles);
   add("--rates", arguments.engines.rates);
+  if (std::isfinite(arguments.options.budget))
+    command += fmt::format(" --budget {}", arguments.options.budget);
   if (arguments.headings) command += fmt::format(" --headings {}", *arguments.headings);
   add("--scales", arguments.scales);
   for (const std::string& setting : arguments.settings) command += " --set " + setting;
@@ -228,6 +230,11 @@ void add_run_command(CLI::App& app, int& exit_code) {
                    "Runs in each engine's ensemble, by where in a step the first contact falls")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
+  command
+      ->add_option("--budget", arguments->options.budget,
+                   "CPU seconds for the steps of one engine, profile and rate in a scene: of the "
+                   "phases every second is run, or every third ..., two at least")
+      ->check(positive_number());
   command
       ->add_option("--headings", arguments->headings,
                    "Run each phase in so many headings around the vertical; else as scenes say")

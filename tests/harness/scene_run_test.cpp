@@ -239,6 +239,37 @@ TEST(SceneRun, SaysWhereThreadsHaveNothingToShare) {
   EXPECT_EQ(told(2), 1);
 }
 
+/// What no budget holds runs two of its phases, the first and one half a step from it: the first
+/// and fifth of eight, so that what differs most by the phase still shows.
+TEST(SceneRun, ABudgetLeavesOutPhases) {
+  use_test_engines();
+  const std::string engine = "{engine: bullet, precision: double, profile: default, rate: 240}";
+  const EngineRecord all = run(pair_scene(engine))[0].runs.at(0);
+  RunOptions options;
+  options.phases = 8;
+  const auto under = [&](double budget) {
+    options.budget = budget;
+    const std::vector<Scenario> scenes = {parse_scenario(pair_scene(engine), "scene.yaml")};
+    return run_scenes(scenes, options)[0].runs.at(0);
+  };
+  const std::string name = "i-j.effective_restitution";
+  const std::vector<double>& values = all.observables.at(name).values;
+  ASSERT_EQ(values.size(), 8u);
+
+  const EngineRecord least = under(1e-12);
+  EXPECT_EQ(least.phases, 2u);
+  EXPECT_EQ(least.observables.at(name).values, (std::vector<double>{values[0], values[4]}));
+  EXPECT_LT(least.steps, all.steps / 3);
+  ASSERT_EQ(least.warnings.size(), all.warnings.size() + 1);
+  EXPECT_EQ(least.warnings.front(),
+            "2 of 8 phases: more take longer than 1e-12 CPU seconds (--budget)");
+
+  const EngineRecord most = under(1000);
+  EXPECT_EQ(most.phases, 8u);
+  EXPECT_EQ(most.observables.at(name).values, values);
+  EXPECT_EQ(most.warnings, all.warnings);
+}
+
 TEST(SceneRun, APreparedSceneServesAnySettings) {
   use_test_engines();
   const auto scenes = prepare_scenes({parse_scenario(pair_scene(""), "scene.yaml")});

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "records.h"
@@ -86,6 +87,23 @@ TEST(EngineMatrix, SentencesComeFromItsNumbers) {
       findings[2],
       "a 3.24 at 240 Hz: physical brings 1 scene within tolerances that default is not within, and "
       "loses 0");
+}
+
+TEST(EngineMatrix, NamesScenesInWhichNobodyIsWithinAndNotThoseInWhichNothingIsKnown) {
+  std::vector<SceneRecord> scenes = two_scenes();
+  for (EngineRecord& run : scenes[0].runs) run.errors.clear();  // nothing is judged
+  for (EngineRecord& run : scenes[1].runs)
+    run.errors["i-j.effective_restitution"].verdict = Verdict::deviates;
+  const std::string sentence = "In 1 scene no engine is within all tolerances: second";
+  EXPECT_EQ(std::ranges::count(matrix_findings(engine_matrix(scenes)), sentence), 1);
+}
+
+TEST(EngineMatrix, SaysHowManyEnsemblesHaveFewerPhases) {
+  std::vector<SceneRecord> scenes = two_scenes();  // 5 ensembles that have come to their end
+  scenes[0].runs[1].phases = 1;                    // has no other
+  scenes[0].runs[2].phases = 2;
+  EXPECT_EQ(matrix_findings(engine_matrix(scenes)).back(),
+            "Of 4 ensembles of more than one phase 1 has fewer than 4");
 }
 
 TEST(EngineMatrix, LeavesOutWhatIsExpectedAndWhatIsRare) {

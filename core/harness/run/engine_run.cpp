@@ -23,6 +23,20 @@ std::vector<double> starts_of(const EnsembleTask& task, double step) {
   return phase_starts(boxed ? step : task.reference->first_contact, step, task.phases);
 }
 
+/// The first of every `stride`.
+std::size_t counted(std::size_t phases, std::size_t stride) {
+  return (phases + stride - 1) / stride;
+}
+
+/// With which stride runs of `each` [s] in so many phases and headings keep within a budget [s].
+std::size_t stride_within(double budget, double each, std::size_t phases, std::size_t headings) {
+  std::size_t stride = 1;
+  while (counted(phases, stride) > 2 &&
+         each * static_cast<double>(counted(phases, stride) * headings) > budget)
+    ++stride;
+  return stride;
+}
+
 /// How many steps are asked for at once: most of those that the reference lets expect with the
 /// first message, as a message costs as much as many steps, and then few, for little waste after
 /// the end.
@@ -62,8 +76,8 @@ void show(const Frame& frame, const Similarity& similarity, PhaseRun& run) {
 
 }  // namespace
 
-std::size_t phase_count(const EnsembleTask& task, double rate) {
-  return starts_of(task, 1 / rate).size();
+std::size_t phase_count(const EnsembleTask& task, double rate, std::size_t stride) {
+  return counted(starts_of(task, 1 / rate).size(), stride);
 }
 
 std::vector<PhaseShare> phase_shares(std::size_t runs, std::size_t count) {
@@ -88,6 +102,7 @@ void run_phases(RemoteEngine& engine, const EnsembleTask& task, const EngineReco
   try {
     for (std::size_t k = share.first; k < std::min(share.last, starts.size() * record.headings);
          ++k) {
+      if (k % starts.size() % share.stride != 0) continue;
       const double start = starts[k % starts.size()];
       const std::size_t heading = k / starts.size();
       if (configured != heading) {
@@ -111,6 +126,9 @@ void run_phases(RemoteEngine& engine, const EnsembleTask& task, const EngineReco
       share.steps += taken;
       if (!run->reached()) ++share.unfinished;
       share.seen.push_back(run->values());
+      if (k == 0)
+        share.stride =
+            stride_within(task.budget, share.cpu_seconds, starts.size(), record.headings);
     }
   } catch (const Unstable& unstable) {
     share.unstable = unstable.reason;
@@ -120,7 +138,9 @@ void run_phases(RemoteEngine& engine, const EnsembleTask& task, const EngineReco
 std::size_t finish_ensemble(const EnsembleTask& task, const std::vector<PhaseShare>& shares,
                             EngineRecord& record) {
   const double step = 1 / record.rate, first_contact = task.reference->first_contact;
-  const std::size_t phases = phase_count(task, record.rate), runs = phases * record.headings;
+  const std::size_t stride = shares.front().stride;
+  const std::size_t phases = phase_count(task, record.rate, stride);
+  const std::size_t runs = phases * record.headings;
   std::vector<std::map<std::string, double>> seen;
   std::size_t unfinished = 0;
   record.version = shares.front().version;
@@ -146,6 +166,10 @@ std::size_t finish_ensemble(const EnsembleTask& task, const std::vector<PhaseSha
     record.warnings.push_back(
         fmt::format("{} of {} {} had not ended at the limit of {} s", unfinished, seen.size(),
                     record.headings > 1 ? "runs" : "phases", task.scenario->run.limit));
+  if (stride > 1)
+    record.warnings.push_back(
+        fmt::format("{} of {} phases: more take longer than {:g} CPU seconds (--budget)", phases,
+                    phase_count(task, record.rate, 1), task.budget));
   if (first_contact == 0)
     record.warnings.push_back("the first contact is there from the start: it has one phase only");
   else if (std::isfinite(first_contact) && first_contact < step)

@@ -19,12 +19,14 @@ struct EnsembleTask {
   const ContactScene* scaled = nullptr;  ///< at the record's scale; may be null where that is 1
   std::size_t phases = 32;               ///< >= 1
   double time_limit = std::numeric_limits<double>::infinity();  ///< of wall time for each [s]
+  double budget = std::numeric_limits<double>::infinity();      ///< of CPU time for all steps [s]
   PhaseWatch* watch = nullptr;                                  ///< sees every frame too
 };
 
 /// Runs of an ensemble that one worker does: of all phases in the first heading, then in the next.
 struct PhaseShare {
   std::size_t first = 0, last = 0;                  ///< of the ensemble's runs; one beyond the last
+  std::size_t stride = 1;                           ///< from one phase that is run to the next
   std::vector<std::map<std::string, double>> seen;  ///< observables by name, of those that ended
   std::size_t unfinished = 0;                       ///< of these, at the limit
   std::string unstable;                             ///< why the next one was given up
@@ -34,9 +36,9 @@ struct PhaseShare {
   std::size_t steps = 0;
 };
 
-/// How many phases an ensemble at this rate [Hz], > 0, has in each heading: those that are asked
-/// for, or one where nothing is met.
-std::size_t phase_count(const EnsembleTask& task, double rate);
+/// How many phases an ensemble at this rate [Hz], > 0, has in each heading: of those that are asked
+/// for, or one where nothing is met, the first of every `stride`.
+std::size_t phase_count(const EnsembleTask& task, double rate, std::size_t stride);
 
 /// The shares in which `count` workers do so many runs, in their order.
 std::vector<PhaseShare> phase_shares(std::size_t runs, std::size_t count);
@@ -44,7 +46,9 @@ std::vector<PhaseShare> phase_shares(std::size_t runs, std::size_t count);
 /// Does the share's runs at the rate, at the scale and with the settings of `record`: the engine
 /// gets the similar scene, what it shows is scaled and turned back. A state that is not
 /// finite, or that has left all bounds, ends it. Throws what RemoteEngine throws, and what
-/// StopScope does; what had ended by then is in the share.
+/// StopScope does; what had ended by then is in the share. Under a budget, which wants one share
+/// for all, only every `stride`-th phase is run, as many as fit by what the first has taken, and
+/// two at least.
 void run_phases(RemoteEngine& engine, const EnsembleTask& task, const EngineRecord& record,
                 PhaseShare& share);
 

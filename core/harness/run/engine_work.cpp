@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "harness/compare/comparison.h"
 #include "harness/run/whole_run.h"
@@ -51,11 +52,15 @@ EngineWork::EngineWork(const EngineTask& task, const RunOptions& options, std::s
                 .scaled = scaled_.get(),
                 .phases = options.phases,
                 .time_limit = options.time_limit,
+                .budget = options.budget,
                 .watch = task.watch},
       records_motion_(options.record_motion && !options.whole && !task.watch &&
                       is_recorded(*task.scene)),
-      shares_(phase_shares(options.phases * task.record->headings,
-                           task.watch || records_motion_ || options.whole ? 1 : workers)) {
+      shares_(phase_shares(
+          options.phases * task.record->headings,
+          task.watch || records_motion_ || options.whole || std::isfinite(options.budget)
+              ? 1
+              : workers)) {
   if (options.whole) samples_ = options.extras.at(task.scene->scenario.name).samples;
 }
 
@@ -76,7 +81,7 @@ void EngineWork::finish() {
                          ? recorder_->picked(phase_errors(*ensemble_.scenario, *ensemble_.reference,
                                                           record().observables))
                          : recorder_->last_seen();
-  const std::size_t phases = phase_count(ensemble_, record().rate);
+  const std::size_t phases = phase_count(ensemble_, record().rate, shares_.front().stride);
   for (RecordedMotion& motion : record().motions) {
     motion.heading = motion.phase / phases;
     motion.phase %= phases;
@@ -92,7 +97,7 @@ void EngineWork::note_failure(const JobResult& result) {
                         ? "it could not be compared: " + result.reason
                         : result.reason;
   if (ended_ == 0) return;
-  const std::size_t phases = phase_count(ensemble_, record().rate);
+  const std::size_t phases = phase_count(ensemble_, record().rate, shares_.front().stride);
   record().reason += fmt::format(" (in phase {} of {}", ended_ % phases + 1, phases);
   if (record().headings > 1)
     record().reason += fmt::format(", heading {} of {}", ended_ / phases + 1, record().headings);

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -32,6 +33,9 @@ struct RunOptions {
   std::size_t threads = 1;  ///< that share one scene's reference, as of ReferenceSettings
   /// Of wall time for one phase of an engine, and for the reference of a scene [s], > 0.
   double time_limit = 60;
+  /// Of CPU time for the steps of one ensemble, which else runs fewer phases, two at least [s], >
+  /// 0.
+  double budget = std::numeric_limits<double>::infinity();
   /// By the scenes' names: what else is wanted of their references, as of prepare_scenes().
   std::map<std::string, ReferenceExtras> extras;
   WorkerLimits limits;

@@ -135,6 +135,31 @@ std::vector<std::string> cures(const EngineMatrix& matrix) {
   return sentences;
 }
 
+bool any_is(const EngineMatrix::Row& row, Verdict verdict) {
+  return std::ranges::any_of(row.cells, [&](const MatrixCell& cell) {
+    return cell.run != nullptr && cell.run->verdict() == verdict;
+  });
+}
+
+/// "" where all ensembles of more than one phase have equally many.
+std::string small_ensembles(const EngineMatrix& matrix) {
+  std::size_t several = 0, small = 0, most = 0;
+  const auto each = [&](const auto& take) {
+    for (const EngineMatrix::Row& row : matrix.rows)
+      for (const MatrixCell& cell : row.cells)
+        if (cell.run != nullptr && cell.run->status == RunStatus::ok && cell.run->phases > 1)
+          take(cell.run->phases);
+  };
+  each([&](std::size_t phases) { most = std::max(most, phases); });
+  each([&](std::size_t phases) {
+    ++several;
+    small += phases < most ? 1 : 0;
+  });
+  if (small == 0) return {};
+  return fmt::format("Of {} of more than one phase {} {} fewer than {}",
+                     counted(several, "ensemble"), small, small == 1 ? "has" : "have", most);
+}
+
 }  // namespace
 
 std::string EngineMethod::label(bool with_precision) const {
@@ -254,14 +279,14 @@ std::vector<std::string> matrix_findings(const EngineMatrix& matrix) {
   sentences.push_back("Worst: " + standing_of(matrix, order.back(), scores[order.back()]));
   std::vector<std::string> nowhere;
   for (const EngineMatrix::Row& row : matrix.rows)
-    if (std::ranges::none_of(row.cells, [](const MatrixCell& cell) {
-          return cell.run != nullptr && cell.run->verdict() == Verdict::within;
-        }))
+    if (any_is(row, Verdict::deviates) && !any_is(row, Verdict::within))
       nowhere.push_back(row.scene->scenario.name);
   if (!nowhere.empty())
     sentences.push_back(fmt::format("In {} no engine is within all tolerances: {}",
                                     counted(nowhere.size(), "scene"), fmt::join(nowhere, ", ")));
   for (std::string& sentence : cures(matrix)) sentences.push_back(std::move(sentence));
+  if (std::string small = small_ensembles(matrix); !small.empty())
+    sentences.push_back(std::move(small));
   return sentences;
 }
 
