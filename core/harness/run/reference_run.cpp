@@ -42,10 +42,14 @@ class EachSink final : public FrameSink {
   std::vector<FrameSink*> sinks_;
 };
 
+/// Whether a run tells its CPU time: two calls to the system, which take as long as two bodies that
+/// meet once.
+enum class Timed : bool { no, yes };
+
 /// keeper: null, or what keeps it on its way. extras: null, or whose samples are taken.
 ObservedRun solve(const ReferenceSolver& solver, const RunEnd& end, int rounding,
                   const SolverAccuracy& accuracy, ReferenceKeeper* keeper = nullptr,
-                  const ReferenceExtras* extras = nullptr) {
+                  const ReferenceExtras* extras = nullptr, Timed timed = Timed::no) {
   if (keeper)
     if (const ObservedRun* before = keeper->next()) return *before;
   const RoundingMode mode(rounding);
@@ -67,9 +71,10 @@ ObservedRun solve(const ReferenceSolver& solver, const RunEnd& end, int rounding
       if (assembly && extras->exchange_states) extras->exchange_states(archive);
     });
   ObservedRun solved;
-  const double begin = thread_cpu_seconds();
+  const double begin = timed == Timed::yes ? thread_cpu_seconds() : 0;
   solved.run = solver.run(end, &sink, accuracy, keeper);
-  solved.cpu_seconds = thread_cpu_seconds() - begin + (keeper ? keeper->cpu_before() : 0);
+  if (timed == Timed::yes)
+    solved.cpu_seconds = thread_cpu_seconds() - begin + (keeper ? keeper->cpu_before() : 0);
   if (observer) solved.seen = observer->finish(solved.run.end_time);
   if (assembly) solved.assembly = assembly->assembly();
   if (keeper) keeper->finish(solved);
@@ -121,7 +126,7 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
                                 {.tolerance = 10 * tolerance, .cut_offs = 1.5, .softness = 2})
                               .seen);
   }
-  runs.value = solve(solver, end, FE_TONEAREST, {tolerance, 1}, keeper, extras);
+  runs.value = solve(solver, end, FE_TONEAREST, {tolerance, 1}, keeper, extras, Timed::yes);
   if (runs.value.run.collapses == 0) return runs;
   // Where a rule took part, its size, another rule and another order of what comes at one instant
   // tell what it decided; and so do contacts that last, which need none, where friction with the
@@ -279,7 +284,7 @@ ReferenceResult run_reference_whole(const ReferenceSolver& solver, const RunEnd&
   std::optional<ReferenceKeeper> keeping;
   if (extras.checkpoints) keeping.emplace(*extras.checkpoints);
   ReferenceKeeper* const keeper = keeping ? &*keeping : nullptr;
-  const ObservedRun solved = solve(solver, end, FE_TONEAREST, {}, keeper, &extras);
+  const ObservedRun solved = solve(solver, end, FE_TONEAREST, {}, keeper, &extras, Timed::yes);
   result.cpu_seconds = solved.cpu_seconds;
   result.run = solved.run;
   result.assembly = solved.assembly;

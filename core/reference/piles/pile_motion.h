@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/flatten.h"
 #include "reference/near_pairs.h"
 #include "reference/piles/pile_loop.h"
 #include "reference/steps/step_solver.h"
@@ -38,8 +39,8 @@ class PileMover {
   static constexpr std::size_t kShare = 1024;
 
   /// Returns the largest square of a speed [m²/s²].
-  [[gnu::flatten]] static double move_bodies(const PileWorld& world, std::span<PileBody> bodies,
-                                             std::span<NearSphere> spheres) {
+  SLIPCHECK_FLATTEN static double move_bodies(const PileWorld& world, std::span<PileBody> bodies,
+                                              std::span<NearSphere> spheres) {
     const double h = world.step, kick = world.started ? h : 0.5 * h;
     const double drag = 0.5 * h * world.drag, keep = (1 - drag) / (1 + drag);
     double fastest = 0;

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/flatten.h"
 #include "base/state_archive.h"
 #include "physics/numbers.h"
 #include "reference/piles/pile_contacts.h"
@@ -191,8 +192,8 @@ class PileShare {
 
   /// A contact that begins is kept; one that has ended, where somebody watches, until its impulse
   /// has been asked for.
-  [[gnu::noinline, gnu::flatten]] void act(PileWorld& world, const PileLawTable& laws, List& list,
-                                           std::uint32_t k) {
+  [[gnu::noinline]] SLIPCHECK_FLATTEN void act(PileWorld& world, const PileLawTable& laws,
+                                               List& list, std::uint32_t k) {
     PileNear& near = list[k];
     Step step(world, sum_);
     if (near.contact == PileNear::kNone) {

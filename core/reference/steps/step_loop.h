@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/flatten.h"
 #include "base/stop_scope.h"
 #include "physics/numbers.h"
 #include "reference/steps/step_kernel.h"
@@ -182,7 +183,7 @@ class StepLoop final : public StepKernel {
 
   /// Flat, but for what begins and ends, as move() is: in a large unit the compiler leaves calls
   /// for sums of vectors, which pass them through memory.
-  [[gnu::flatten]] void forces(StepWorld& world) {
+  SLIPCHECK_FLATTEN void forces(StepWorld& world) {
     begin_forces(world);
     std::size_t k = 0;
     for (std::size_t j = 1; j < world.bodies.size(); ++j) {
@@ -317,7 +318,7 @@ class StepLoop final : public StepKernel {
     pair.touching = false;
   }
 
-  [[gnu::flatten]] void move(StepWorld& world) {
+  SLIPCHECK_FLATTEN void move(StepWorld& world) {
     StepSurroundings& s = world.around;
     const double h = world.step, dt = world.kick_length();
     if constexpr (std::is_same_v<Substrate, FullSubstrate>) {
