@@ -1,14 +1,17 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "../bullet_backend/bullet_run.h"
 #include "../reference/scene_images.h"
+#include "../support/bundled.h"
+#include "engine/engine_registry.h"
+#include "peer_worker.h"
 
 // Which symmetries engines have: random scenes of two and three bodies and their images, half a
 // second each. Where an engine has one, its two ends differ by rounding; where it has not, by what
@@ -25,13 +28,13 @@ enum class Has {
   yes,
   no,
   to_its_solvers_tolerance,
-  mostly,  ///< where its friction lies along a slip that is no more than a rounding, it does not
-  not_asked
+  mostly,    ///< where its friction lies along a slip that is no more than a rounding, it does not
+  not_asked  ///< between rounding and what a user would see
 };
 using enum Has;
 
 struct Row {
-  const char* engine;
+  const char* engine;  ///< with @: of npm, the newest version that is there
   const char* precision;
   const char* profile;
   Has mirror, quarter, turn, belt, order;
@@ -51,6 +54,20 @@ const std::vector<Row> kRows = {
     // A belt is a body of 10⁶ times the mass, which what lies on it brakes.
     {"mujoco", "double", "physical", to_its_solvers_tolerance, to_its_solvers_tolerance,
      to_its_solvers_tolerance, no, to_its_solvers_tolerance},
+    {"cannon-es@", "double", "default", yes, yes, no, no, yes},  // two fixed axes
+    {"cannon-es@", "double", "physical", yes, yes, no, yes, no},
+    {"havok@", "single", "default", no, no, no, no, no},
+    {"havok@", "single", "physical", not_asked, no, no, no, not_asked},
+    {"jolt@", "single", "default", yes, yes, yes, no, no},
+    {"jolt@", "single", "physical", yes, yes, yes, yes, yes},
+    {"mujoco@", "double", "default", to_its_solvers_tolerance, no, no, not_asked, not_asked},
+    {"mujoco@", "double", "physical", to_its_solvers_tolerance, to_its_solvers_tolerance,
+     to_its_solvers_tolerance, to_its_solvers_tolerance, to_its_solvers_tolerance},
+    {"mujoco", "double", "default", not_asked, no, no, no, not_asked},
+    {"physx@", "single", "default", yes, no, no, no, no},
+    {"physx@", "single", "physical", yes, yes, yes, no, no},
+    {"rapier@", "single", "default", yes, yes, no, no, no},
+    {"rapier@", "single", "physical", yes, yes, yes, no, yes},
     {"ode", "double", "default", yes, yes, no, yes, yes},  // two fixed axes
     {"ode", "double", "physical", yes, to_its_solvers_tolerance, to_its_solvers_tolerance, mostly,
      to_its_solvers_tolerance},
@@ -64,9 +81,22 @@ double rounding(const Row& row) {
   return kSteps / 1.2e-3 * epsilon;
 }
 
-std::string folder_of(const std::string& engine) {
-  return std::string(SLIPCHECK_SOURCE_DIR) +
-         (engine == "bullet" ? "/bullet_backend" : "/peer_backends/" + engine);
+/// Built here, or brought by npm.
+std::vector<EngineExecutable> installed() {
+  test::use_test_engines();
+  return find_engines();
+}
+
+/// The worker of a row, of several versions the newest; none where it is not there.
+std::optional<EngineExecutable> executable_of(const Row& row) {
+  const std::string name = row.engine;
+  std::optional<EngineExecutable> newest;
+  for (EngineExecutable& each : installed())
+    if (each.precision == row.precision &&
+        (name.back() == '@' ? each.engine.starts_with(name) : each.engine == name) &&
+        (!newest || is_older_version(engine_version(newest->engine), engine_version(each.engine))))
+      newest = std::move(each);
+  return newest;
 }
 
 /// A random scene whose first ball comes to the others.
@@ -87,11 +117,8 @@ Scene meeting(unsigned seed) {
 
 /// How far the ends of scenes and images are apart, in radii, sorted.
 std::vector<double> differences(
-    const Row& row, const std::function<test::Image(const Scene&, unsigned)>& image_of) {
-  RemoteEngine engine(std::string(SLIPCHECK_BINARY_DIR) + "/slipcheck-engine-" + row.engine + "-" +
-                      row.precision);
-  const Settings settings =
-      load_profile(folder_of(row.engine) + "/profiles/" + row.profile + ".yaml").settings;
+    RemoteEngine& engine, const Settings& settings,
+    const std::function<test::Image(const Scene&, unsigned)>& image_of) {
   std::vector<double> found;
   std::size_t met = 0;
   for (unsigned seed = 0; seed < kSeeds; ++seed) {
@@ -112,60 +139,51 @@ std::vector<double> differences(
   return found;
 }
 
-class EngineSymmetry : public testing::TestWithParam<Row> {
- protected:
-  void SetUp() override {
-    const Row& row = GetParam();
-    const std::string program =
-        std::string(SLIPCHECK_BINARY_DIR) + "/slipcheck-engine-" + row.engine + "-" + row.precision;
-    if (::access(program.c_str(), X_OK) != 0) GTEST_SKIP() << row.engine << " is not built";
-  }
+class EngineSymmetry : public testing::TestWithParam<Row> {};
 
-  void expect(Has has, const std::function<test::Image(const Scene&, unsigned)>& image_of) {
+/// All of a row in one test, as engines of npm take seconds to start.
+TEST_P(EngineSymmetry, IsThatOfItsRow) {
+  const Row& row = GetParam();
+  const auto executable = executable_of(row);
+  if (!executable) GTEST_SKIP() << row.engine << " is not there";
+  RemoteEngine engine(executable->command, test::kPatient);
+  const Settings settings =
+      load_profile((executable->profiles / (std::string(row.profile) + ".yaml")).string()).settings;
+  const auto expect = [&](const char* symmetry, Has has,
+                          const std::function<test::Image(const Scene&, unsigned)>& image_of) {
     if (has == not_asked) return;
-    const std::vector<double> found = differences(GetParam(), image_of);
+    const std::vector<double> found = differences(engine, settings, image_of);
     if (has == no) {
-      EXPECT_GT(found.back(), 1e-3) << "it has this symmetry now";
+      EXPECT_GT(found.back(), 1e-3) << "it has this symmetry now: " << symmetry;
       return;
     }
     // One scene may stand at a threshold, which a rounding is enough to cross.
     const std::size_t last = has == mostly ? found.size() / 2 : found.size() - 2;
-    EXPECT_LE(found[last], has == to_its_solvers_tolerance ? 1e-8 : rounding(GetParam()));
-  }
-};
-
-TEST_P(EngineSymmetry, Mirror) {
-  expect(GetParam().mirror,
+    EXPECT_LE(found[last], has == to_its_solvers_tolerance ? 1e-8 : rounding(row)) << symmetry;
+  };
+  expect("mirror", row.mirror,
          [](const Scene& scene, unsigned) { return test::mirrored(scene, kEnd); });
-}
-
-TEST_P(EngineSymmetry, QuarterTurn) {
-  expect(GetParam().quarter, [](const Scene& scene, unsigned) {
+  expect("quarter turn", row.quarter, [](const Scene& scene, unsigned) {
     return test::turned_by(scene, kEnd, Vector2::UnitY());
   });
-}
-
-TEST_P(EngineSymmetry, Turn) {
-  expect(GetParam().turn, [](const Scene& scene, unsigned) {
+  expect("turn", row.turn, [](const Scene& scene, unsigned) {
     return test::turned_by(scene, kEnd, Vector2(0.8, 0.6));
   });
-}
-
-TEST_P(EngineSymmetry, Belt) {
-  expect(GetParam().belt, [](const Scene& scene, unsigned) {
+  expect("belt", row.belt, [](const Scene& scene, unsigned) {
     return test::on_a_belt(scene, kEnd, Vector2(0.25, -0.5));
   });
-}
-
-TEST_P(EngineSymmetry, OrderOfTheBodies) {
-  expect(GetParam().order, [](const Scene& scene, unsigned seed) {
+  expect("order of the bodies", row.order, [](const Scene& scene, unsigned seed) {
     test::Random random(seed + 1000);
     return test::in_another_order(scene, kEnd, random);
   });
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, EngineSymmetry, testing::ValuesIn(kRows), [](const auto& row) {
-  return std::string(row.param.engine) + "_" + row.param.precision + "_" + row.param.profile;
+  std::string name =
+      std::string(row.param.engine) + "_" + row.param.precision + "_" + row.param.profile;
+  std::ranges::replace_if(
+      name, [](char c) { return c == '-' || c == '@'; }, '_');
+  return name;
 });
 
 }  // namespace

@@ -20,6 +20,20 @@ TEST(SweepSamples, ALatinHypercubeHasOnePointInEachSlice) {
   }
 }
 
+/// The correlation of two coordinates in random order scatters by 1/√(N−1) around 0.
+TEST(SweepSamples, CoordinatesOfALatinHypercubeKnowNothingOfEachOther) {
+  constexpr std::size_t points = 1000, dimensions = 3;
+  const std::vector<double> cube = latin_hypercube(points, dimensions, 3);
+  for (std::size_t a = 0; a < dimensions; ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      double sum = 0;
+      for (std::size_t k = 0; k < points; ++k)
+        sum += (cube[k * dimensions + a] - 0.5) * (cube[k * dimensions + b] - 0.5);
+      const double correlation = 12 * sum / points;  // the variance in [0, 1) is 1/12
+      EXPECT_LT(std::abs(correlation), 4 / std::sqrt(points - 1.0)) << a << " and " << b;
+    }
+}
+
 TEST(SweepSamples, ASeedGivesItsPointsAgain) {
   EXPECT_EQ(latin_hypercube(20, 2, 1), latin_hypercube(20, 2, 1));
   EXPECT_NE(latin_hypercube(20, 2, 1), latin_hypercube(20, 2, 2));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/text.h"
 #include "report/charts/gnuplot_parts.h"
 #include "report/charts/heat_colours.h"
 #include "report/charts/plot_text.h"
