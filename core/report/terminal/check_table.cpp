@@ -5,6 +5,8 @@
 #include <sstream>
 #include <vector>
 
+#include "report/rows/quantity.h"
+
 namespace slipcheck {
 namespace {
 
