@@ -59,6 +59,16 @@ TEST(EngineMatrix, HasTheWorstPhaseOfEachMethodInEachScene) {
   EXPECT_EQ(table.rows[1][3].text, "✗");
 }
 
+TEST(EngineMatrix, OfARunsObservablesTheWorstCounts) {
+  EngineRecord run = run_of("a", "default", 0.5);
+  Deviation& other = run.errors["i.sliding_time"] = run.errors["i-j.effective_restitution"];
+  other.max = 3 * *other.tolerance;
+  other.verdict = Verdict::deviates;
+  EXPECT_DOUBLE_EQ(worst_phase(run), 3);
+  other.verdict = Verdict::undecided;  // says nothing
+  EXPECT_DOUBLE_EQ(worst_phase(run), 0.5);
+}
+
 TEST(EngineMatrix, ScoresCountVerdictsAndAverageCosts) {
   const std::vector<SceneRecord> scenes = two_scenes();
   const auto scores = scores_of(engine_matrix(scenes));
