@@ -42,8 +42,8 @@ class EachSink final : public FrameSink {
   std::vector<FrameSink*> sinks_;
 };
 
-/// Whether a run tells its CPU time: two calls to the system, which take as long as two bodies that
-/// meet once.
+/// Whether a run tells its CPU time: two calls to the system, a good part of what the run of two
+/// bodies takes.
 enum class Timed : bool { no, yes };
 
 /// keeper: null, or what keeps it on its way. extras: null, or whose samples are taken.
