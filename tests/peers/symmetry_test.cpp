@@ -157,7 +157,8 @@ TEST_P(EngineSymmetry, IsThatOfItsRow) {
     if (has == not_asked) return;
     const std::vector<double> found = differences(engine, settings, image_of);
     if (has == no) {
-      EXPECT_GT(found.back(), std::max(1e-3, rounding(row))) << "it has this symmetry now: " << symmetry;
+      EXPECT_GT(found.back(), std::max(1e-3, rounding(row)))
+          << "it has this symmetry now: " << symmetry;
       return;
     }
     // One scene may stand at a threshold, which a rounding is enough to cross.
