@@ -106,7 +106,7 @@ class LammpsEngine final : public Engine {
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
     const LammpsSettings settings = read_rows(setting_rows(), chosen);
     refuse_what_cannot_be(scene);
-    const MovingFrame frame(scene, "lammps");
+    const MovingFrame frame(scene, "lammps", MovingFrame::Takes::accelerated);
     const InnerSteps steps = inner_steps(scene, settings, time_step);
     input(scene, scene.initial, 0, settings, steps.length, "");  // refuses what cannot be said
     if (!process_ || settings.ranks != setup_->settings.ranks) {
@@ -122,7 +122,7 @@ class LammpsEngine final : public Engine {
     if (run_ && run_->blown_up)  // that LAMMPS has ended
       process_ = std::make_unique<LammpsProcess>(setup_->settings.ranks);
     run_ = std::make_unique<Run>();
-    run_->states = setup_->frame.enter(states);
+    run_->states = setup_->frame.enter(states, time);
     run_->start = time;
     const EngineScene& scene = setup_->scene;
     const std::string file =
@@ -152,9 +152,7 @@ class LammpsEngine final : public Engine {
       run.pending = 0;
       take_snapshot(run.taken);
       run.shown.clear();
-      Frame& frame = run.shown.emplace_back();
-      frame.bodies = run.states;
-      setup_->frame.leave(frame.bodies, static_cast<double>(run.taken) * setup_->steps.length);
+      run.shown.emplace_back().bodies = left_states();
     }
     states = run.shown.back().bodies;
   }
@@ -174,7 +172,8 @@ class LammpsEngine final : public Engine {
   };
   /// A world in LAMMPS, as seen from the substrate.
   struct Run {
-    std::vector<BodyState> states;  // in the last frame
+    std::vector<BodyState> states;  // in the last snapshot
+    long seen = 0;                  // the step of LAMMPS's that it is of
     std::vector<Frame> shown;       // of the last step
     long pending = 0;               // steps that are asked for and not taken
     long taken = 0;                 // of LAMMPS's
@@ -196,27 +195,32 @@ class LammpsEngine final : public Engine {
     const long before = run.taken;
     advance(1, each);
     run.shown.clear();
-    std::vector<BodyState> last = run.states;
+    std::vector<BodyState> last = left_states();
     int parts = 0;  // since `last`
     for (int k = 1; k <= setup_->settings.frames; ++k) {
       take_snapshot(before + k * each);
       ++parts;
-      const double now = run.start + static_cast<double>(before + k * each) * setup_->steps.length;
+      const double now = run.start + static_cast<double>(run.seen) * setup_->steps.length;
       if (k < setup_->settings.frames && in_impact(setup_->scene, run.states, length, now))
         continue;
       Frame& frame = run.shown.emplace_back();
-      frame.bodies = run.states;
+      frame.bodies = left_states();
       if (!run.blown_up)
-        frame.touches =
-            momentum_touches(setup_->scene, last, run.states, parts * length, now - parts * length);
+        frame.touches = momentum_touches(setup_->scene, last, frame.bodies, parts * length,
+                                         now - parts * length);
       frame.part = k == setup_->settings.frames ? 1.0 : k / double(setup_->settings.frames);
-      setup_->frame.leave(frame.bodies,
-                          static_cast<double>(before + k * each) * setup_->steps.length);
-      last = run.states;
+      last = frame.bodies;
       parts = 0;
     }
     run.pending = 0;
     return run.shown;
+  }
+
+  /// The last snapshot, in the scene's frame.
+  std::vector<BodyState> left_states() const {
+    std::vector<BodyState> states = run_->states;
+    setup_->frame.leave(states, static_cast<double>(run_->seen) * setup_->steps.length);
+    return states;
   }
 
   /// So many steps in one run of LAMMPS's, with a snapshot every so many of its own; 0: none.
@@ -233,6 +237,7 @@ class LammpsEngine final : public Engine {
   }
 
   void take_snapshot(long step) const {
+    run_->seen = step;
     attempt([&] { process_->read_snapshot(step, run_->states, run_->states.size()); });
   }
 

@@ -253,6 +253,19 @@ std::string gravity_command(const Scene& scene) {
                      exact(direction.y()), exact(direction.z()));
 }
 
+/// The substrate that the world is seen from is shaken, so that bodies are the other way.
+std::string shaking_command(const Scene& scene, double time) {
+  const SubstrateMotion& motion = scene.motion;
+  if (motion.kind() != SubstrateMotion::Kind::oscillation) return "";
+  const double rate = 2 * std::numbers::pi * motion.frequency();
+  const Vector2& amplitude = motion.vector();
+  return fmt::format(
+      "variable shaking equal \"{}*sin({}*({}+step*dt)+{})\"\n"
+      "fix shaking all gravity v_shaking vector {} {} 0\n",
+      exact(rate * rate * amplitude.norm()), exact(rate), exact(time), exact(motion.phase()),
+      exact(amplitude.x()), exact(amplitude.y()));
+}
+
 }  // namespace
 
 InnerSteps inner_steps(const EngineScene& scene, const LammpsSettings& settings, double time_step) {
@@ -289,7 +302,7 @@ std::string input(const EngineScene& scene, std::span<const BodyState> states, d
   text += fmt::format("neighbor {} {}\nneigh_modify delay 0 every 1 check yes\n",
                       exact(settings.skin * smallest_radius(scene)),
                       scene.bodies.size() > kBins ? "bin" : "nsq");
-  text += "fix motion all nve/sphere\n" + gravity_command(scene);
+  text += "fix motion all nve/sphere\n" + gravity_command(scene) + shaking_command(scene, time);
   text += region_commands(scene, time);
   text += wall_commands(scene, types, settings);
   return text + fmt::format("timestep {}\nthermo 1000000000\n", exact(inner_step));

@@ -10,35 +10,53 @@
 
 namespace slipcheck {
 
-/// A substrate at rest or of constant velocity is the same to bodies that are seen from it: so
-/// engines get the scene that have no surface that moves along itself.
+/// The world as seen from the substrate, which so is at rest: what engines get that have no surface
+/// that moves along itself. With constant velocity nothing else changes; where it is accelerated,
+/// all bodies are so the other way.
 class MovingFrame {
  public:
+  /// What an engine can do to all bodies: nothing, or give them an acceleration that changes
+  /// smoothly.
+  enum class Takes { uniform, accelerated };
+
   MovingFrame() = default;
   /// Throws Refused, in the name of `engine`, for a substrate that moves otherwise.
-  MovingFrame(const Scene& scene, const std::string& engine) : velocity_(scene.motion.velocity(0)) {
-    const auto kind = scene.motion.kind();
-    if (kind != SubstrateMotion::Kind::still && kind != SubstrateMotion::Kind::constant)
+  MovingFrame(const Scene& scene, const std::string& engine, Takes takes = Takes::uniform)
+      : motion_(scene.motion) {
+    using Kind = SubstrateMotion::Kind;
+    if (motion_.kind() == Kind::oscillation && takes == Takes::uniform)
       throw Refused(engine + ": a substrate that moves at other than constant velocity");
+    if (motion_.kind() == Kind::table)
+      throw Refused(engine + ": a substrate that moves by a table, whose velocity jumps");
   }
 
-  /// States at the start, as seen from the substrate.
-  std::vector<BodyState> enter(std::span<const BodyState> states) const {
+  /// States at the start, at `time` [s], as seen from the substrate.
+  std::vector<BodyState> enter(std::span<const BodyState> states, double time) {
+    start_ = time;
+    const Vector3 velocity = motion_.velocity(time);
     std::vector<BodyState> seen(states.begin(), states.end());
-    for (BodyState& state : seen) state.velocity -= velocity_;
+    for (BodyState& state : seen) state.velocity -= velocity;
     return seen;
   }
-  /// Back to the scene's frame, `time` [s] after the start.
-  void leave(std::vector<BodyState>& states, double time) const {
-    if (velocity_.isZero(0)) return;
+  /// Back to the scene's frame, `since` [s] after the start.
+  void leave(std::vector<BodyState>& states, double since) const {
+    if (motion_.is_still()) return;
+    const Vector3 velocity = motion_.velocity(start_ + since), way = way_in(since);
     for (BodyState& state : states) {
-      state.velocity += velocity_;
-      state.position += time * velocity_;
+      state.velocity += velocity;
+      state.position += way;
     }
   }
 
  private:
-  Vector3 velocity_ = Vector3::Zero();
+  /// Of the substrate since the start [m].
+  Vector3 way_in(double since) const {
+    if (motion_.kind() == SubstrateMotion::Kind::constant) return since * motion_.velocity(0);
+    return motion_.position(start_ + since) - motion_.position(start_);
+  }
+
+  SubstrateMotion motion_;
+  double start_ = 0;  ///< [s]
 };
 
 }  // namespace slipcheck

@@ -186,7 +186,7 @@ class SiconosEngine final : public Engine {
 
   void start(std::span<const BodyState> states, double time) override {
     steps_ = 0;
-    states_ = setup_->frame.enter(states);
+    states_ = setup_->frame.enter(states, time);
     system_.reset();
     system_ = std::make_unique<System>(
         plan_of(setup_->scene, setup_->settings, states_, time, setup_->time_step));

@@ -155,7 +155,7 @@ class SimbodyEngine final : public Engine {
     steps_ = 0;
     start_time_ = time;
     blown_up_ = false;
-    states_ = setup_->frame.enter(states);
+    states_ = setup_->frame.enter(states, time);
     world_ = std::make_unique<System>(plan_of(setup_->scene, setup_->settings, states_, time));
   }
 
