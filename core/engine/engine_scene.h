@@ -32,7 +32,8 @@ struct EngineScene : Scene {
         if (contact && contact->memory) contact.reset();
   }
 
-  /// Bodies go over in one piece, to a worker that takes many (scene_part::kMany).
+  /// Bodies go over in one piece however few they are, to a worker that takes many
+  /// (scene_part::kMany).
   bool packed = false;
 
   /// Nothing where every contact is hard.

@@ -78,8 +78,8 @@ Applied RemoteEngine::configure(const EngineScene& scene, const Settings& settin
   const bool simpler = needs_of(scene, time_step).friction_law && !takes(scene_part::kFrictionLaw);
   EngineScene given = scene;
   if (simpler) static_cast<Scene&>(given) = with_friction_numbers(scene);
-  given.packed =
-      scene.bodies.size() > kPackedFrom && scene.extents.empty() && takes(scene_part::kMany);
+  given.packed = (scene.packed || scene.bodies.size() > kPackedFrom) && scene.extents.empty() &&
+                 takes(scene_part::kMany);
   if (!given.packed && scene.bodies.size() > kMostOneByOne)
     throw Refused(fmt::format("{}: the scene has {} bodies, and it takes {} at most", info_.engine,
                               scene.bodies.size(), kMostOneByOne));

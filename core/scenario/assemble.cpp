@@ -277,7 +277,10 @@ void resolve_bodies(const WrittenScene& written, Scenario& scenario, Reading& re
   const auto add_fill = [&](const Fill& fill) {
     std::vector<Body> filled = resolve(fill, written, placed, reading);
     if (fills > 1) placed.insert(placed.end(), filled.begin(), filled.end());
-    std::ranges::move(filled, std::back_inserter(scenario.bodies));
+    if (scenario.bodies.empty())
+      scenario.bodies = std::move(filled);
+    else
+      std::ranges::move(filled, std::back_inserter(scenario.bodies));
   };
   for (const auto& entry : written.bodies) {
     if (const auto* fill = std::get_if<Fill>(&entry)) {

@@ -158,6 +158,9 @@ SceneOutline make_outline(const Scenario& scenario) {
   }
   const std::set<std::string> divided = divided_materials(scenario);
   std::map<std::tuple<std::string, double, double, double>, std::size_t> index;
+  scene.bodies.reserve(scenario.bodies.size());
+  scene.initial.reserve(scenario.bodies.size());
+  scene.material.reserve(scenario.bodies.size());
   for (const Body& body : scenario.bodies) {
     const Sphere& sphere = body.sphere;
     const bool alone = divided.contains(body.material);

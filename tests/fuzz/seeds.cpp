@@ -31,15 +31,19 @@ void write_messages(const std::filesystem::path& folder) {
   on_table.motion = SubstrateMotion::table({{0, {0, 1}}, {1, {0.1, 1}}});
   on_belt.motion = SubstrateMotion::constant({0.1, 0});
   periodic.periodic = {0.1, 0};
+  EngineScene packed(scene);
+  packed.packed = true;
   int number = 0;
-  for (const Scene& each : {scene, on_table, on_belt, periodic, some_box(3)})
+  for (const EngineScene& each :
+       {EngineScene(scene), packed, EngineScene(on_table), EngineScene(on_belt),
+        EngineScene(periodic), EngineScene(some_box(3))})
     write(folder, number++, 1,
           protocol::encode(
               protocol::Request(protocol::Configure{each, {{"erp", 0.2}, {"on", true}}, 0.01})));
   for (const protocol::Request& request :
        {protocol::Request(protocol::Hello{}),
         protocol::Request(protocol::Start{scene.initial, 0.5}),
-        protocol::Request(protocol::Step{100}),
+        protocol::Request(protocol::Step{100}), protocol::Request(protocol::Skip{100}),
         protocol::Request(protocol::Time{scene.initial, 0.5, 100, 3}),
         protocol::Request(protocol::Quit{})})
     write(folder, number++, 1, protocol::encode(request));

@@ -66,6 +66,7 @@ class StepSolver::Impl {
     world_.around.velocity = hard.motion.velocity(0).head<2>();
     world_.slowest_rebound = std::max(settings.landing_fraction * speed_scale(hard, initial),
                                       hard.gravity * settings.step);
+    world_.bodies.reserve(initial.size());
     for (std::size_t i = 0; i < initial.size(); ++i)
       world_.bodies.push_back(make_body(hard, i, initial[i], world_.slowest_rebound));
   }

@@ -184,6 +184,7 @@ std::vector<Body> expand(const Fill& fill, const WrittenScene& scene,
     return place(scene, site.x(), scene.container ? site.z() : site.y(), radius);
   };
   std::vector<Body> bodies;
+  bodies.reserve(static_cast<std::size_t>(fill.count));
   for (std::int64_t n = 1; n <= fill.count; ++n) {
     heed_stop();
     Body body{fill.prefix + std::to_string(n), fill.material, {}, {}};

@@ -12,8 +12,8 @@ namespace {
 
 std::vector<Check> all_checks() {
   std::vector<Check> all;
-  for (const auto& group :
-       {talk_checks(), setting_checks(), frame_checks(), scene_checks(), motion_checks()})
+  for (const auto& group : {talk_checks(), setting_checks(), frame_checks(), many_checks(),
+                            scene_checks(), motion_checks()})
     all.insert(all.end(), group.begin(), group.end());
   return all;
 }
