@@ -106,7 +106,7 @@ class LammpsEngine final : public Engine {
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {
     const LammpsSettings settings = read_rows(setting_rows(), chosen);
     refuse_what_cannot_be(scene);
-    const MovingFrame frame(scene, "lammps", MovingFrame::Takes::accelerated);
+    const MovingFrame frame(scene, "lammps");
     const InnerSteps steps = inner_steps(scene, settings, time_step);
     input(scene, scene.initial, 0, settings, steps.length, "");  // refuses what cannot be said
     if (!process_ || settings.ranks != setup_->settings.ranks) {

@@ -12,23 +12,19 @@ namespace slipcheck {
 
 /// The world as seen from the substrate, which so is at rest: what engines get that have no surface
 /// that moves along itself. With constant velocity nothing else changes; where it is accelerated,
-/// all bodies are so the other way.
+/// the engine accelerates all bodies the other way.
 class MovingFrame {
  public:
-  /// What an engine can do to all bodies: nothing, or give them an acceleration that changes
-  /// smoothly.
-  enum class Takes { uniform, accelerated };
-
   MovingFrame() = default;
-  /// Throws Refused, in the name of `engine`, for a substrate that moves otherwise.
-  MovingFrame(const Scene& scene, const std::string& engine, Takes takes = Takes::uniform)
-      : motion_(scene.motion) {
-    using Kind = SubstrateMotion::Kind;
-    if (motion_.kind() == Kind::oscillation && takes == Takes::uniform)
-      throw Refused(engine + ": a substrate that moves at other than constant velocity");
-    if (motion_.kind() == Kind::table)
+  /// Throws Refused, in the name of `engine`, for a substrate that jumps.
+  MovingFrame(const Scene& scene, const std::string& engine) : motion_(scene.motion) {
+    if (motion_.kind() == SubstrateMotion::Kind::table)
       throw Refused(engine + ": a substrate that moves by a table, whose velocity jumps");
   }
+
+  bool is_accelerated() const { return motion_.kind() == SubstrateMotion::Kind::oscillation; }
+  /// Of the substrate, `since` [s] after the start [m/s²].
+  Vector3 acceleration(double since) const { return motion_.acceleration(start_ + since); }
 
   /// States at the start, at `time` [s], as seen from the substrate.
   std::vector<BodyState> enter(std::span<const BodyState> states, double time) {

@@ -188,8 +188,11 @@ class SiconosEngine final : public Engine {
     steps_ = 0;
     states_ = setup_->frame.enter(states, time);
     system_.reset();
-    system_ = std::make_unique<System>(
-        plan_of(setup_->scene, setup_->settings, states_, time, setup_->time_step));
+    SystemPlan plan = plan_of(setup_->scene, setup_->settings, states_, time, setup_->time_step);
+    const MovingFrame& frame = setup_->frame;
+    if (frame.is_accelerated())
+      plan.plane_acceleration = [frame](double since) { return frame.acceleration(since); };
+    system_ = std::make_unique<System>(plan);
   }
 
   void step() override {

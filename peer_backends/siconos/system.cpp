@@ -114,7 +114,8 @@ struct System::Parts {
     Impulse impulse;
   };
 
-  explicit Parts(const SystemPlan& plan) : model(new NonSmoothDynamicalSystem(0, 1e30)) {
+  explicit Parts(const SystemPlan& plan)
+      : origin(plan), model(new NonSmoothDynamicalSystem(0, 1e30)) {
     for (std::size_t i = 0; i < plan.bodies.size(); ++i) add_ball(plan, i);
     for (const FixedSurface& surface : plan.surfaces) add_carrier(plan, surface);
     std::size_t pair = 0;
@@ -140,6 +141,10 @@ struct System::Parts {
     SP::TimeDiscretisation clock(new TimeDiscretisation(0, plan.time_step));
     stepping.reset(new TimeStepping(model, clock, scheme, make_problem(plan)));
     stepping->setNewtonTolerance(plan.newton_tolerance);
+    if (plan.plane_acceleration) {
+      set_weights(0);
+      stepping->initialize();
+    }
   }
 
   void add_ball(const SystemPlan& plan, std::size_t i) {
@@ -156,9 +161,9 @@ struct System::Parts {
     inertia->eye();
     *inertia *= sphere.moment_of_inertia();
     SP::NewtonEulerDS ball(new NewtonEulerDS(place, twist, sphere.mass, inertia));
-    SP::SiconosVector weight(new SiconosVector(3));
-    set(*weight, sphere.mass * plan.gravity);
-    ball->setFExtPtr(weight);
+    weights.emplace_back(new SiconosVector(3));
+    set(*weights.back(), sphere.mass * plan.gravity);
+    ball->setFExtPtr(weights.back());
     model->insertDynamicalSystem(ball);
     balls.push_back(ball);
   }
@@ -182,6 +187,13 @@ struct System::Parts {
     model->insertDynamicalSystem(carriers.back());
   }
 
+  /// Weights at a time since the start, as seen from a plane that is accelerated. The scheme has
+  /// the force at the end of a step from here, and that at its begin from the step before.
+  void set_weights(double time) {
+    const Vector3 seen = origin.gravity - origin.plane_acceleration(time);
+    for (std::size_t i = 0; i < balls.size(); ++i) set(*weights[i], origin.bodies[i].mass * seen);
+  }
+
   void link(const SP::Interaction& interaction, std::size_t first, int second) {
     const SP::NewtonEulerDS carrier =
         second < Impulse::kPlane ? carriers[static_cast<std::size_t>(Impulse::kPlane - 1 - second)]
@@ -195,18 +207,23 @@ struct System::Parts {
     links.push_back({interaction, {static_cast<int>(first), second, 0}});
   }
 
+  SystemPlan origin;
   SP::NonSmoothDynamicalSystem model;
   std::vector<SP::NewtonEulerDS> balls;
+  std::vector<SP::SiconosVector> weights;
   std::vector<SP::NewtonEulerDS> carriers;  // by surface; none where it is at rest
   std::vector<Link> links;
   SP::TimeStepping stepping;
   std::vector<Impulse> impulses;
+  long steps = 0;  // taken
 };
 
 System::System(const SystemPlan& plan) : parts_(std::make_unique<Parts>(plan)) {}
 System::~System() = default;
 
 void System::step() {
+  if (parts_->origin.plane_acceleration)
+    parts_->set_weights(static_cast<double>(++parts_->steps) * parts_->origin.time_step);
   parts_->stepping->computeOneStep();
   parts_->impulses.clear();
   for (Parts::Link& link : parts_->links) {

@@ -49,8 +49,10 @@ struct SystemPlan {
   std::vector<ImpactLaw> on_surfaces;           ///< by body × surface
   std::vector<std::optional<ImpactLaw>> pairs;  ///< of bodies i < j, in the order of i, then of j
   Vector3 gravity = Vector3::Zero();            ///< [m/s²]
-  double time_step = 0;                         ///< [s]
-  bool rolls = false;  ///< all contacts have five dimensions: a torque beside the force
+  /// Of the plane that the world is seen from, since the start [m/s²]; empty: none.
+  std::function<Vector3(double time)> plane_acceleration;
+  double time_step = 0;  ///< [s]
+  bool rolls = false;    ///< all contacts have five dimensions: a torque beside the force
   double theta = 0.5;
   Solver solver = Solver::nsgs;
   double tolerance = 0;

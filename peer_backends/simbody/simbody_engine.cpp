@@ -156,7 +156,11 @@ class SimbodyEngine final : public Engine {
     start_time_ = time;
     blown_up_ = false;
     states_ = setup_->frame.enter(states, time);
-    world_ = std::make_unique<System>(plan_of(setup_->scene, setup_->settings, states_, time));
+    SystemPlan plan = plan_of(setup_->scene, setup_->settings, states_, time);
+    const MovingFrame& frame = setup_->frame;
+    if (frame.is_accelerated())
+      plan.plane_acceleration = [frame](double since) { return frame.acceleration(since); };
+    world_ = std::make_unique<System>(plan);
   }
 
   void step() override {
@@ -217,10 +221,12 @@ class SimbodyEngine final : public Engine {
     frame.part = seen.part;
     const double time = (static_cast<double>(steps_) - 1 + seen.part) * setup_->time_step;
     const double length = seen.length * setup_->time_step;
-    if (!blown_up_)
-      frame.touches = momentum_touches(setup_->scene, seen.before, seen.after, length,
-                                       start_time_ + time - length);
+    std::vector<BodyState> before = seen.before;
+    setup_->frame.leave(before, time - length);
     setup_->frame.leave(frame.bodies, time);
+    if (!blown_up_)
+      frame.touches = momentum_touches(setup_->scene, before, frame.bodies, length,
+                                       start_time_ + time - length);
     return frame;
   }
 

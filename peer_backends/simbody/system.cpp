@@ -32,6 +32,28 @@ std::unique_ptr<SimTK::Integrator> make_integrator(const SimTK::System& system,
   return made;
 }
 
+/// What balls weigh beyond gravity as seen from a plane that is accelerated.
+class Shaking final : public SimTK::Force::Custom::Implementation {
+ public:
+  Shaking(std::vector<SimTK::MobilizedBody::Free> balls, const SystemPlan& plan)
+      : balls_(std::move(balls)), acceleration_(plan.plane_acceleration) {
+    for (const Sphere& sphere : plan.bodies) masses_.push_back(sphere.mass);
+  }
+  void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& on_bodies,
+                 SimTK::Vector_<Vec3>&, SimTK::Vector&) const override {
+    const Vec3 acceleration = to_simbody(acceleration_(state.getTime()));
+    for (std::size_t i = 0; i < balls_.size(); ++i)
+      on_bodies[balls_[i].getMobilizedBodyIndex()] +=
+          SimTK::SpatialVec(Vec3(0), -masses_[i] * acceleration);
+  }
+  SimTK::Real calcPotentialEnergy(const SimTK::State&) const override { return 0; }
+
+ private:
+  std::vector<SimTK::MobilizedBody::Free> balls_;
+  std::vector<double> masses_;
+  std::function<Vector3(double)> acceleration_;
+};
+
 }  // namespace
 
 struct System::Parts {
@@ -42,6 +64,7 @@ struct System::Parts {
       const SimTK::Body::Rigid body(SimTK::MassProperties(sphere.mass, Vec3(0), inertia));
       balls.emplace_back(matter.Ground(), body);
     }
+    if (plan.plane_acceleration) SimTK::Force::Custom(forces, new Shaking(balls, plan));
     for (const SurfacePlan& surface : plan.surfaces) add_carrier(surface);
     std::size_t pair = 0;
     for (std::size_t i = 0; i < balls.size(); ++i) {

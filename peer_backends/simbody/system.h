@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -34,7 +35,9 @@ struct SystemPlan {
   std::vector<HuntCrossley> on_surfaces;  ///< by body × surface
   std::vector<HuntCrossley> pairs;        ///< of bodies i < j, in the order of i, then of j
   Vector3 gravity = Vector3::Zero();      ///< [m/s²]
-  double transition_velocity = 0;         ///< [m/s]
+  /// Of the plane that the world is seen from, since the start [m/s²]; empty: none.
+  std::function<Vector3(double time)> plane_acceleration;
+  double transition_velocity = 0;  ///< [m/s]
   IntegratorKind integrator = IntegratorKind::runge_kutta_merson;
   double accuracy = 0;
   bool interpolate = true;

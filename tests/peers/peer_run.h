@@ -97,6 +97,38 @@ inline Scene belt(double speed) {
   return scene;
 }
 
+/// A ball that rolls on a shaken substrate from `begin` [s] on.
+inline Scene ball_on_shaker(double begin) {
+  Scene scene = scene_of(steel_ball(0.01), {sliding_ball(0)}, ground_with_friction(0.3));
+  scene.motion = SubstrateMotion::oscillation({0.004, -0.003}, 5, 0.7);
+  scene.initial[0].angular_velocity = rolling_angular_velocity(-scene.motion.velocity(begin), 0.01);
+  return scene;
+}
+
+/// It keeps its angular momentum about its path on the substrate, so that v = 2/7 (v_S + u) + const
+/// with its slip u. By how much v in any of 100 steps is not 2/7 v_S + const [m/s], and the place
+/// not its integral, over the time [m/s]. The scene is configured.
+inline double shaker_error(RemoteEngine& engine, const Scene& scene, double begin, double rate) {
+  engine.start(scene.initial, begin);
+  const SubstrateMotion& motion = scene.motion;
+  const Vector3 at_first = motion.velocity(begin);
+  double worst = 0, since = 0;
+  int n = 0;
+  engine.advance(100, [&](const Frame& frame) {
+    if (frame.part < 1) return;
+    since = ++n / rate;
+    const Vector3 way = motion.position(begin + since) - motion.position(begin) - since * at_first;
+    const Vector3 velocity = motion.velocity(begin + since) - at_first;
+    const BodyState& ball = frame.bodies[0];
+    worst = std::max(
+        {worst, (ball.velocity - 2.0 / 7 * velocity).head<2>().norm(),
+         (ball.position - scene.initial[0].position - 2.0 / 7 * way).head<2>().norm() / since});
+    EXPECT_EQ(frame.touches.size(), 1u) << since;
+  });
+  EXPECT_EQ(n, 100);
+  return worst;
+}
+
 /// A ball that spins about the vertical, on a plane of this drilling length.
 inline Scene spinning_top(double drilling_length, double spin) {
   SubstrateContact ground = ground_with_friction(0.3);

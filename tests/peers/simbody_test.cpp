@@ -5,6 +5,7 @@
 #include "../scenes.h"
 #include "../support/refusal.h"
 #include "engine/lacks.h"
+#include "peer_run.h"
 #include "simbody_bare.h"
 #include "worker_run.h"
 
@@ -15,10 +16,6 @@ std::string executable() { return test::peer_executable("simbody"); }
 
 const Settings kPrecise = {
     {"accuracy", 1e-7}, {"transition_velocity", 1e-4}, {"modulus", 2e10}, {"interpolate", false}};
-
-double number(const Applied& applied, const std::string& name) {
-  return std::get<double>(applied.settings.at(name));
-}
 
 void expect_same_bits(const Scene& scene, const std::vector<test::BareBall>& balls) {
   RemoteEngine engine(executable(), test::kPatient);
@@ -106,14 +103,28 @@ TEST(Simbody, EveryStartIsTheSame) {
     ASSERT_EQ(std::memcmp(first[n].bodies.data(), second[n].bodies.data(), 2 * 72), 0);
 }
 
+/// Below the transition velocity friction grows with the slip, up to the coefficient: here 0.3 for
+/// 2/7 a_S, so that the slip is less than that velocity.
+TEST(Simbody, AShakenSubstrateCarriesABallThatRolls) {
+  constexpr double kBegin = 0.03, kRate = 240;
+  const Scene scene = test::ball_on_shaker(kBegin);
+  ASSERT_LT(2.0 / 7 * scene.motion.largest_acceleration(), 0.3 * kGravity);
+  const Settings settings = test::peer_profile("simbody", "physical");
+  RemoteEngine engine(executable(), test::kPatient);
+  engine.configure(scene, settings, 1 / kRate);
+  const double slip = std::get<double>(settings.at("transition_velocity"));
+  ASSERT_LT(slip, 1e-2 * scene.motion.largest_speed());
+  EXPECT_LT(test::shaker_error(engine, scene, kBegin, kRate), 2.0 / 7 * slip);
+}
+
 TEST(Simbody, RefusesWithTheReason) {
   RemoteEngine engine(executable(), test::kPatient);
   const auto refusal = [&](const EngineScene& scene) {
     return test::refusal_of<Refused>([&] { engine.configure(scene, {}, 1e-3); });
   };
   Scene scene = test::slide_to_roll();
-  scene.motion = SubstrateMotion::oscillation({0.1, 0}, 5, 0);
-  EXPECT_EQ(refusal(scene), "simbody: a substrate that moves at other than constant velocity");
+  scene.motion = SubstrateMotion::table({{0, {0, 0}}, {1, {0.1, 0}}});
+  EXPECT_EQ(refusal(scene), "simbody: a substrate that moves by a table, whose velocity jumps");
   scene = test::slide_to_roll();
   scene.periodic = {1, 1};
   EXPECT_TRUE(refusal(scene).starts_with("simbody: the substrate repeats itself"));
