@@ -169,8 +169,8 @@ class StepLoop final : public StepKernel {
       between.head<2>() -= near.shift;
       const double distance2 = between.squaredNorm();
       if (distance2 <= reach * reach)
-        meet(world, a, b, pair, law_of(near.first, near.second), between,
-             overlapping(distance2, reach));
+        meet(world, a, b, pair, law_of(near.first, near.second), between, reach,
+             std::sqrt(distance2));
       else if (pair.touching)
         part(world, a, b, pair, law_of(near.first, near.second), between, reach,
              std::sqrt(distance2));
@@ -194,7 +194,7 @@ class StepLoop final : public StepKernel {
         const Vector3 between = a.position - b.position;
         const double distance2 = between.squaredNorm();
         if (distance2 <= reach * reach)
-          meet(world, a, b, pairs_[k], law_of(i, j), between, overlapping(distance2, reach));
+          meet(world, a, b, pairs_[k], law_of(i, j), between, reach, std::sqrt(distance2));
         else if (pairs_[k].touching)
           part(world, a, b, pairs_[k], law_of(i, j), between, reach, std::sqrt(distance2));
       }
@@ -229,12 +229,12 @@ class StepLoop final : public StepKernel {
 
   /// Two bodies that overlap.
   [[gnu::always_inline]] void meet(StepWorld& world, StepBody& a, StepBody& b, Pair& pair,
-                                   const Law& law, const Vector3& between,
-                                   const Overlapping& two) {
-    // Products first that need not wait for the distance.
+                                   const Law& law, const Vector3& between, double reach,
+                                   double distance) {
+    // Products first that need not wait for the root and the division.
     const Vector3 dv = (a.velocity - b.velocity) + 0.5 * (a.velocity_change - b.velocity_change);
-    const double parting = between.dot(dv), inverse = two.inverse_distance;
-    const double overlap = two.overlap, closing = -parting * inverse;
+    const double parting = between.dot(dv), inverse = 1 / distance;
+    const double overlap = reach - distance, closing = -parting * inverse;
     const Vector3 n = between * inverse;
     const double normal = law.normal(overlap, closing);
     if ((law.clamped && normal <= 0) || (overlap <= 0 && closing <= 0)) [[unlikely]] {

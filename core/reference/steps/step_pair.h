@@ -10,33 +10,6 @@
 
 namespace slipcheck {
 
-/// Of two spheres whose centres are closer than `reach`.
-struct Overlapping {
-  double overlap = 0;           ///< ξ [m]
-  double inverse_distance = 0;  ///< of the centres [1/m]
-};
-
-/// distance2 [m²]: of the centres, <= reach². A step of a pair is a chain of operations that wait
-/// for each other, and a root and a division are the longest of them: where the overlap is small,
-/// series in s = 1 − d²/reach² take their place, d = reach √(1 − s), to the last bit but one.
-[[gnu::always_inline]] inline Overlapping overlapping(double distance2, double reach) {
-  constexpr double kSmall = 1.0 / 256;  // s⁷ is beyond the last bit
-  const double inverse_reach = 1 / reach;
-  const double s = (reach * reach - distance2) * (inverse_reach * inverse_reach);
-  if (s < kSmall) [[likely]] {
-    const double s2 = s * s, s4 = s2 * s2;
-    const double rooted =  // (1 − √(1 − s))/s
-        ((0.5 + 0.125 * s) + s2 * (0.0625 + 0.0390625 * s)) +
-        s4 * ((0.02734375 + 0.0205078125 * s) + 0.01611328125 * s2);
-    const double inverse =  // 1/√(1 − s)
-        ((1 + 0.5 * s) + s2 * (0.375 + 0.3125 * s)) +
-        s4 * ((0.2734375 + 0.24609375 * s) + 0.2255859375 * s2);
-    return {reach * s * rooted, inverse_reach * inverse};
-  }
-  const double distance = std::sqrt(distance2);
-  return {reach - distance, 1 / distance};
-}
-
 // Tangential laws as the fixed-step solver sees them. Each has
 //   History      what the contact remembers,
 //   begin()      the bodies touched `since` [s] ago,
