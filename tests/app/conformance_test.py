@@ -228,7 +228,7 @@ class Conformance(unittest.TestCase):
 
     def test_lammps_takes_many(self):
         result, checks = conformance("lammps", "--only", "skip,packed bodies")
-        if not checks:
+        if result.returncode == 2:
             self.skipTest("no LAMMPS here")
         self.assertEqual(result.returncode, 0, result.stdout)
         self.assertEqual({check["verdict"] for check in checks.values()}, {"passed"})

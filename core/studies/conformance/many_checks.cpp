@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
+#include <utility>
 
 #include "engine/scene_needs.h"
 #include "studies/conformance/checks.h"
