@@ -197,31 +197,55 @@ Extent extent_of(std::span<const NearSphere> spheres, const Vector2& periodic) {
   return extent;
 }
 
-/// Those of one share of a level's spheres, in any order.
-void find(const std::vector<Level>& levels, std::size_t level, std::size_t first, std::size_t last,
-          double skin, const Vector2& periodic, std::vector<NearPair>& found) {
-  const bool repeats = !periodic.isZero(0);
-  for (std::size_t p = first; p < last; ++p) {
-    const NearSphere& own = levels[level].sphere(p);
-    const std::uint32_t i = levels[level].body(p);
-    const auto look_at = [&](const Level& others) {
-      return [&](std::uint32_t begin, std::uint32_t end) {
-        for (std::uint32_t q = begin; q < end; ++q) {
-          const NearSphere& other = others.sphere(q);
-          Vector3 apart = own.position - other.position;
-          if (repeats) apart = to_nearest_image(apart, periodic);
-          const double reach = own.radius + other.radius + skin;
-          if (!(apart.squaredNorm() <= reach * reach)) continue;
-          const std::uint32_t j = others.body(q);
-          found.push_back({std::min(i, j), std::max(i, j)});
-        }
-      };
-    };
-    levels[level].behind(p, own.position, look_at(levels[level]));
-    for (std::size_t coarse = 0; coarse < level; ++coarse)
-      levels[coarse].around(own.position, look_at(levels[coarse]));
+/// What is looked for in shares of some bodies.
+class Search {
+ public:
+  Search(std::span<const NearSphere> spheres, double skin, const Vector2& periodic)
+      : levels_(levels_of(spheres, extent_of(spheres, periodic), skin)),
+        skin_(skin),
+        periodic_(periodic) {
+    for (std::size_t k = 0; k < levels_.size(); ++k)
+      for (std::size_t first = 0; first < levels_[k].size(); first += kShare)
+        shares_.push_back({k, first, std::min(first + kShare, levels_[k].size())});
   }
-}
+
+  std::size_t shares() const { return shares_.size(); }
+
+  /// Those of one share, in any order.
+  void find(std::size_t share, std::vector<NearPair>& found) const {
+    const auto& [level, first, last] = shares_[share];
+    const bool repeats = !periodic_.isZero(0);
+    for (std::size_t p = first; p < last; ++p) {
+      const NearSphere& own = levels_[level].sphere(p);
+      const std::uint32_t i = levels_[level].body(p);
+      const auto look_at = [&](const Level& others) {
+        return [&](std::uint32_t begin, std::uint32_t end) {
+          for (std::uint32_t q = begin; q < end; ++q) {
+            const NearSphere& other = others.sphere(q);
+            Vector3 apart = own.position - other.position;
+            if (repeats) apart = to_nearest_image(apart, periodic_);
+            const double reach = own.radius + other.radius + skin_;
+            if (!(apart.squaredNorm() <= reach * reach)) continue;
+            const std::uint32_t j = others.body(q);
+            found.push_back({std::min(i, j), std::max(i, j)});
+          }
+        };
+      };
+      levels_[level].behind(p, own.position, look_at(levels_[level]));
+      for (std::size_t coarse = 0; coarse < level; ++coarse)
+        levels_[coarse].around(own.position, look_at(levels_[coarse]));
+    }
+  }
+
+ private:
+  struct Share {
+    std::size_t level, first, last;
+  };
+  std::vector<Level> levels_;
+  std::vector<Share> shares_;
+  double skin_;
+  Vector2 periodic_;
+};
 
 /// By first and then second: the first ones by counting.
 std::vector<NearPair> sorted(const std::vector<std::vector<NearPair>>& parts, std::size_t bodies) {
@@ -248,23 +272,26 @@ double near_skin(double speed, double step, double radius) {
 std::vector<NearPair> near_pairs(std::span<const NearSphere> spheres, double skin,
                                  const Vector2& periodic, ThreadTeam* team) {
   if (spheres.size() < 2) return {};
-  const std::vector<Level> levels = levels_of(spheres, extent_of(spheres, periodic), skin);
-  struct Share {
-    std::size_t level, first, last;
-  };
-  std::vector<Share> shares;
-  for (std::size_t k = 0; k < levels.size(); ++k)
-    for (std::size_t first = 0; first < levels[k].size(); first += kShare)
-      shares.push_back({k, first, std::min(first + kShare, levels[k].size())});
-  std::vector<std::vector<NearPair>> parts(shares.size());
-  const auto look = [&](std::size_t s) {
-    find(levels, shares[s].level, shares[s].first, shares[s].last, skin, periodic, parts[s]);
-  };
+  const Search search(spheres, skin, periodic);
+  std::vector<std::vector<NearPair>> parts(search.shares());
+  const auto look = [&](std::size_t share) { search.find(share, parts[share]); };
   if (team)
-    team->run(shares.size(), look);
+    team->run(search.shares(), look);
   else
-    for (std::size_t s = 0; s < shares.size(); ++s) look(s);
+    for (std::size_t share = 0; share < search.shares(); ++share) look(share);
   return sorted(parts, spheres.size());
+}
+
+void near_pairs_in_shares(std::span<const NearSphere> spheres, double skin, const Vector2& periodic,
+                          const std::function<void(std::span<const NearPair>)>& take) {
+  if (spheres.size() < 2) return;
+  const Search search(spheres, skin, periodic);
+  std::vector<NearPair> found;
+  for (std::size_t share = 0; share < search.shares(); ++share) {
+    found.clear();
+    search.find(share, found);
+    take(found);
+  }
 }
 
 }  // namespace slipcheck

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,11 @@ struct NearPair {
 std::vector<NearPair> near_pairs(std::span<const NearSphere> spheres, double skin,
                                  const Vector2& periodic = Vector2::Zero(),
                                  ThreadTeam* team = nullptr);
+
+/// The same pairs in any order, without a list of all: take() has some thousands of bodies' at a
+/// time.
+void near_pairs_in_shares(std::span<const NearSphere> spheres, double skin, const Vector2& periodic,
+                          const std::function<void(std::span<const NearPair>)>& take);
 
 /// How thick a skin [m] pays: that which bodies as fast as `speed` [m/s] come through in some 30
 /// steps of `step` [s], from 0.1 to 0.6 of `radius` [m]. Thinner ones are looked for too often,

@@ -31,7 +31,7 @@ Averages average(int dimensions, const GasLaw& law, const Sphere& sphere, double
     return std::pair{0.5 * sphere.mass * a.velocity.squaredNorm(),
                      0.5 * sphere.moment_of_inertia() * a.angular_velocity.squaredNorm()};
   };
-  double weights = 0, squares = 0;
+  double weights = 0;
   double t = 0, tt = 0, r = 0, rr = 0;
   for (std::size_t k = 0; k < pairs; ++k) {
     BodyState a, b;
@@ -49,7 +49,6 @@ Averages average(int dimensions, const GasLaw& law, const Sphere& sphere, double
     const double dt = energy(a).first + energy(b).first - ta - tb;
     const double dr = energy(a).second + energy(b).second - ra - rb;
     weights += flux;
-    squares += flux * flux;
     t += flux * dt, tt += flux * flux * dt * dt;
     r += flux * dr, rr += flux * flux * dr * dr;
   }

@@ -464,11 +464,15 @@ TEST(BrilliantovErratum, B40GainTermTakesTheJacobianOfTheCollision) {
     Eigen::MatrixXd columns(size, size);
     const auto collided = [&](int i, double h) {
       HardPair pair = before;
-      if (planar) pair.sa.position = 0.005 * n.cross(k).normalized();
       for (BodyState* s : {&pair.sa, &pair.sb}) {
         if (!planar) break;
         s->velocity.z() = 0;
         s->angular_velocity = s->angular_velocity.z() * k;
+      }
+      if (planar) {  // on the side from which they approach
+        const Vector3 side = 0.005 * n.cross(k).normalized();
+        pair.sa.position =
+            (pair.sa.velocity - pair.sb.velocity).dot(side) < 0 ? side : Vector3(-side);
       }
       const auto value = [&](int j) -> double& {
         BodyState& s = j < size / 2 ? pair.sa : pair.sb;

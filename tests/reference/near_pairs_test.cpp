@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -69,6 +70,25 @@ TEST(NearPairs, AreFoundWhereverBodiesLie) {
   EXPECT_EQ(near_pairs(std::vector<NearSphere>(1), 0.1), std::vector<NearPair>{});
   const auto row = random_spheres(400, 3, {500, 0, 0}, 6);
   EXPECT_EQ(near_pairs(row, 0.1), all_near(row, 0.1, Vector2::Zero()));
+}
+
+TEST(NearPairs, InSharesAreTheSameWithoutAListOfAll) {
+  for (const Vector2& periodic : {Vector2(0, 0), Vector2(40, 0)}) {
+    const auto spheres = random_spheres(9000, 3, {40, 40, 40}, 11);
+    std::vector<NearPair> found;
+    std::size_t shares = 0, most = 0;
+    near_pairs_in_shares(spheres, 0.2, periodic, [&](std::span<const NearPair> pairs) {
+      found.insert(found.end(), pairs.begin(), pairs.end());
+      ++shares;
+      most = std::max(most, pairs.size());
+    });
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, all_near(spheres, 0.2, periodic));
+    EXPECT_GT(shares, 4u);
+    EXPECT_LT(most, found.size() / 2);
+  }
+  near_pairs_in_shares(std::vector<NearSphere>(1), 0.1, Vector2::Zero(),
+                       [](std::span<const NearPair>) { ADD_FAILURE() << "one has no pairs"; });
 }
 
 TEST(NearPairs, AreTheSameOnAnyNumberOfThreads) {

@@ -23,7 +23,8 @@ Scene gas(std::size_t side, double spacing, double speed, const Vector2& middle,
     const double jitter = 0.45 * (spacing - 0.004);
     const double x = low + spacing * (static_cast<double>(i % side) + 0.5) + jitter * u();
     const double y = low + spacing * (static_cast<double>(i / side) + 0.5) + jitter * u();
-    scene.initial[i] = test::rolling_at(middle.x() + x, middle.y() + y, speed * u(), speed * u());
+    const double v_y = speed * u(), v_x = speed * u();  // arguments are drawn in any order
+    scene.initial[i] = test::rolling_at(middle.x() + x, middle.y() + y, v_x, v_y);
   }
   return scene;
 }
@@ -99,8 +100,8 @@ Scene dense_gas(std::size_t side, double spacing, double speed, unsigned seed) {
     const std::size_t row = i / side;
     const double x = spacing * (static_cast<double>(i % side) + (row % 2 == 0 ? 0.0 : 0.5));
     const double y = spacing * std::sqrt(0.75) * static_cast<double>(row);
-    scene.initial[i] =
-        test::rolling_at(x + jitter * u(), y + jitter * u(), speed * u(), speed * u());
+    const double v_y = speed * u(), v_x = speed * u(), d_y = jitter * u(), d_x = jitter * u();
+    scene.initial[i] = test::rolling_at(x + d_x, y + d_y, v_x, v_y);
   }
   return scene;
 }

@@ -234,11 +234,18 @@ ContactScene random_collision(unsigned seed) {
     c.drilling_length = 2.0 / 3 * 1e-4 * c.kinetic_friction;
   }
   if (seed % 5 == 0) hard.downhill = {within(-1, 1), within(-1, 1)};
-  if (seed % 4 == 0)
-    hard.motion = SubstrateMotion::oscillation({within(0, 0.01), within(0, 0.01)}, 5, within(0, 6));
+  if (seed % 4 == 0) {
+    const double phase = within(0, 6);
+    hard.motion = SubstrateMotion::oscillation({within(0, 0.01), within(0, 0.01)}, 5, phase);
+  }
   hard.confined = seed % 6 == 1;
-  hard.initial[0] = test::rolling_at(-0.00195, 0, within(0.05, 0.3), within(-0.05, 0.05));
-  hard.initial[1] = test::rolling_at(0.00195, 0.001, -within(0.05, 0.3), within(-0.05, 0.05));
+  const auto speeds = [&] {  // arguments would be drawn in any order
+    const double across = within(-0.05, 0.05), along = within(0.05, 0.3);
+    return Vector2(along, across);
+  };
+  const Vector2 first = speeds(), second = speeds();
+  hard.initial[0] = test::rolling_at(-0.00195, 0, first.x(), first.y());
+  hard.initial[1] = test::rolling_at(0.00195, 0.001, -second.x(), second.y());
   if (seed % 2 == 0)
     for (BodyState& body : hard.initial)
       body.angular_velocity = {within(-50, 50), within(-50, 50), within(-100, 100)};

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 
 #include "../support/as_nobody.h"
+#include "../support/cpu_time.h"
 #include "../support/in_folder.h"
 #include "scenario/file_text.h"
 #include "scenes.h"
@@ -20,9 +20,7 @@ using namespace testing;
 
 class HostileFile : public test::InFolder {
  protected:
-  ~HostileFile() override {
-    EXPECT_LT(std::chrono::steady_clock::now() - start_, std::chrono::seconds(5));
-  }
+  ~HostileFile() override { EXPECT_LT(took_(), 5 * test::kSlower); }
 
   fs::path path(const std::string& name) const { return folder_ / name; }
   fs::path write(const std::string& text) const {
@@ -39,7 +37,7 @@ class HostileFile : public test::InFolder {
   }
 
  private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  test::CpuTime took_;
 };
 
 TEST_F(HostileFile, NotThere) {

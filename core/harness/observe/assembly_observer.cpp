@@ -13,9 +13,6 @@ namespace {
 constexpr double kFastest = 5;           // root mean squares
 constexpr std::size_t kVelocities = 50;  // intervals
 constexpr double kFurthest = 4;          // mean diameters
-/// In space a body has some 250 others in that distance, all of which are listed at once: of more
-/// bodies than so many only those in half of it are.
-constexpr std::size_t kMostFar = 200'000;
 constexpr std::size_t kDistances = 100;  // intervals
 /// Below this part of the fastest speed in the run nothing moves.
 constexpr double kStill = 1e-9;
@@ -125,20 +122,24 @@ void AssemblyObserver::add_pairs(const std::vector<BodyState>& bodies) {
   Histogram& seen = assembly_.pairs;
   const double d = assembly_.mean_diameter;
   // Points, found within a distance: of spheres half as large the surfaces are in touch.
-  const double furthest =
-      std::min((bodies.size() > kMostFar ? 0.5 : 1) * kFurthest * d, region.longest());
+  const double furthest = std::min(kFurthest * d, region.longest());
   std::vector<NearSphere> points;
   points.reserve(bodies.size());
   for (const BodyState& body : bodies) {
     points.push_back({body.position, 0.5 * d});
     if (region.flat) points.back().position.z() = 0;
   }
-  for (const auto& [i, j] : near_pairs(points, std::max(0.0, furthest - d), hard.periodic)) {
-    const Vector3 apart = hard.to_nearest_image(points[i].position - points[j].position);
-    const double place = std::floor(apart.norm() / d / seen.width);
-    if (place < static_cast<double>(seen.counts.size()) && (place + 1) * seen.width * d <= furthest)
-      ++seen.counts[static_cast<std::size_t>(place)];
-  }
+  const auto count = [&](std::span<const NearPair> pairs) {
+    for (const auto& [i, j] : pairs) {
+      const Vector3 apart = hard.to_nearest_image(points[i].position - points[j].position);
+      const double place = std::floor(apart.norm() / d / seen.width);
+      if (place < static_cast<double>(seen.counts.size()) &&
+          (place + 1) * seen.width * d <= furthest)
+        ++seen.counts[static_cast<std::size_t>(place)];
+    }
+  };
+  // In space a body has some 250 others in that distance.
+  near_pairs_in_shares(points, std::max(0.0, furthest - d), hard.periodic, count);
   for (std::size_t k = 0; k < seen.counts.size(); ++k) {
     if ((static_cast<double>(k) + 1) * seen.width * d > furthest) break;
     // By Simpson's rule, of polynomials of third degree in a plane and of fifth in space.
