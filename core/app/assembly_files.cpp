@@ -28,13 +28,12 @@ struct StreamedScene {
       : scenario(of), stream(scenario, folder, std::move(stem), form) {}
 };
 
-/// "lammps-double-default-1000Hz"
+}  // namespace
+
 std::string words_of(const EngineRecord& run) {
   return fmt::format("{}-{}-{}-{:g}Hz", run.engine, run.precision,
                      fs::path(run.profile).filename().string(), run.rate);
 }
-
-}  // namespace
 
 void AssemblyFiles::add_to(std::map<std::string, ReferenceExtras>& extras,
                            const std::vector<Scenario>& scenarios) const {

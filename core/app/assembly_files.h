@@ -9,6 +9,9 @@
 
 namespace slipcheck {
 
+/// The run of an engine in the name of a file: "lammps-double-default-1000Hz".
+std::string words_of(const EngineRecord& run);
+
 /// What --assembly asks for.
 struct AssemblyFiles {
   std::string folder;         ///< empty: nothing

@@ -147,18 +147,6 @@ std::string command_of(const RunArguments& arguments) {
   return command;
 }
 
-/// Of what has come to its end; the others can go on.
-void remove_checkpoints(const CheckpointFiles& files, const std::vector<SceneRecord>& scenes) {
-  for (const SceneRecord& scene : scenes) {
-    if (files.folder.empty() || !files.exists(scene.scenario)) continue;
-    if (!scene.reference.run.failed)
-      files.remove(scene.scenario);
-    else
-      say("{}: its state is kept in {}; --resume goes on from there\n", scene.scenario.name,
-          files.file_of(scene.scenario).string());
-  }
-}
-
 int run(RunArguments& arguments) {
   if (arguments.checkpoints.resume && arguments.checkpoints.folder.empty())
     throw BadOption("--resume: needs --checkpoint, the folder to go on from");
@@ -181,6 +169,8 @@ int run(RunArguments& arguments) {
                         scenario.name));
   arguments.assembly.add_to(arguments.options.extras, scenarios);
   arguments.checkpoints.add_to(arguments.options.extras, scenarios);
+  if (arguments.options.whole)
+    arguments.options.keep_run = arguments.checkpoints.of_runs(arguments.options.extras);
   arguments.options.stop = &interrupted();
   arguments.options.record_motion = arguments.outputs.show_motion() || !arguments.directory.empty();
   if (is_debug_build() && !arguments.quiet)
@@ -194,7 +184,7 @@ int run(RunArguments& arguments) {
   }
   content.commands = {command_of(arguments)};
   write_results(arguments, content);
-  remove_checkpoints(arguments.checkpoints, content.scenes);
+  arguments.checkpoints.settle(content.scenes);
   const std::vector<SceneRecord>& scenes = content.scenes;
   if (!arguments.quiet) {
     if (arguments.json != "-") {
@@ -290,16 +280,17 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_flag("--engines-only", arguments->assembly.engines_only,
                     "With --whole: leave out the reference, where it would take too long");
   command->add_option("--checkpoint", arguments->checkpoints.folder,
-                      "Keep the state of long references in this folder on their way: of contacts "
-                      "that last, in steps");
+                      "Keep the state of long runs in this folder on their way: of references in "
+                      "steps, contacts that last, and with --whole of engines too");
   command
       ->add_option("--checkpoint-every", arguments->checkpoints.every,
                    "Wall-clock seconds from one checkpoint to the next")
       ->check(number_range(0.0, 1e9))
       ->capture_default_str();
-  command->add_flag("--resume", arguments->checkpoints.resume,
-                    "Go on from what --checkpoint has kept, with the same results; without any "
-                    "from the start");
+  command->add_flag(
+      "--resume", arguments->checkpoints.resume,
+      "Go on from what --checkpoint has kept, with the same results of the reference; "
+      "without any from the start");
   add_set_option(*command, arguments->settings);
   add_general_option(*command, arguments->options.general);
   command->add_flag("--all", arguments->all,

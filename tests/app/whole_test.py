@@ -4,10 +4,12 @@
 usage: whole_test.py SLIPCHECK
 """
 import csv
+import json
 import math
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -108,6 +110,73 @@ class Whole(unittest.TestCase):
         self.assertEqual([time for time, _ in times], [0, 0.05, 0.1])
         self.assertIn("reference  left out", said)
         self.assertIn("not judged", said.splitlines()[0])
+
+    def go_on(self, *arguments):
+        """Kills a run once it has something to go on from, and goes on. What it says, and of its
+        series the number of samples that were kept."""
+        words = ("gas.yaml", "--assembly", "out", "--whole", "--engines-only", *arguments,
+                 "--checkpoint", "kept", "--checkpoint-every", "0")
+        process = subprocess.Popen([SLIPCHECK, "run", "--quiet", *words], cwd=self.path)
+        begin = time.monotonic()
+        while not list(self.path.glob("kept/gas.*Hz.checkpoint")) and time.monotonic() - begin < 100:
+            self.assertIsNone(process.poll())
+            time.sleep(0.001)
+        self.assertIsNone(process.poll())
+        process.kill()
+        process.wait()
+        self.assertFalse(list(self.path.glob("out/*.csv")))
+        code, said, wrong = self.run_it(*words)
+        self.assertEqual(code, 2, said + wrong)
+        self.assertIn("must not be there yet; --resume goes on from it", wrong)
+        code, said, wrong = self.run_it(*words, "--resume", "--set", "ranks=2" if "lammps" in words
+                                        else "erp=0.3")
+        self.assertEqual(code, 2, said + wrong)
+        self.assertIn("settings of engines", wrong)
+        code, said, wrong = self.run_it(*words, "--resume", "--json", "out.json")
+        self.assertEqual(code, 0, said + wrong)
+        self.assertEqual(list(self.path.glob("kept/*")), [])
+        run, = json.loads((self.path / "out.json").read_text())["runs"]
+        told, = [each for each in run["warnings"] if each.startswith("went on at ")]
+        return float(told.split()[3]), run["steps"]
+
+    def test_an_engine_goes_on_after_a_kill(self):
+        # Balls without weight that do not meet: what is kept of an engine is all that it has.
+        (self.path / "gas.yaml").write_text(
+            GAS.replace("gravity: 9.81", "gravity: 0").replace(f"count: {COUNT}", "count: 5")
+            .replace(f"speed: {SPEED}", "speed: 0.01"))
+        options = ("--engines", "bullet", "--precision", "double", "--samples", "501", "--rates", "1e5")
+        code, said, wrong = self.run_it("gas.yaml", "--assembly", "out", "--whole", "--engines-only",
+                                        *options)
+        self.assertEqual(code, 0, said + wrong)
+        name = "out/gas.bullet-double-default-100000Hz.series.csv"
+        alone = (self.path / name).read_text()
+        for table in self.path.glob("out/*.csv"):
+            table.unlink()
+        since, steps = self.go_on(*options)
+        self.assertTrue(0 < since < 0.1)
+        self.assertEqual(steps, 10000)
+        self.assertEqual((self.path / name).read_text(), alone)
+
+    @unittest.skipUnless(LAMMPS.exists(), "its worker is not built here")
+    def test_lammps_goes_on_after_a_kill(self):
+        options = ("--engines", "lammps", "--samples", "101", "--set", "collision_time=1e-3")
+        code, said, wrong = self.run_it("gas.yaml", "--assembly", "out", "--whole", "--engines-only",
+                                        *options)
+        self.assertEqual(code, 0, said + wrong)
+        name = "gas.lammps-double-default-1000Hz.series.csv"
+        alone = self.series(name, "kinetic_energy")
+        for table in self.path.glob("out/*.csv"):
+            table.unlink()
+        since, _ = self.go_on(*options)
+        pieces = self.series(name, "kinetic_energy")
+        kept = sum(time <= since * (1 + 1e-9) for time, _ in alone)
+        self.assertGreater(kept, 1)
+        self.assertEqual(pieces[:kept], alone[:kept])
+        # Rounding and the damping of contacts that last just then: of the next millisecond, in which
+        # a ball loses some 1 % of its energy, not a hundredth.
+        self.assertAlmostEqual(pieces[kept][1] / alone[kept][1], 1, delta=1e-4)
+        self.assertAlmostEqual((pieces[0][1] - pieces[-1][1]) / (alone[0][1] - alone[-1][1]), 1,
+                               delta=0.1)
 
     def test_refusals(self):
         for words, rule in (

@@ -1,6 +1,6 @@
 #include "harness/run/reference_keeper.h"
 
-#include <exception>
+#include <string_view>
 #include <utility>
 
 #include "harness/run/cpu_time.h"
@@ -18,7 +18,7 @@ void ObservedRun::exchange(StateArchive& archive) {
 }
 
 ReferenceKeeper::ReferenceKeeper(const Checkpoints& checkpoints)
-    : checkpoints_(&checkpoints), archive_(std::string_view(checkpoints.state)) {
+    : clock_(checkpoints), archive_(std::string_view(checkpoints.state)) {
   if (!checkpoints.state.empty()) archive_(finished_, resumes_, cpu_before_);
 }
 
@@ -44,12 +44,7 @@ void ReferenceKeeper::finish(const ObservedRun& run) {
   StateArchive archive;
   bool goes_on = false;
   archive(finished_, goes_on, cpu_before_);
-  write(archive);
-}
-
-bool ReferenceKeeper::is_due() {
-  const std::chrono::duration<double> since = std::chrono::steady_clock::now() - written_;
-  return since.count() >= checkpoints_->every;
+  clock_.write(archive);
 }
 
 void ReferenceKeeper::keep(const std::function<void(StateArchive&)>& write_solver) {
@@ -59,18 +54,7 @@ void ReferenceKeeper::keep(const std::function<void(StateArchive&)>& write_solve
   archive(finished_, goes_on, cpu);
   observers_(archive);
   write_solver(archive);
-  write(archive);
-}
-
-void ReferenceKeeper::write(StateArchive& archive) {
-  trouble_.clear();
-  try {
-    checkpoints_->write(archive.take());
-  } catch (const std::exception& fault) {
-    trouble_ = fault.what();
-  }
-  // From its end on: writing may take longer than the time between two.
-  written_ = std::chrono::steady_clock::now();
+  clock_.write(archive);
 }
 
 }  // namespace slipcheck

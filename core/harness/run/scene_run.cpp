@@ -65,13 +65,21 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
   const StopScope scope(options.stop);
   std::vector<std::vector<EngineRecord>> runs = requested_runs(
       scenarios, options.limits, options.stop, options.settings, options.general, options.whole);
+  std::vector<EngineTask> tasks;
+  std::vector<std::size_t> scene_of;  // each task's
+  for (std::size_t s = 0; s < scenarios.size(); ++s)
+    for (EngineRecord& record : runs[s]) {
+      if (!record.reason.empty()) continue;
+      scene_of.push_back(s);
+      EngineTask& task = tasks.emplace_back();
+      task.record = &record;
+      if (options.whole && options.keep_run)
+        task.checkpoints = std::make_shared<Checkpoints>(options.keep_run(scenarios[s], record));
+    }
   std::vector<PreparedScene> prepared =
       prepare_scenes(std::move(scenarios), options.general, options.workers, options.time_limit,
                      options.threads, options.extras.empty() ? nullptr : &options.extras);
-  std::vector<EngineTask> tasks;
-  for (std::size_t s = 0; s < prepared.size(); ++s)
-    for (EngineRecord& record : runs[s])
-      if (record.reason.empty()) tasks.push_back({&prepared[s], &record});
+  for (std::size_t k = 0; k < tasks.size(); ++k) tasks[k].scene = &prepared[scene_of[k]];
   run_engines(tasks, options);
   if (options.record_motion && !options.whole)
     for (PreparedScene& scene : prepared) record_motion_of(scene, options.time_limit);

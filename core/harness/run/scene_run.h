@@ -13,6 +13,7 @@
 #include "engine/worker_process.h"
 #include "harness/compare/record.h"
 #include "harness/observe/phase_watch.h"
+#include "harness/run/checkpoints.h"
 #include "harness/run/prepared_scene.h"
 
 namespace slipcheck {
@@ -38,6 +39,9 @@ struct RunOptions {
   double budget = std::numeric_limits<double>::infinity();
   /// By the scenes' names: what else is wanted of their references, as of prepare_scenes().
   std::map<std::string, ReferenceExtras> extras;
+  /// How a run of an engine that is looked at as a whole is kept on its way; empty: none is. Called
+  /// before anything runs.
+  std::function<Checkpoints(const Scenario&, const EngineRecord&)> keep_run;
   WorkerLimits limits;
   /// Its workers, started with these limits, serve one run after another; null: each run has its
   /// own.
@@ -52,7 +56,8 @@ struct RunOptions {
 struct EngineTask {
   const PreparedScene* scene = nullptr;
   EngineRecord* record = nullptr;
-  PhaseWatch* watch = nullptr;  ///< sees every frame too; not in a box
+  PhaseWatch* watch = nullptr;                               ///< sees every frame too; not in a box
+  std::shared_ptr<const Checkpoints> checkpoints = nullptr;  ///< of a look at the whole; or null
 };
 
 /// Runs the ensembles of these tasks in worker processes, several at once. What becomes of each is

@@ -1,9 +1,15 @@
 #include "harness/run/whole_run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/stop_scope.h"
 #include "harness/observe/assembly_observer.h"
@@ -37,39 +43,85 @@ void note_warnings(const ContactScene& scene, EngineRecord& record) {
                     budget.rise, 100 * budget.rise / budget.scale));
 }
 
+/// What another process needs to go on from the last sample.
+struct Progress {
+  AssemblyObserver observer;
+  EngineRecord* record;
+  Frame frame;  ///< at the last sample
+  std::size_t sample = 0;
+  std::vector<double> starts;  ///< times at which a process went on [s]
+
+  void exchange(StateArchive& archive) {
+    archive(observer, record->version, record->cpu_seconds, record->steps, frame.bodies, sample,
+            starts);
+  }
+};
+
+/// Goes on from a state that was kept. Throws Refused for one of another version of the engine.
+void resume(const std::string& state, double interval, Progress& progress) {
+  EngineRecord& record = *progress.record;
+  const std::string version = record.version;
+  StateArchive archive{std::string_view(state)};
+  archive(progress);
+  archive.finish();
+  const std::string kept = std::exchange(record.version, version);
+  if (kept != version)
+    throw Refused(
+        fmt::format("what was kept is of {} {}, and this is {}", record.engine, kept, version));
+  progress.starts.push_back(static_cast<double>(progress.sample) * interval);
+  record.warnings.push_back(
+      fmt::format("went on at {:g} s from bodies' states alone: not with the bits of a run in one "
+                  "piece",
+                  fmt::join(progress.starts, " s and ")));
+}
+
 }  // namespace
 
 void run_whole(RemoteEngine& engine, const EnsembleTask& task, std::size_t samples,
-               EngineRecord& record) {
+               EngineRecord& record, const Checkpoints* checkpoints) {
   const ContactScene& scene = task.solver->scene();
   record.version = engine.info().version;
   const double interval = last_time(task) / static_cast<double>(samples - 1);
-  const double steps = std::ceil(interval * record.rate * (1 - 1e-9));
-  if (!(steps >= 1 && steps < 1e9))
-    throw Refused(fmt::format("no samples of the whole: {:.3g} steps from one to the next", steps));
-  record.applied = engine.configure(EngineScene(scene), record.settings, interval / steps);
+  const double each = std::ceil(interval * record.rate * (1 - 1e-9));
+  if (!(each >= 1 && each < 1e9))
+    throw Refused(fmt::format("no samples of the whole: {:.3g} steps from one to the next", each));
+  record.applied = engine.configure(EngineScene(scene), record.settings, interval / each);
 
   const StopScope limit(task.time_limit);
   const double fastest = speed_scale(scene);
-  AssemblyObserver observer(scene, interval * static_cast<double>(samples - 1), samples);
-  Frame frame;
-  frame.bodies = scene.hard.initial;
-  observer.take(0, frame);
-  engine.start(frame.bodies);
-  for (std::size_t k = 1; k < samples; ++k) {
+  Progress progress{
+      .observer = {scene, interval * static_cast<double>(samples - 1), samples},
+      .record = &record,
+      .frame = {.bodies = scene.hard.initial},
+  };
+  Frame& frame = progress.frame;
+  std::optional<CheckpointClock> clock;
+  if (checkpoints) clock.emplace(*checkpoints);
+  if (checkpoints && !checkpoints->state.empty())
+    resume(checkpoints->state, interval, progress);
+  else
+    progress.observer.take(0, frame);
+  engine.start(frame.bodies, static_cast<double>(progress.sample) * interval);
+  while (progress.sample + 1 < samples) {
     heed_stop();
-    const auto count = static_cast<std::size_t>(steps);
+    const auto count = static_cast<std::size_t>(each);
     record.cpu_seconds += engine.skip(count, frame.bodies);
     record.steps += count;
-    const double time = static_cast<double>(k) * interval;
+    const double time = static_cast<double>(++progress.sample) * interval;
     record.reason = fault_of_state(frame, time, fastest + scene.hard.gravity * time);
     if (!record.reason.empty()) {
       record.status = EngineRecord::Status::unstable;
       return;
     }
-    observer.take(time, frame);
+    progress.observer.take(time, frame);
+    if (!clock || !clock->is_due()) continue;
+    StateArchive archive;
+    archive(progress);
+    clock->write(archive);
   }
-  record.assembly = observer.assembly();
+  if (clock && !clock->trouble().empty())
+    record.warnings.push_back("its state could not be kept on the way: " + clock->trouble());
+  record.assembly = progress.observer.assembly();
   record.status = EngineRecord::Status::ok;
   record.phases = 1;
   note_warnings(scene, record);
