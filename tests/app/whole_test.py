@@ -129,12 +129,12 @@ class Whole(unittest.TestCase):
         self.assertEqual(code, 2, said + wrong)
         self.assertIn("must not be there yet; --resume goes on from it", wrong)
         code, said, wrong = self.run_it(*words, "--resume", "--set", "ranks=2" if "lammps" in words
-                                        else "erp=0.3")
+                                        else "erp2=0.3")
         self.assertEqual(code, 2, said + wrong)
         self.assertIn("settings of engines", wrong)
         code, said, wrong = self.run_it(*words, "--resume", "--json", "out.json")
         self.assertEqual(code, 0, said + wrong)
-        self.assertEqual(list(self.path.glob("kept/*")), [])
+        self.assertEqual(list(self.path.glob("kept/*.checkpoint")), [])
         run, = json.loads((self.path / "out.json").read_text())["runs"]
         told, = [each for each in run["warnings"] if each.startswith("went on at ")]
         return float(told.split()[3]), run["steps"]

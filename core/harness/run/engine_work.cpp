@@ -66,7 +66,8 @@ EngineWork::EngineWork(const EngineTask& task, const RunOptions& options, std::s
 
 void EngineWork::run(RemoteEngine& engine, std::size_t part) {
   engine.limit_run(options_->time_limit);
-  if (samples_ > 0) return run_whole(engine, ensemble_, samples_, record(), task_.checkpoints.get());
+  if (samples_ > 0)
+    return run_whole(engine, ensemble_, samples_, record(), task_.checkpoints.get());
   if (records_motion_) recorder_.emplace(ensemble_.solver->scene().hard);
   EnsembleTask ensemble = ensemble_;
   if (recorder_) ensemble.watch = &*recorder_;

@@ -47,9 +47,9 @@ void note_warnings(const ContactScene& scene, EngineRecord& record) {
 struct Progress {
   AssemblyObserver observer;
   EngineRecord* record;
-  Frame frame;  ///< at the last sample
+  Frame frame = {};  ///< at the last sample
   std::size_t sample = 0;
-  std::vector<double> starts;  ///< times at which a process went on [s]
+  std::vector<double> starts = {};  ///< times at which a process went on [s]
 
   void exchange(StateArchive& archive) {
     archive(observer, record->version, record->cpu_seconds, record->steps, frame.bodies, sample,
@@ -89,12 +89,9 @@ void run_whole(RemoteEngine& engine, const EnsembleTask& task, std::size_t sampl
 
   const StopScope limit(task.time_limit);
   const double fastest = speed_scale(scene);
-  Progress progress{
-      .observer = {scene, interval * static_cast<double>(samples - 1), samples},
-      .record = &record,
-      .frame = {.bodies = scene.hard.initial},
-  };
+  Progress progress{{scene, interval * static_cast<double>(samples - 1), samples}, &record};
   Frame& frame = progress.frame;
+  frame.bodies = scene.hard.initial;
   std::optional<CheckpointClock> clock;
   if (checkpoints) clock.emplace(*checkpoints);
   if (checkpoints && !checkpoints->state.empty())
