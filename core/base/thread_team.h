@@ -27,7 +27,8 @@ class ThreadTeam {
 
   std::size_t size() const { return others_.size() + 1; }
 
-  /// Calls `work` with 0 … count − 1, each once, and returns when all have returned. What one of
+  /// Calls `work` with 0 … count − 1, each once, and returns when all have returned. As many as
+  /// there are threads go to the same thread each time. What one of
   /// them throws is thrown on then, of several that of the lowest number. What stops the calling
   /// thread stops them all. Nothing that `work` does may give work to the same team.
   template <class Work>
@@ -43,8 +44,10 @@ class ThreadTeam {
 
   void end();
   void share(std::size_t count, Call call, void* work);
+  void take_part(std::size_t own);
   void take_turns();
-  void wait_for_work();
+  void take(std::size_t k);
+  void wait_for_work(std::size_t own);
 
   Call call_ = nullptr;
   void* work_ = nullptr;

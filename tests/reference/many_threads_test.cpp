@@ -9,6 +9,7 @@
 #include "../../bench/soft_bed.h"
 #include "reference/piles/pile_solver.h"
 #include "reference/steps/grain_solver.h"
+#include "reference/steps/step_solver.h"
 
 namespace slipcheck {
 namespace {
@@ -67,6 +68,42 @@ TEST(ManyThreads, GiveTheBitsOfOneToGrainsInIslands) {
     const std::uint64_t alone = hash(1);
     for (const std::size_t threads : kThreads) EXPECT_EQ(hash(threads), alone) << threads;
   }
+}
+
+/// Spheres of unlike radii that rub, fall on a plane which swings, and bounce from it and each
+/// other: contacts begin and end under others that go on, and some press a third one down.
+ContactScene falling_on_a_swing(std::size_t count) {
+  ContactScene scene = bench::soft_bed({.count = count, .ratio = 3, .walls = false});
+  scene.soft[0]->memory.reset();
+  scene.soft[0]->tangential = ViscousForce{1, 0.3};
+  scene.hard.motion = SubstrateMotion::oscillation({0.01, 0}, 50, 0);
+  SubstrateContact& plane = scene.hard.substrate[0];
+  plane.static_friction = plane.kinetic_friction = 0.3;
+  plane.restitution = 0.5;
+  return scene;
+}
+
+auto hash_of_steps(const ContactScene& scene, double time, const StepSettings& settings) {
+  StepSolver solver(scene, scene.hard.initial, settings);
+  const SolvedRun run = solver.run(until_time(time), nullptr);
+  EXPECT_TRUE(run.reached) << run.reason;
+  EXPECT_GT(run.collisions, scene.hard.bodies.size() / 25);
+  return std::pair(hash_of(solver.states()), run.collisions);
+}
+
+TEST(ManyThreads, GiveTheBitsOfOneToStepsInSpace) {
+  const ContactScene scene = falling_on_a_swing(kSpheres);
+  const auto alone = hash_of_steps(scene, 3e-3, {.step = 1e-5});
+  for (const std::size_t threads : kThreads)
+    EXPECT_EQ(hash_of_steps(scene, 3e-3, {.step = 1e-5, .threads = threads}), alone) << threads;
+}
+
+/// Below 1000 bodies are stored in the scene's order, in which a loop over all pairs adds forces.
+TEST(ManyThreads, GiveTheBitsOfAllPairs) {
+  ContactScene scene = falling_on_a_swing(950);
+  scene.hard.periodic.setZero();
+  EXPECT_EQ(hash_of_steps(scene, 2e-3, {.step = 1e-5, .threads = 3}),
+            hash_of_steps(scene, 2e-3, {.step = 1e-5, .most_in_all_pairs = 950}));
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ Scene three_balls() {
 struct Case {
   std::string name;
   TangentialForce tangential;
-  bool friction, confined, equal;
+  bool friction, confined, equal, moving = false;
 };
 
 class GeneralLoop : public testing::TestWithParam<Case> {};
@@ -48,6 +48,10 @@ TEST_P(GeneralLoop, GivesTheSameBits) {
   }
   if (!GetParam().friction)
     hard.substrate[0].static_friction = hard.substrate[0].kinetic_friction = 0;
+  if (GetParam().moving) {
+    hard.motion = SubstrateMotion::oscillation({0.002, 0.001}, 40, 0);
+    hard.downhill = {0.3, -0.5};
+  }
   SoftContact contact =
       linear_contact(0.5 * hard.bodies[0].mass, 0.8, kCollisionTime, ContactEnd::zero_overlap);
   contact.tangential = GetParam().tangential;
@@ -85,7 +89,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"viscous", kViscous, true, true, true},
                     Case{"viscous_lifting", kViscous, true, false, false},
                     Case{"passive", kPassive, true, false, true},
-                    Case{"printed", kPrinted, true, true, true}),
+                    Case{"printed", kPrinted, true, true, true},
+                    Case{"viscous_moving", kViscous, true, false, false, true},
+                    Case{"smooth_moving_confined", NoTangentialForce{}, true, true, true, true}),
     [](const auto& each) { return each.param.name; });
 
 /// Phases on any plane are series where those on a level, still one are closed forms: the same to

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "physics/numbers.h"
+#include "reference/space_curve.h"
 
 namespace slipcheck {
 namespace {
@@ -20,23 +21,6 @@ constexpr std::uint64_t kSearches = 16;
 constexpr std::size_t kLeastInSlab = 256, kMostSlabs = 64;
 /// Bodies that one thread looks at in a row.
 constexpr std::size_t kShare = 2048;
-
-/// The lowest 21 bits, with two places between each two of them.
-std::uint64_t spread(std::uint64_t bits) {
-  bits &= 0x1fffff;
-  bits = (bits | bits << 32) & 0x1f00000000ffff;
-  bits = (bits | bits << 16) & 0x1f0000ff0000ff;
-  bits = (bits | bits << 8) & 0x100f00f00f00f00f;
-  bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
-  return (bits | bits << 2) & 0x1249249249249249;
-}
-
-Vector3 in_period(const Vector3& position, const Vector2& periodic) {
-  Vector3 folded = position;
-  for (int k = 0; k < 2; ++k)
-    if (periodic[k] > 0) folded[k] -= periodic[k] * std::floor(position[k] / periodic[k]);
-  return folded;
-}
 
 /// Bodies along one direction, in cells of one width.
 struct CellsAlong {
@@ -79,24 +63,12 @@ struct NearSurface {
 
 void PileSlabs::sort_bodies(PileWorld& world) {
   PileBodies& bodies = world.bodies;
-  const Vector2& periodic = world.scene->hard.periodic;
-  Vector3 low = in_period(bodies[0].position, periodic), high = low;
-  for (const PileBody& b : bodies) {
-    const Vector3 at = in_period(b.position, periodic);
-    low = low.cwiseMin(at);
-    high = high.cwiseMax(at);
-  }
-  constexpr double kCells = 1 << 21;
-  const double width = std::max(2 * largest_radius_, (high - low).maxCoeff() / (kCells - 1));
+  const std::vector<std::uint64_t> curve =
+      on_space_curve(bodies, world.scene->hard.periodic, 2 * largest_radius_);
   std::vector<std::uint32_t> slab_of;
   share_out(world, slab_of);
   std::vector<std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>> keys(bodies.size());
-  for (std::uint32_t p = 0; p < bodies.size(); ++p) {
-    const Vector3 cell = (in_period(bodies[p].position, periodic) - low) / width;
-    std::uint64_t key = 0;
-    for (int k = 0; k < 3; ++k) key |= spread(static_cast<std::uint64_t>(cell[k])) << (2 - k);
-    keys[p] = {slab_of[p], key, p};
-  }
+  for (std::uint32_t p = 0; p < bodies.size(); ++p) keys[p] = {slab_of[p], curve[p], p};
   std::ranges::sort(keys);
   PileBodies sorted;
   sorted.reserve(bodies.size());

@@ -11,18 +11,18 @@
 
 namespace slipcheck {
 
-/// One sphere in the fixed-step solver. Velocities lie half a step before the positions.
-struct StepBody {
+/// One sphere in the fixed-step solver. Velocities lie half a step before the positions. What says
+/// which bodies touch, and takes forces, lies in one line of the cache.
+struct alignas(64) StepBody {
   Vector3 position = Vector3::Zero();          ///< x_n [m]
+  double radius = 0;                           ///< R [m]
   Vector3 velocity = Vector3::Zero();          ///< v_{n−1/2} [m/s]
   Vector3 angular_velocity = Vector3::Zero();  ///< Ω_{n−1/2} [rad/s]
-  /// What the last step changed: half of it more is the velocity predicted for the positions' time.
   Vector3 velocity_change = Vector3::Zero();
   Vector3 angular_velocity_change = Vector3::Zero();
   Vector3 force = Vector3::Zero();   ///< by other bodies [N]
   Vector3 torque = Vector3::Zero();  ///< by other bodies [N m]
 
-  double radius = 0;           ///< R [m]
   double inverse_mass = 0;     ///< 1/m [1/kg]
   double inverse_inertia = 0;  ///< 1/I [1/(kg m²)]
   double weight = 0;           ///< m g along −z [N]
@@ -32,8 +32,9 @@ struct StepBody {
   const Sphere* sphere = nullptr;
   const SubstrateContact* contact = nullptr;
 
-  bool supported = false;     ///< on the substrate
-  bool sticks = false;        ///< to it: no slip
+  bool supported = false;  ///< on the substrate
+  bool sticks = false;     ///< to it: no slip
+  bool coulomb_alone = false;
   double normal_impulse = 0;  ///< of the substrate in the last step [N s]
 };
 
@@ -52,6 +53,12 @@ struct BareSubstrate {};
 struct PlainSubstrate {};
 /// Everything: tilt, motion, rolling and drilling friction.
 struct FullSubstrate {};
+
+/// Whether the substrate takes the slip and nothing else.
+inline bool is_coulomb_alone(const SubstrateContact& contact) {
+  return contact.rolling.is_zero() && !(contact.drilling_length > 0) &&
+         !(contact.coupled_radius > 0);
+}
 
 /// Rolling friction of a body that sticks, K (16): it takes μ_r |N|/m dt from the velocity relative
 /// to the substrate, and all of it at most. The couple (1+q) μ_r |N| R and the static friction it
@@ -74,17 +81,28 @@ inline double towards_zero(double rate, double lost) {
 /// forces leave, the impulse −m u/(1+A) makes the body stick; it does if the impulse is within
 /// μ_s |N| dt (μ_k for a body that slides), else μ_k |N| dt acts against the slip: friction may
 /// stop the slip within a step but not reverse it.
-[[gnu::always_inline]] inline void rub(StepBody& b, const StepSurroundings&, PlainSubstrate,
-                                       double load, Vector3& v, Vector3& w) {
+///
+/// This is what Coulomb's friction does alone.
+template <class Substrate>
+[[gnu::always_inline]] inline void rub_alone(StepBody& b, const StepSurroundings& s, double load,
+                                             Vector3& v, Vector3& w) {
+  constexpr bool kMoves = std::is_same_v<Substrate, FullSubstrate>;
   const SubstrateContact& c = *b.contact;
-  const Vector2 u(v.x() - b.radius * w.y(), v.y() + b.radius * w.x());
+  Vector2 u(v.x() - b.radius * w.y(), v.y() + b.radius * w.x());
+  if constexpr (kMoves) u -= s.velocity;
   const Vector2 stop = b.share * u;
   const double per_slip = load * b.inverse_mass;  // (1+A) times this is taken from the slip
   const double cap = (b.sticks ? c.static_friction : c.kinetic_friction) * per_slip;
   b.sticks = stop.squaredNorm() <= cap * cap;
   if (b.sticks) {
-    v.head<2>() -= stop;
-    w.head<2>() = Vector2(-v.y(), v.x()) * b.inverse_radius;
+    Vector2 relative = v.head<2>() - stop;
+    if constexpr (kMoves) {
+      relative -= s.velocity;
+      v.head<2>() = s.velocity + relative;
+    } else {
+      v.head<2>() = relative;
+    }
+    w.head<2>() = Vector2(-relative.y(), relative.x()) * b.inverse_radius;
     return;
   }
   // Friction acts against the slip that the last step lets expect in the middle of this one, so
@@ -93,6 +111,7 @@ inline double towards_zero(double rate, double lost) {
   const Vector3 velocity = b.velocity + 0.5 * b.velocity_change;
   const Vector3 spin = b.angular_velocity + 0.5 * b.angular_velocity_change;
   Vector2 direction(velocity.x() - b.radius * spin.y(), velocity.y() + b.radius * spin.x());
+  if constexpr (kMoves) direction -= 0.5 * (s.velocity_before + s.velocity);
   if (!(direction.dot(u) > 0)) [[unlikely]]
     direction = u;
   const double change = c.kinetic_friction * per_slip * (1 / direction.norm());
@@ -100,8 +119,9 @@ inline double towards_zero(double rate, double lost) {
   w.head<2>() += (change * b.turn) * Vector2(-direction.y(), direction.x());
 }
 
-inline void rub(StepBody& b, const StepSurroundings& s, FullSubstrate, double load, Vector3& v,
-                Vector3& w) {
+/// The same with all else that a substrate does to a body.
+inline void rub_and_roll(StepBody& b, const StepSurroundings& s, double load, Vector3& v,
+                         Vector3& w) {
   const SubstrateContact& c = *b.contact;
   const double R = b.radius;
   const auto slip = [R](const Vector3& velocity, const Vector3& spin,
@@ -151,7 +171,7 @@ inline void rub(StepBody& b, const StepSurroundings& s, FullSubstrate, double lo
       friction *= shared.force;
       drilling = c.kinetic_friction * load * c.coupled_radius * shared.torque;
     }
-    // As much along `direction` as PlainSubstrate takes, with the same roundings.
+    // As much along `direction` as rub_alone() takes, with the same roundings.
     double change = 0;
     if (friction * friction >= (b.share * u).squaredNorm()) {
       direction = u;
@@ -166,6 +186,16 @@ inline void rub(StepBody& b, const StepSurroundings& s, FullSubstrate, double lo
     w.y() += turn * direction.x();
   }
   w.z() = towards_zero(w.z(), drilling * b.inverse_inertia);
+}
+
+template <class Substrate>
+[[gnu::always_inline]] inline void rub(StepBody& b, const StepSurroundings& s, double load,
+                                       Vector3& v, Vector3& w) {
+  if (std::is_same_v<Substrate, PlainSubstrate> || b.coulomb_alone) {
+    rub_alone<Substrate>(b, s, load, v, w);
+  } else {
+    rub_and_roll(b, s, load, v, w);
+  }
 }
 
 [[gnu::always_inline]] inline void kick_freely(StepBody& b, double dt) {
@@ -191,7 +221,7 @@ template <class Substrate>
     if (normal >= 0 || s.confined) {
       v.z() = 0;
       b.normal_impulse = std::abs(normal) * dt;
-      rub(b, s, Substrate{}, b.normal_impulse, v, w);
+      rub<Substrate>(b, s, b.normal_impulse, v, w);
     } else {
       b.supported = b.sticks = false;
       v.z() -= dt * s.gravity;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -16,6 +17,10 @@ namespace slipcheck {
 /// All that the fixed-step solver's loops work on, but for the contacts of bodies.
 struct StepWorld {
   std::vector<StepBody> bodies;
+  /// Where many are stored near those that they are near, by their places in the scene's order;
+  /// empty: in that order.
+  std::vector<std::uint32_t> number;  ///< in the scene's order, of each that is stored
+  std::vector<std::uint32_t> place;   ///< where it is stored, of each in the scene's order
   StepSurroundings around;
   const SubstrateMotion* motion = nullptr;
   double step = 0;             ///< h [s]
@@ -26,7 +31,14 @@ struct StepWorld {
   std::size_t collisions = 0;  ///< contacts of two bodies that began
 
   void exchange(StateArchive& archive) {
-    archive(bodies, around, step, n, slowest_rebound, forces_known, touching, collisions);
+    archive(bodies, number, place, around, step, n, slowest_rebound, forces_known, touching,
+            collisions);
+  }
+  std::size_t number_of(std::size_t stored) const {
+    return number.empty() ? stored : number[stored];
+  }
+  std::size_t place_of(std::size_t in_scene) const {
+    return place.empty() ? in_scene : place[in_scene];
   }
   double time() const { return static_cast<double>(n) * step; }
   /// From the velocities' time, half a step back, to the next half step.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -44,11 +45,9 @@ bool can_meet(const Scene& scene, std::size_t m, std::size_t n) {
 
 bool is_plain(const Scene& scene) {
   if (!scene.motion.is_still() || !scene.downhill.isZero(0)) return false;
-  for (std::size_t material : scene.material) {
-    const SubstrateContact& c = scene.substrate[material];
-    if (!c.rolling.is_zero() || c.drilling_length > 0 || c.coupled_radius > 0) return false;
-  }
-  return true;
+  return std::ranges::all_of(scene.material, [&](std::size_t material) {
+    return is_coulomb_alone(scene.substrate[material]);
+  });
 }
 
 /// Without friction, and so that no body leaves the plane: it may not, or nothing pushes it up.

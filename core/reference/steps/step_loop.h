@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <ranges>
+#include <span>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -34,7 +37,10 @@ struct StepLaw {
 /// of first order.
 ///
 /// A few bodies go over all pairs; more of them, and those on a periodic plane, over StepNeighbours
-/// in the same order: what is far apart adds nothing, so that both give the same bits.
+/// in the same order, that in which bodies are stored: what is far apart adds nothing, so that both
+/// give the same bits. So does any number of threads, each of which has a share of the bodies, one
+/// behind the other, and the pairs whose further body is in it: to a body of a share before, these
+/// come after all pairs of that share, and are kept until it is done.
 template <class Normal, class Tangential, class Substrate>
 class StepLoop final : public StepKernel {
  public:
@@ -51,7 +57,7 @@ class StepLoop final : public StepKernel {
         pairs_(neighbours_ ? 0 : material_.size() * (material_.size() - 1) / 2) {}
 
   void find_forces(StepWorld& world) override {
-    if (!world.forces_known) neighbours_ ? forces_of_neighbours(world) : forces(world);
+    if (!world.forces_known) neighbours_ ? forces_by_neighbours(world) : forces(world);
     world.forces_known = true;
   }
 
@@ -74,7 +80,9 @@ class StepLoop final : public StepKernel {
 
   void exchange(StateArchive& archive, StepWorld& world) override {
     archive(world, pairs_);
-    if (neighbours_) archive(*neighbours_);
+    if (!neighbours_) return;
+    archive(*neighbours_);
+    if (archive.reads()) divide(world);
   }
 
   void show(const StepWorld& world, Frame& frame) override {
@@ -83,17 +91,24 @@ class StepLoop final : public StepKernel {
     StepSurroundings around = world.around;
     around.velocity = velocity_of_substrate(world, world.time());
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-      StepBody body = world.bodies[i];
+      StepBody body = world.bodies[world.place_of(i)];
       if (world.n > 0) kick<Substrate>(body, around, 0.5 * world.step);
       frame.bodies[i] = {body.position, body.velocity, body.angular_velocity};
       const double impulse = world.n > 0 ? 2 * body.normal_impulse : 0;
       if (impulse > 0) frame.touches.push_back({static_cast<int>(i), kSubstrate, impulse});
     }
+    const auto pairs = static_cast<std::ptrdiff_t>(frame.touches.size());
     for_each_pair(world, [&](std::size_t i, std::size_t j, const Pair& pair) {
       const double impulse = std::abs(pair.normal_force) * world.step;
       if (pair.touching && impulse > 0)
-        frame.touches.push_back({static_cast<int>(i), static_cast<int>(j), impulse});
+        frame.touches.push_back(
+            {static_cast<int>(world.number_of(i)), static_cast<int>(world.number_of(j)), impulse});
     });
+    if (world.number.empty()) return;
+    std::sort(frame.touches.begin() + pairs, frame.touches.end(),
+              [](const Touch& a, const Touch& b) {
+                return std::tie(a.second, a.first) < std::tie(b.second, b.first);
+              });
   }
 
   bool is_met(const StepWorld& world, StepStop stop) const override {
@@ -122,6 +137,57 @@ class StepLoop final : public StepKernel {
       return {factor * force.all, factor * force.across};
     }
   };
+  /// What a contact does to its bodies: a force on the first [N], and F_T × n [N], which turns
+  /// both.
+  struct Push {
+    Vector3 all, lever;
+    bool ends;  ///< the contact does: as of keep_down()
+
+    static Push of(const Force& force, const Vector3& n, bool ends = false) {
+      if constexpr (Tangential::kRubs) return {force.all, force.across.cross(n), ends};
+      return {force.all, Vector3::Zero(), ends};
+    }
+    void on(StepBody& body, bool is_second) const {
+      const double before = body.force.z();
+      if (is_second)
+        body.force -= all;
+      else
+        body.force += all;
+      if constexpr (Tangential::kRubs) body.torque += body.radius * lever;
+      if (ends) [[unlikely]]
+        keep_down(body, before);
+    }
+    /// What is taken back from a body that the other pressed down was borne by the substrate and
+    /// must not lift it.
+    static void keep_down(StepBody& body, double before) {
+      if (body.supported) body.force.z() = before + std::min(body.force.z() - before, body.weight);
+    }
+  };
+  /// Takes a push at once.
+  struct Pushed {
+    StepBody &a, &b;
+    void operator()(const Push& push) const {
+      push.on(a, false);
+      push.on(b, true);
+    }
+  };
+  struct Tally {
+    std::size_t touching = 0, collisions = 0;
+  };
+  /// A push on a body of another share.
+  struct OutsidePush {
+    std::size_t stored;
+    bool is_second;
+    Push push;
+  };
+  /// One thread's.
+  struct alignas(64) Share {
+    std::size_t bodies = 0, pairs = 0;  ///< where they begin
+    Tally tally;
+    double longest2 = 0;  ///< way in the last step, squared [m²]
+    std::vector<OutsidePush> outside;
+  };
+
   struct Pair {
     bool touching = false;
     double normal_force = 0;  ///< F_N [N]
@@ -148,33 +214,100 @@ class StepLoop final : public StepKernel {
       return Vector2::Zero();
   }
 
-  static void begin_forces(StepWorld& world) {
+  static void forget_forces(StepBody& b) {
+    b.force.setZero();
+    b.torque.setZero();
+  }
+
+  static void count(const Tally& tally, StepWorld& world) {
+    world.touching += tally.touching;
+    world.collisions += tally.collisions;
+  }
+
+  /// Such that each has as many bodies and pairs.
+  void divide(const StepWorld& world) {
+    const std::vector<StepNeighbour>& all = neighbours_->all();
+    const auto pairs_before = [&](std::size_t stored) {
+      return static_cast<std::size_t>(
+          std::ranges::lower_bound(all, stored, {}, &StepNeighbour::further) - all.begin());
+    };
+    const std::size_t bodies = world.bodies.size(), shares = neighbours_->team().size();
+    shares_.resize(shares);
+    for (std::size_t s = 0; s < shares; ++s) {
+      const std::size_t work = (bodies + all.size()) * s / shares;
+      const auto stored = std::views::iota(std::size_t{0}, bodies);
+      shares_[s].bodies = static_cast<std::size_t>(
+          std::ranges::partition_point(stored,
+                                       [&](std::size_t k) { return k + pairs_before(k) < work; }) -
+          stored.begin());
+      shares_[s].pairs = pairs_before(shares_[s].bodies);
+    }
+  }
+  /// Calls work(share, begin, end) with the bodies of each: always the same thread with the same
+  /// share, in whose caches it is.
+  template <class Work>
+  void in_shares(const StepWorld& world, const Work& work) {
+    neighbours_->team().run(shares_.size(), [&](std::size_t s) {
+      const bool is_last = s + 1 == shares_.size();
+      work(shares_[s], shares_[s].bodies, is_last ? world.bodies.size() : shares_[s + 1].bodies);
+    });
+  }
+
+  void forces_by_neighbours(StepWorld& world) {
+    if (!neighbours_->cover()) {
+      neighbours_->find(world, pairs_, [](const Pair& pair) { return pair.touching; });
+      divide(world);
+    }
+    in_shares(world, [&](Share& share, std::size_t begin, std::size_t end) {
+      meet_neighbours(world, share, begin, end);
+    });
     world.touching = 0;
-    for (StepBody& b : world.bodies) {
-      b.force.setZero();
-      b.torque.setZero();
+    for (Share& share : shares_) {
+      for (const OutsidePush& each : share.outside)
+        each.push.on(world.bodies[each.stored], each.is_second);
+      count(share.tally, world);
     }
   }
 
-  [[gnu::noinline]] void forces_of_neighbours(StepWorld& world) {
-    if (!neighbours_->cover())
-      neighbours_->find(world, pairs_, [](const Pair& pair) { return pair.touching; });
-    begin_forces(world);
-    std::size_t k = 0;
-    for (const StepNeighbour& near : neighbours_->all()) {
-      StepBody &a = world.bodies[near.first], &b = world.bodies[near.second];
-      Pair& pair = pairs_[k++];
+  /// The bodies from `begin` to before `end`.
+  [[gnu::noinline]] void meet_neighbours(StepWorld& world, Share& share, std::size_t begin,
+                                         std::size_t end) {
+    share.outside.clear();
+    std::size_t i = begin;
+    const auto forget_before = [&](std::size_t body) {
+      for (; i < body; ++i) forget_forces(world.bodies[i]);
+    };
+    Tally tally;
+    const std::vector<StepNeighbour>& all = neighbours_->all();
+    for (std::size_t k = share.pairs; k < all.size() && all[k].further() < end; ++k) {
+      const StepNeighbour& near = all[k];
+      forget_before(near.further() + 1);
+      const StepBody &a = world.bodies[near.first], &b = world.bodies[near.second];
+      Pair& pair = pairs_[k];
+      const auto push_one = [&](const Push& push, std::size_t stored, bool is_second) {
+        if (stored < begin) [[unlikely]]
+          share.outside.push_back({stored, is_second, push});
+        else
+          push.on(world.bodies[stored], is_second);
+      };
+      const auto push_both = [&](const Push& push) {
+        push_one(push, near.first, false);
+        push_one(push, near.second, true);
+      };
       const double reach = a.radius + b.radius;
       Vector3 between = a.position - b.position;
       between.head<2>() -= near.shift;
       const double distance2 = between.squaredNorm();
+      const auto law = [&]() -> const Law& {
+        return law_of(world.number_of(near.first), world.number_of(near.second));
+      };
       if (distance2 <= reach * reach)
-        meet(world, a, b, pair, law_of(near.first, near.second), between, reach,
-             std::sqrt(distance2));
+        meet(world, a, b, pair, law(), between, reach, std::sqrt(distance2), tally, push_both);
       else if (pair.touching)
-        part(world, a, b, pair, law_of(near.first, near.second), between, reach,
-             std::sqrt(distance2));
+        push_both(part(world, a, b, pair, law(), between, reach, std::sqrt(distance2)));
     }
+    forget_before(end);
+    share.tally = tally;
   }
 
   const Law& law_of(std::size_t i, std::size_t j) const {
@@ -184,7 +317,9 @@ class StepLoop final : public StepKernel {
   /// Flat, but for what begins and ends, as move() is: in a large unit the compiler leaves calls
   /// for sums of vectors, which pass them through memory.
   SLIPCHECK_FLATTEN void forces(StepWorld& world) {
-    begin_forces(world);
+    for (StepBody& b : world.bodies) forget_forces(b);
+    world.touching = 0;
+    Tally tally;
     std::size_t k = 0;
     for (std::size_t j = 1; j < world.bodies.size(); ++j) {
       StepBody& b = world.bodies[j];
@@ -194,27 +329,20 @@ class StepLoop final : public StepKernel {
         const Vector3 between = a.position - b.position;
         const double distance2 = between.squaredNorm();
         if (distance2 <= reach * reach)
-          meet(world, a, b, pairs_[k], law_of(i, j), between, reach, std::sqrt(distance2));
+          meet(world, a, b, pairs_[k], law_of(i, j), between, reach, std::sqrt(distance2), tally,
+               Pushed{a, b});
         else if (pairs_[k].touching)
-          part(world, a, b, pairs_[k], law_of(i, j), between, reach, std::sqrt(distance2));
+          Pushed{a, b}(
+              part(world, a, b, pairs_[k], law_of(i, j), between, reach, std::sqrt(distance2)));
       }
     }
+    count(tally, world);
   }
 
   /// u_t [m/s] with the velocities relative to each other `dv` and the surfaces' `turning`
   /// R_iΩ_i + R_jΩ_j.
   static Vector3 slip(const Vector3& dv, double closing, const Vector3& turning, const Vector3& n) {
     return dv + closing * n - turning.cross(n);
-  }
-
-  static void push(StepBody& a, StepBody& b, const Force& force, const Vector3& n) {
-    a.force += force.all;
-    b.force -= force.all;
-    if constexpr (Tangential::kRubs) {
-      const Vector3 lever = force.across.cross(n);
-      a.torque += a.radius * lever;
-      b.torque += b.radius * lever;
-    }
   }
 
   Force force_of(const Law& law, const Pair& pair, double normal, const Vector3& slip,
@@ -227,10 +355,11 @@ class StepLoop final : public StepKernel {
     }
   }
 
-  /// Two bodies that overlap.
-  [[gnu::always_inline]] void meet(StepWorld& world, StepBody& a, StepBody& b, Pair& pair,
-                                   const Law& law, const Vector3& between, double reach,
-                                   double distance) {
+  /// Two bodies that overlap. push: takes a Push.
+  template <class ToPush>
+  [[gnu::always_inline]] void meet(const StepWorld& world, const StepBody& a, const StepBody& b,
+                                   Pair& pair, const Law& law, const Vector3& between, double reach,
+                                   double distance, Tally& tally, const ToPush& push) {
     // Products first that need not wait for the root and the division.
     const Vector3 dv = (a.velocity - b.velocity) + 0.5 * (a.velocity_change - b.velocity_change);
     const double parting = between.dot(dv), inverse = 1 / distance;
@@ -240,7 +369,7 @@ class StepLoop final : public StepKernel {
     if ((law.clamped && normal <= 0) || (overlap <= 0 && closing <= 0)) [[unlikely]] {
       if (pair.touching) {
         const double left = normal < 0 ? pair.normal_force / (pair.normal_force - normal) : 1;
-        end(a, b, pair, left, {}, n);
+        push(end(pair, left, {}, n));
       }
       return;
     }
@@ -250,23 +379,24 @@ class StepLoop final : public StepKernel {
                               b.radius * (b.angular_velocity + 0.5 * b.angular_velocity_change);
       slip_now = slip(dv, closing, turning, n);
     }
-    ++world.touching;
+    ++tally.touching;
     if (!pair.touching) [[unlikely]] {
-      begin(world, a, b, pair, law, overlap, normal, slip_now, n);
+      ++tally.collisions;
+      push(begin(world, a, b, pair, law, overlap, normal, slip_now, n));
     } else {
       if constexpr (Tangential::kRubs)
         law.tangential.advance(pair.history, 0.5 * world.step, normal, slip_now, n);
       pair.force = force_of(law, pair, normal, slip_now, n);
-      push(a, b, pair.force, n);
+      push(Push::of(pair.force, n));
     }
     pair.normal_force = normal;
   }
 
   /// The contact has lasted for `part` of the step before now, and gets part h ½ (F_begin + F) for
   /// it.
-  [[gnu::noinline]] void begin(StepWorld& world, StepBody& a, StepBody& b, Pair& pair,
-                               const Law& law, double overlap, double normal,
-                               const Vector3& slip_now, const Vector3& n) {
+  [[gnu::noinline]] Push begin(const StepWorld& world, const StepBody& a, const StepBody& b,
+                               Pair& pair, const Law& law, double overlap, double normal,
+                               const Vector3& slip_now, const Vector3& n) const {
     const double h = world.step;
     const double closing = -n.dot(a.velocity - b.velocity);
     const bool began_within = world.n > 0 && closing * h >= overlap && closing > 0;
@@ -279,18 +409,15 @@ class StepLoop final : public StepKernel {
     if constexpr (Tangential::kRubs)
       law.tangential.advance(pair.history, 0.5 * h, normal, slip_now, n);
     pair.force = force_of(law, pair, normal, slip_now, n);
-    if (began_within)
-      push(a, b, 0.5 * ((1 + part) * pair.force + part * first_force), n);
-    else
-      push(a, b, pair.force, n);
     pair.touching = true;
-    ++world.collisions;
+    return Push::of(
+        began_within ? 0.5 * ((1 + part) * pair.force + part * first_force) : pair.force, n);
   }
 
   /// Two bodies that touched a step ago and overlap no more.
-  [[gnu::noinline]] void part(StepWorld& world, StepBody& a, StepBody& b, Pair& pair,
-                              const Law& law, const Vector3& between, double reach,
-                              double distance) {
+  [[gnu::noinline]] Push part(const StepWorld& world, const StepBody& a, const StepBody& b,
+                              Pair& pair, const Law& law, const Vector3& between, double reach,
+                              double distance) const {
     const Vector3 n = between / distance;
     const Vector3 dv = a.velocity - b.velocity;
     const double closing = -n.dot(dv);
@@ -300,58 +427,72 @@ class StepLoop final : public StepKernel {
     if constexpr (Tangential::kRubs)
       slip_now =
           slip(dv, closing, a.radius * a.angular_velocity + b.radius * b.angular_velocity, n);
-    end(a, b, pair, std::max(0.0, 1 - gone), force_of(law, pair, last, slip_now, n), n);
+    return end(pair, std::max(0.0, 1 - gone), force_of(law, pair, last, slip_now, n), n);
   }
 
   /// The contact lasted for `part` of the step before now and should have had part h ½ (F + F_end)
-  /// there; it had h/2 F. What is taken back from a body that the other pressed down was borne by
-  /// the substrate and must not lift it.
-  [[gnu::noinline]] void end(StepBody& a, StepBody& b, Pair& pair, double part,
-                             const Force& last_force, const Vector3& n) {
-    const double before_a = a.force.z(), before_b = b.force.z();
-    push(a, b, 0.5 * (part * (pair.force + last_force) - pair.force), n);
-    const auto keep_down = [](StepBody& body, double before) {
-      if (body.supported) body.force.z() = before + std::min(body.force.z() - before, body.weight);
-    };
-    keep_down(a, before_a);
-    keep_down(b, before_b);
+  /// there; it had h/2 F.
+  [[gnu::noinline]] static Push end(Pair& pair, double part, const Force& last_force,
+                                    const Vector3& n) {
     pair.touching = false;
+    return Push::of(0.5 * (part * (pair.force + last_force) - pair.force), n, true);
   }
 
   SLIPCHECK_FLATTEN void move(StepWorld& world) {
     StepSurroundings& s = world.around;
-    const double h = world.step, dt = world.kick_length();
     if constexpr (std::is_same_v<Substrate, FullSubstrate>) {
       s.velocity_before = s.velocity;
-      s.velocity = velocity_of_substrate(world, world.time() + 0.5 * h);
+      s.velocity = velocity_of_substrate(world, world.time() + 0.5 * world.step);
     }
-    const auto go_on = [&](StepBody& b) {
-      kick<Substrate>(b, s, dt);
-      b.position += h * b.velocity;
-      if constexpr (std::is_same_v<Substrate, BareSubstrate>) return;
-      if (!b.supported && b.position.z() < b.radius && b.velocity.z() < 0) [[unlikely]]
-        land_after_drift(b, s, world.slowest_rebound);
-    };
+    const Advance advance{s, world.step, world.kick_length(), world.slowest_rebound};
     if (!neighbours_) {
-      for (StepBody& b : world.bodies) go_on(b);
+      for (StepBody& b : world.bodies) advance(b);
       return;
     }
+    in_shares(world, [&](Share& share, std::size_t begin, std::size_t end) {
+      share.longest2 = advance_all(advance, std::span(world.bodies).subspan(begin, end - begin));
+    });
     double longest2 = 0;
-    for (StepBody& b : world.bodies) {
+    for (const Share& share : shares_) longest2 = std::max(longest2, share.longest2);
+    neighbours_->move(std::sqrt(longest2), world);
+  }
+
+  /// What a step does to a body.
+  struct Advance {
+    const StepSurroundings& around;
+    double step, dt, slowest_rebound;
+
+    void operator()(StepBody& b) const {
+      kick<Substrate>(b, around, dt);
+      b.position += step * b.velocity;
+      if constexpr (std::is_same_v<Substrate, BareSubstrate>) return;
+      if (!b.supported && b.position.z() < b.radius && b.velocity.z() < 0) [[unlikely]]
+        land_after_drift(b, around, slowest_rebound);
+    }
+  };
+
+  /// Advances these; the longest way of one, squared [m²], or kNever.
+  SLIPCHECK_FLATTEN static double advance_all(const Advance& given, std::span<StepBody> bodies) {
+    // Copies, of which the compiler knows that no body changes them.
+    const StepSurroundings around = given.around;
+    const Advance advance{around, given.step, given.dt, given.slowest_rebound};
+    double longest2 = 0;
+    for (StepBody& b : bodies) {
       const Vector3 before = b.position;
-      go_on(b);
+      advance(b);
       const double way2 = (b.position - before).squaredNorm();
       longest2 = way2 <= longest2 ? longest2 : std::isnan(way2) ? kNever : way2;
     }
-    neighbours_->move(std::sqrt(longest2), world);
+    return longest2;
   }
 
   std::vector<std::string> features_;
   std::vector<Law> laws_;
-  std::vector<std::size_t> material_;
+  std::vector<std::size_t> material_;  ///< in the scene's order
   std::size_t materials_;
   std::unique_ptr<StepNeighbours> neighbours_;  ///< null: a few bodies, all pairs
   std::vector<Pair> pairs_;                     ///< by neighbours, or by (j, i) with i < j
+  std::vector<Share> shares_;                   ///< of neighbours
 };
 
 }  // namespace slipcheck

@@ -2,12 +2,53 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
+#include "reference/space_curve.h"
 #include "reference/steps/step_solver.h"
 
 namespace slipcheck {
+namespace {
+
+/// So many bodies no longer fit into the caches next to a core.
+constexpr std::size_t kOrderedFrom = 1000;
+/// In which none comes far.
+constexpr std::size_t kSearchesInAnOrder = 32;
+
+/// Those that are near each other near each other.
+void put_in_order(StepWorld& world, const Vector2& periodic) {
+  const std::size_t bodies = world.bodies.size();
+  double largest = 0;
+  for (const StepBody& b : world.bodies) largest = std::max(largest, b.radius);
+  const std::vector<std::uint64_t> curve = on_space_curve(world.bodies, periodic, 2 * largest);
+  std::vector<std::uint32_t> from(bodies);
+  std::iota(from.begin(), from.end(), 0);
+  std::ranges::sort(from, {}, [&](std::uint32_t k) { return std::pair(curve[k], k); });
+  std::vector<std::uint32_t> number(bodies);
+  for (std::size_t k = 0; k < bodies; ++k)
+    number[k] = static_cast<std::uint32_t>(world.number_of(from[k]));
+  world.number = std::move(number);
+  world.place.resize(bodies);
+  for (std::size_t k = 0; k < bodies; ++k)
+    world.place[world.number[k]] = static_cast<std::uint32_t>(k);
+  // Round by round of the permutation, without a second array of bodies.
+  for (std::uint32_t k = 0; k < bodies; ++k) {
+    if (from[k] == k) continue;
+    const StepBody held = world.bodies[k];
+    std::uint32_t to = k;
+    while (from[to] != k) {
+      world.bodies[to] = world.bodies[from[to]];
+      to = std::exchange(from[to], to);
+    }
+    world.bodies[to] = held;
+    from[to] = to;
+  }
+}
+
+}  // namespace
 
 void StepNeighbours::move(double way, const StepWorld& world) {
   if (!(way <= largest_))
@@ -16,7 +57,9 @@ void StepNeighbours::move(double way, const StepWorld& world) {
   left_ -= 2 * way;
 }
 
-std::vector<StepNeighbour> StepNeighbours::search(const StepWorld& world) {
+void StepNeighbours::search(StepWorld& world) {
+  if (world.bodies.size() >= kOrderedFrom && searches_++ % kSearchesInAnOrder == 0)
+    put_in_order(world, periodic_);
   std::vector<NearSphere> spheres;
   spheres.reserve(world.bodies.size());
   double mean = 0, fastest2 = 0;
@@ -32,19 +75,21 @@ std::vector<StepNeighbour> StepNeighbours::search(const StepWorld& world) {
   std::vector<std::uint32_t> next(spheres.size() + 1, 0);
   for (const NearPair& pair : pairs) ++next[pair.second + 1];
   std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<StepNeighbour> found(pairs.size());
+  all_.resize(pairs.size());
   for (const NearPair& pair : pairs) {
-    StepNeighbour& near = found[next[pair.second]++];
+    StepNeighbour& near = all_[next[pair.second]++];
     near.first = pair.first;
     near.second = pair.second;
+    if (world.number_of(near.first) > world.number_of(near.second))
+      std::swap(near.first, near.second);
+    near.shift.setZero();
     for (int k = 0; k < 2; ++k)
       if (periodic_[k] > 0) {
-        const double apart = spheres[pair.first].position[k] - spheres[pair.second].position[k];
+        const double apart = spheres[near.first].position[k] - spheres[near.second].position[k];
         near.shift[k] = periodic_[k] * std::round(apart / periodic_[k]);
       }
   }
   left_ = skin;
-  return found;
 }
 
 }  // namespace slipcheck

@@ -67,8 +67,11 @@ class StepSolver::Impl {
     world_.slowest_rebound = std::max(settings.landing_fraction * speed_scale(hard, initial),
                                       hard.gravity * settings.step);
     world_.bodies.reserve(initial.size());
-    for (std::size_t i = 0; i < initial.size(); ++i)
-      world_.bodies.push_back(make_body(hard, i, initial[i], world_.slowest_rebound));
+    for (std::size_t i = 0; i < initial.size(); ++i) {
+      StepBody b = make_body(hard, i, initial[i], world_.slowest_rebound);
+      b.coulomb_alone = !settings.general && is_coulomb_alone(*b.contact);
+      world_.bodies.push_back(b);
+    }
   }
 
   /// look: called between two frames.
@@ -99,9 +102,10 @@ class StepSolver::Impl {
     archive(quiet_from_);
     kernel_->exchange(archive, world_);
     goes_on_ = archive.reads();
-    for (std::size_t i = 0; goes_on_ && i < world_.bodies.size(); ++i) {
-      world_.bodies[i].sphere = &scene_->hard.bodies[i];
-      world_.bodies[i].contact = &scene_->hard.on_substrate(i);
+    for (std::size_t k = 0; goes_on_ && k < world_.bodies.size(); ++k) {
+      const std::size_t i = world_.number_of(k);
+      world_.bodies[k].sphere = &scene_->hard.bodies[i];
+      world_.bodies[k].contact = &scene_->hard.on_substrate(i);
     }
   }
 
