@@ -12,12 +12,13 @@
 namespace slipcheck {
 
 /// One sphere in the fixed-step solver. Velocities lie half a step before the positions. What says
-/// which bodies touch, and takes forces, lies in one line of the cache.
+/// which bodies touch lies in one line of the cache.
 struct alignas(64) StepBody {
   Vector3 position = Vector3::Zero();          ///< x_n [m]
   double radius = 0;                           ///< R [m]
   Vector3 velocity = Vector3::Zero();          ///< v_{n−1/2} [m/s]
   Vector3 angular_velocity = Vector3::Zero();  ///< Ω_{n−1/2} [rad/s]
+  /// What the last step changed: half of it more is the velocity predicted for the positions' time.
   Vector3 velocity_change = Vector3::Zero();
   Vector3 angular_velocity_change = Vector3::Zero();
   Vector3 force = Vector3::Zero();   ///< by other bodies [N]
@@ -32,10 +33,10 @@ struct alignas(64) StepBody {
   const Sphere* sphere = nullptr;
   const SubstrateContact* contact = nullptr;
 
-  bool supported = false;  ///< on the substrate
-  bool sticks = false;     ///< to it: no slip
-  bool coulomb_alone = false;
-  double normal_impulse = 0;  ///< of the substrate in the last step [N s]
+  bool supported = false;      ///< on the substrate
+  bool sticks = false;         ///< to it: no slip
+  bool coulomb_alone = false;  ///< nothing else of the substrate need be looked at
+  double normal_impulse = 0;   ///< of the substrate in the last step [N s]
 };
 
 /// What acts on all bodies alike.
