@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -19,26 +20,43 @@ class StepsAsEvents final : public FrameSink {
 
   void take(double time, const Frame& frame) override {
     shown_ = frame;
-    for (const Touch& touch : before_) add(touch);
-    for (const Touch& touch : long_before_) add(touch);
+    there_.clear();
+    std::vector<Touch> now;
+    for (const Touch& touch : frame.touches) {
+      if (touch.second == kSubstrate) continue;
+      now.push_back(touch);
+      there_.push_back(bodies_of(touch));
+    }
+    if (!std::ranges::is_sorted(there_)) std::ranges::sort(there_);
+    add(before_);
+    add(long_before_);
     long_before_ = std::move(before_);
-    before_ = frame.touches;
+    before_ = std::move(now);
     next_.take(time, shown_);
   }
 
   void exchange(StateArchive& archive) { archive(before_, long_before_); }
 
  private:
-  void add(const Touch& touch) {
-    if (touch.second != kSubstrate && std::ranges::none_of(shown_.touches, [&](const Touch& there) {
-          return there.first == touch.first && there.second == touch.second;
-        }))
+  /// In the order in which the frames have them.
+  static std::pair<int, int> bodies_of(const Touch& touch) { return {touch.second, touch.first}; }
+
+  /// Those that are not shown yet.
+  void add(const std::vector<Touch>& earlier) {
+    const auto known = static_cast<std::ptrdiff_t>(there_.size());
+    for (const Touch& touch : earlier) {
+      if (std::binary_search(there_.begin(), there_.begin() + known, bodies_of(touch))) continue;
       shown_.touches.push_back(touch);
+      there_.push_back(bodies_of(touch));
+    }
+    std::sort(there_.begin() + known, there_.end());
+    std::inplace_merge(there_.begin(), there_.begin() + known, there_.end());
   }
 
   FrameSink& next_;
   Frame shown_;
-  std::vector<Touch> before_, long_before_;
+  std::vector<std::pair<int, int>> there_;   ///< bodies of the contacts that are shown, sorted
+  std::vector<Touch> before_, long_before_;  ///< of two bodies, of the last two frames
 };
 
 }  // namespace slipcheck
