@@ -55,6 +55,10 @@ inline constexpr bool kIsPair = false;
 template <class First, class Second>
 inline constexpr bool kIsPair<std::pair<First, Second>> = true;
 using Setting = std::variant<bool, double, std::string>;
+/// What it has to say of its numbers stands in it.
+template <class Value>
+inline constexpr bool kHasNoReasons = std::is_class_v<Value> && !List<Value> &&
+                                      !kIsOptional<Value> && !std::is_same_v<Value, Setting>;
 
 }  // namespace json_fields
 
@@ -162,7 +166,16 @@ class FieldWriter {
       Json object = Json::object();
       FieldWriter fields(object);
       if constexpr (json_fields::Map<Value>) {
-        for (const auto& [name, each] : value) fields(valid_utf8(name), each);
+        for (const auto& [name, each] : value) {
+          std::string key = valid_utf8(name);
+          if constexpr (json_fields::kHasNoReasons<typename Value::mapped_type>) {
+            if (key == name) {  // and no other one, which need not be looked for
+              append(object, std::move(key), json_of_value(each));
+              continue;
+            }
+          }
+          fields(key, each);
+        }
       } else {
         describe(fields, const_cast<Value&>(value));
       }
@@ -171,6 +184,14 @@ class FieldWriter {
   }
 
  private:
+  /// A member that is not there yet: an object that keeps its order goes through all to see that.
+  static void append(Json& object, std::string key, Json value) {
+    auto& members = object.template get_ref<typename Json::object_t&>();
+    if constexpr (requires { members.emplace_back(std::move(key), std::move(value)); })
+      members.emplace_back(std::move(key), std::move(value));
+    else
+      members.emplace(std::move(key), std::move(value));
+  }
   /// Of a list, or a list of lists.
   static bool has_null(const Json& json) {
     return json.is_null() || (json.is_array() && std::ranges::any_of(json, has_null));

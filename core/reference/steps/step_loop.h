@@ -86,17 +86,28 @@ class StepLoop final : public StepKernel {
   }
 
   void show(const StepWorld& world, Frame& frame) override {
-    frame.bodies.resize(world.bodies.size());
-    frame.touches.clear();
+    const std::size_t bodies = world.bodies.size();
+    frame.bodies.resize(bodies);
+    impulses_.resize(bodies);
     StepSurroundings around = world.around;
     around.velocity = velocity_of_substrate(world, world.time());
-    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-      StepBody body = world.bodies[world.place_of(i)];
-      if (world.n > 0) kick<Substrate>(body, around, 0.5 * world.step);
-      frame.bodies[i] = {body.position, body.velocity, body.angular_velocity};
-      const double impulse = world.n > 0 ? 2 * body.normal_impulse : 0;
-      if (impulse > 0) frame.touches.push_back({static_cast<int>(i), kSubstrate, impulse});
-    }
+    const auto show_some = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        StepBody body = world.bodies[k];
+        if (world.n > 0) kick<Substrate>(body, around, 0.5 * world.step);
+        const std::size_t i = world.number_of(k);
+        frame.bodies[i] = {body.position, body.velocity, body.angular_velocity};
+        impulses_[i] = world.n > 0 ? 2 * body.normal_impulse : 0;
+      }
+    };
+    if (neighbours_)
+      in_shares(world, [&](Share&, std::size_t begin, std::size_t end) { show_some(begin, end); });
+    else
+      show_some(0, bodies);
+    frame.touches.clear();
+    for (std::size_t i = 0; i < bodies; ++i)
+      if (impulses_[i] > 0)
+        frame.touches.push_back({static_cast<int>(i), kSubstrate, impulses_[i]});
     const auto pairs = static_cast<std::ptrdiff_t>(frame.touches.size());
     for_each_pair(world, [&](std::size_t i, std::size_t j, const Pair& pair) {
       const double impulse = std::abs(pair.normal_force) * world.step;
@@ -493,6 +504,7 @@ class StepLoop final : public StepKernel {
   std::unique_ptr<StepNeighbours> neighbours_;  ///< null: a few bodies, all pairs
   std::vector<Pair> pairs_;                     ///< by neighbours, or by (j, i) with i < j
   std::vector<Share> shares_;                   ///< of neighbours
+  std::vector<double> impulses_;                ///< of the substrate, for show() [N s]
 };
 
 }  // namespace slipcheck
