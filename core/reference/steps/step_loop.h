@@ -91,19 +91,12 @@ class StepLoop final : public StepKernel {
     impulses_.resize(bodies);
     StepSurroundings around = world.around;
     around.velocity = velocity_of_substrate(world, world.time());
-    const auto show_some = [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        StepBody body = world.bodies[k];
-        if (world.n > 0) kick<Substrate>(body, around, 0.5 * world.step);
-        const std::size_t i = world.number_of(k);
-        frame.bodies[i] = {body.position, body.velocity, body.angular_velocity};
-        impulses_[i] = world.n > 0 ? 2 * body.normal_impulse : 0;
-      }
-    };
     if (neighbours_)
-      in_shares(world, [&](Share&, std::size_t begin, std::size_t end) { show_some(begin, end); });
+      in_shares(world, [&](Share&, std::size_t begin, std::size_t end) {
+        show(world, around, begin, end, frame.bodies);
+      });
     else
-      show_some(0, bodies);
+      show(world, around, 0, bodies, frame.bodies);
     frame.touches.clear();
     for (std::size_t i = 0; i < bodies; ++i)
       if (impulses_[i] > 0)
@@ -252,6 +245,17 @@ class StepLoop final : public StepKernel {
                                        [&](std::size_t k) { return k + pairs_before(k) < work; }) -
           stored.begin());
       shares_[s].pairs = pairs_before(shares_[s].bodies);
+    }
+  }
+  /// Those stored from `begin` to before `end`, and what the substrate does to them.
+  SLIPCHECK_FLATTEN void show(const StepWorld& world, const StepSurroundings& around,
+                              std::size_t begin, std::size_t end, std::vector<BodyState>& shown) {
+    for (std::size_t k = begin; k < end; ++k) {
+      StepBody body = world.bodies[k];
+      if (world.n > 0) kick<Substrate>(body, around, 0.5 * world.step);
+      const std::size_t i = world.number_of(k);
+      shown[i] = {body.position, body.velocity, body.angular_velocity};
+      impulses_[i] = world.n > 0 ? 2 * body.normal_impulse : 0;
     }
   }
   /// Calls work(share, begin, end) with the bodies of each: always the same thread with the same
