@@ -27,10 +27,10 @@ class ThreadTeam {
 
   std::size_t size() const { return others_.size() + 1; }
 
-  /// Calls `work` with 0 … count − 1, each once, and returns when all have returned. As many as
-  /// there are threads go to the same thread each time. What one of
-  /// them throws is thrown on then, of several that of the lowest number. What stops the calling
-  /// thread stops them all. Nothing that `work` does may give work to the same team.
+  /// Calls `work` with 0 … count − 1, each once, and returns when all have returned. Where they are
+  /// as many as the threads, each goes to the same thread every time. What one of them throws is
+  /// thrown on then, of several that of the lowest number. What stops the calling thread stops them
+  /// all. Nothing that `work` does may give work to the same team.
   template <class Work>
   void run(std::size_t count, Work&& work) {
     using Function = std::remove_reference_t<Work>;
