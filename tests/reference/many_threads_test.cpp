@@ -98,42 +98,5 @@ TEST(ManyThreads, GiveTheBitsOfOneToStepsInSpace) {
     EXPECT_EQ(hash_of_steps(scene, 3e-3, {.step = 1e-5, .threads = threads}), alone) << threads;
 }
 
-/// Below 1000 bodies are stored in the scene's order, in which a loop over all pairs adds forces.
-TEST(ManyThreads, GiveTheBitsOfAllPairs) {
-  ContactScene scene = falling_on_a_swing(950);
-  scene.hard.periodic.setZero();
-  EXPECT_EQ(hash_of_steps(scene, 2e-3, {.step = 1e-5, .threads = 3}),
-            hash_of_steps(scene, 2e-3, {.step = 1e-5, .most_in_all_pairs = 950}));
-}
-
-/// From 1000 on they are stored in another order: of their sums only the order differs.
-TEST(ManyThreads, KeepWhatEachOfManyIs) {
-  ContactScene scene = falling_on_a_swing(1050);
-  scene.hard.periodic.setZero();
-  scene.hard.substrate.push_back(scene.hard.substrate[0]);
-  scene.hard.substrate[1].static_friction = scene.hard.substrate[1].kinetic_friction = 0.1;
-  scene.soft.assign(4, scene.soft[0]);
-  scene.soft[1]->tangential = scene.soft[2]->tangential = ViscousForce{0.5, 0.1};
-  scene.soft[3]->tangential = ViscousForce{2, 0.5};
-  for (std::size_t i = 0; i < scene.hard.material.size(); i += 3) scene.hard.material[i] = 1;
-  const auto end = [&](std::size_t most_in_all_pairs) {
-    StepSolver solver(scene, scene.hard.initial,
-                      {.step = 1e-5, .most_in_all_pairs = most_in_all_pairs, .threads = 2});
-    const SolvedRun run = solver.run(until_time(2e-3), nullptr);
-    EXPECT_TRUE(run.reached) << run.reason;
-    return std::pair(solver.states(), run.collisions);
-  };
-  const auto [all, collisions] = end(1050);
-  const auto [near, as_many] = end(24);
-  EXPECT_GT(collisions, all.size() / 25);
-  EXPECT_EQ(collisions, as_many);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    // Round-off, which a collision or two make some hundred times as large.
-    EXPECT_LT((all[i].position - near[i].position).norm(), 1e-11 * all[i].position.norm()) << i;
-    EXPECT_LT((all[i].velocity - near[i].velocity).norm(), 1e-11 * (1 + all[i].velocity.norm()))
-        << i;
-  }
-}
-
 }  // namespace
 }  // namespace slipcheck

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "physics/contact/linear_contact.h"
 #include "reference/steps/step_solver.h"
@@ -64,6 +65,34 @@ TEST(StepNeighbours, GiveTheBitsOfAllPairs) {
       }
       EXPECT_GT(collisions, 30u);
     }
+}
+
+/// 1000 and more are stored in another order: of their sums only the order differs.
+TEST(StepNeighbours, KeepWhatEachOfManyIs) {
+  ContactScene scene =
+      test::soft(unlike_balls(1050, true), 5e-5, ContactEnd::zero_force, ViscousForce{0.05, 0.3});
+  scene.hard.substrate.push_back(scene.hard.substrate[0]);
+  scene.hard.substrate[1].static_friction = scene.hard.substrate[1].kinetic_friction = 0.05;
+  scene.soft.assign(4, scene.soft[0]);
+  scene.soft[1]->tangential = scene.soft[2]->tangential = ViscousForce{0.02, 0.1};
+  scene.soft[3]->tangential = ViscousForce{0.1, 0.5};
+  for (std::size_t i = 0; i < scene.hard.material.size(); i += 3) scene.hard.material[i] = 1;
+  const auto end = [&](std::size_t most_in_all_pairs) {
+    StepSolver solver(scene, scene.hard.initial,
+                      {.step = 2e-6, .most_in_all_pairs = most_in_all_pairs});
+    const SolvedRun run = solver.run(until_time(2e-3), nullptr);
+    EXPECT_TRUE(run.reached) << run.reason;
+    return std::pair(solver.states(), run.collisions);
+  };
+  const auto [all, collisions] = end(1050);
+  const auto [near, as_many] = end(24);
+  EXPECT_GT(collisions, 40u);
+  EXPECT_EQ(collisions, as_many);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    // Round-off, which a collision or two make some hundred times as large.
+    EXPECT_LT((all[i].position - near[i].position).norm(), 1e-11 * all[i].position.norm()) << i;
+    EXPECT_LT((all[i].velocity - near[i].velocity).norm(), 1e-11) << i;
+  }
 }
 
 /// Unlike radii on a periodic plane: a scene moved across its edges does the same.
