@@ -75,6 +75,7 @@ Ends make_output() {
 bool is_for_workers(std::string_view variable) {
   constexpr std::string_view kNames[] = {"PATH", "HOME", "LANG", "TMPDIR"};
   constexpr std::string_view kPrefixes[] = {"LC_",   "SLIPCHECK_", "NODE_", "OMP_",  "XDG_",
+                                            "GCOV_",
 #ifdef SLIPCHECK_SANITIZE
                                             "ASAN_", "LSAN_",      "TSAN_", "UBSAN_"
 #endif
