@@ -66,7 +66,8 @@ TEST(ScaledLengths, ScaledScenesAreSimilarInTheReference) {
   // Exact phases: rounding alone, and what it moves a root by.
   for (const char* name :
        {"symmetric-30cms", "rolling-friction-table", "bouncing-ball", "oblique", "spin-to-rest",
-        "bounce-on-belt", "restitution-over-height", "heading-ring"})
+        "bounce-on-belt", "restitution-over-height", "heading-ring", "ice-bridges", "belt-starts",
+        "marble-run", "three-cushion-shot"})
     for (const double lambda : {1e-6, 7.3, 1e3}) expect_similar(bundled(name), lambda, 1e-9);
 }
 
@@ -150,7 +151,8 @@ TEST(Similarity, TheReferenceKnowsNoDirection) {
   // Rounding of places, speeds and times, and of a time what it moves a root by.
   for (const char* name :
        {"oblique", "roll-to-rest", "slope-slides-across", "belt-starts", "shaker-slips",
-        "bounce-on-belt", "spin-before-oblique-hit", "friction-in-collision", "heading-ring"}) {
+        "bounce-on-belt", "spin-before-oblique-hit", "friction-in-collision", "heading-ring",
+        "marble-run", "three-cushion-shot"}) {
     const PreparedScene scene = std::move(prepare_scenes({bundled(name)}).front());
     for (const std::size_t k : {1u, 2u, 5u}) {
       const auto seen = turned_back(scene, even_heading(k, 8));

@@ -199,6 +199,42 @@ TEST(ContactScene, ViscousEquivalentLeavesTheSlipThatTheForceLeaves) {
   EXPECT_EQ(smooth.hard.between(0, 1).tangential_restitution, -1);
 }
 
+TEST(ContactScene, RollingResistanceOfUnlikeSpheres) {
+  const std::string normal = "{model: linear, stiffness: 1e6, damping_rate: 10}";
+  for (const std::string stiffness : {"stiffness_ratio: 0.5", "stiffness: 5e5"}) {
+    const ContactScene scene = scene_of(
+        with(unlike_text(normal), "tangential: none",
+             "tangential: none\n    rolling: {friction: 0.1, " + stiffness + ", damping: 0.3}"));
+    const SpringTorque made = scene.between(0, 1).value().memory.value().rolling;
+    // k_r R_eff², μ_r R_eff, and of critical damping 2 √(k I) of both inertias in series.
+    const double radius = 1 / (1 / 0.1 + 1 / 0.05);
+    const auto inertia = [](double r) { return 0.4 * 7850 * 4.0 / 3 * M_PI * std::pow(r, 5); };
+    const double both = inertia(0.1) * inertia(0.05) / (inertia(0.1) + inertia(0.05));
+    const double k = 5e5 * radius * radius;
+    EXPECT_NEAR(made.stiffness / k, 1, 1e-14);
+    EXPECT_NEAR(made.damping / (0.3 * 2 * std::sqrt(k * both)), 1, 1e-14);
+    EXPECT_NEAR(made.length, 0.1 * radius, 1e-16);
+  }
+}
+
+TEST(ContactScene, HardContactOfASpringLeavesTheSlipThatTheOscillatorLeaves) {
+  // m_t u̇ = −k_t s − c u, ṡ = u for the time of a contact; critical at 8337/s.
+  for (const std::string rate : {"0", "4000", "8337", "4e4"}) {
+    const ContactScene scene = scene_of(
+        pair_text("{model: linear, restitution: 0.8, collision_time: 1e-4}",
+                  "{model: spring, stiffness: 1e9, damping_rate: " + rate + ", friction: 0.1}"));
+    const SpringFriction made = scene.between(0, 1).value().memory.value().sliding;
+    const double mass = mass_of(scene) / 3.5;  // of solid spheres
+    EXPECT_NEAR(made.damping, std::stod(rate) * mass_of(scene), 1e-12 * made.damping);
+    const auto slope = [&](double, const Eigen::Vector2d& s) {
+      return Eigen::Vector2d(s[1], -(1e9 * s[0] + made.damping * s[1]) / mass);
+    };
+    const Eigen::Vector2d end = test::integrate(slope, Eigen::Vector2d(0, 1), 0, 1e-4, 2000);
+    // The duration is known to 1e-8.
+    EXPECT_NEAR(scene.hard.between(0, 1).tangential_restitution, -end[1], 1e-7) << rate;
+  }
+}
+
 TEST(ContactScene, AsperitiesByFrictionOrRoughness) {
   const auto asperity = [](const std::string& keys) {
     const ContactScene scene = scene_of(pair_text("hertz", "{model: asperity, " + keys + "}"));
