@@ -181,9 +181,10 @@ void update(const CheckArguments& arguments, const Baselines& old,
                       update.added.size(), update.changed.size(), update.removed.size(),
                       update.unchanged);
   if (!update.empty())
-    text += fmt::format(
-        "Next: look at git diff {}, say why in the last line of {}, and commit both alone.\n",
-        arguments.baselines, arguments.changes);
+    text += fmt::format("Next: look at git diff {}, {}commit both alone.\n", arguments.baselines,
+                        arguments.why.empty()
+                            ? fmt::format("say why in the last line of {}, and ", arguments.changes)
+                            : fmt::format("and that of {}; ", arguments.changes));
   if (arguments.json == "-")
     say("{}", text);
   else

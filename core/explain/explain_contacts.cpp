@@ -256,8 +256,9 @@ ExplainSections explain_contacts(const Scenario& scenario, const ContactScene& s
                soft->normal);
     std::visit([&](const auto& law) { add_tangential(section, law, mass); }, soft->tangential);
     if (soft->memory) add_memory(section, *soft->memory);
-    if (!std::holds_alternative<LinearForce>(soft->normal) &&
-        !std::holds_alternative<PowerForce>(soft->normal))
+    if (std::holds_alternative<HertzForce>(soft->normal) ||
+        std::holds_alternative<ViscoelasticForce>(soft->normal) ||
+        std::holds_alternative<CompactViscoelasticForce>(soft->normal))
       add_sound(section, scenario, contact, speed);
   }
   return sections;

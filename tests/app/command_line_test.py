@@ -357,7 +357,7 @@ class CommandLine(unittest.TestCase):
             "compare:", "compare:\n  reference: steps\n  steps_per_contact: 50")
         file = self.path / "steps.yaml"
         file.write_text(text)
-        special, general = (json.loads(self.result_of(file, *option))["reference"]["observables"]
+        special, general = (json.loads(self.result_of(file, "--time-limit", "600", *option))["reference"]["observables"]
                             for option in ((), ("--general",)))
         self.assertEqual(special, general)
         self.assertGreater(len(special), 10)

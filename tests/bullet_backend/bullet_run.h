@@ -11,6 +11,7 @@
 #include "engine/lacks.h"
 #include "engine/profile.h"
 #include "engine/remote_engine.h"
+#include "engine/settings.h"
 #include "scene/scene.h"
 
 namespace slipcheck {
@@ -106,6 +107,21 @@ inline std::vector<Frame> run(RemoteEngine& engine, const Scene& scene, const Se
   std::vector<Frame> frames;
   engine.advance(steps, [&](const Frame& frame) { frames.push_back(frame); });
   return frames;
+}
+
+/// A value that the engine takes and does not ship with.
+inline Setting another(const SettingInfo& info) {
+  if (const bool* flag = std::get_if<bool>(&info.shipped)) return !*flag;
+  if (std::holds_alternative<std::string>(info.shipped))
+    return info.choices.back() == std::get<std::string>(info.shipped) ? info.choices.front()
+                                                                      : info.choices.back();
+  // Halves and thirds that single precision would round, and one more of what is whole.
+  const double shipped = std::get<double>(info.shipped);
+  if (info.whole) return shipped + 1;
+  for (const double value : {shipped / 3, shipped * 3, 0.3, 3.0})
+    if (value != shipped && broken_rule(info, value).empty()) return value;
+  ADD_FAILURE() << info.name << " has no other value";
+  return info.shipped;
 }
 
 /// A setting that applies; NaN, and the test fails, where it does not.

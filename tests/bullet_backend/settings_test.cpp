@@ -42,21 +42,6 @@ TEST_F(BulletSettingsTable, NamesUnitsAndValuesAreWellFormed) {
   EXPECT_GT(names.size(), 50u);
 }
 
-/// A value that the engine takes and does not ship with.
-Setting another(const SettingInfo& info) {
-  if (const bool* flag = std::get_if<bool>(&info.shipped)) return !*flag;
-  if (std::holds_alternative<std::string>(info.shipped))
-    return info.choices.back() == std::get<std::string>(info.shipped) ? info.choices.front()
-                                                                      : info.choices.back();
-  // Halves and thirds that single precision would round, and one more of what is whole.
-  const double shipped = std::get<double>(info.shipped);
-  if (info.whole) return shipped + 1;
-  for (const double value : {shipped / 3, shipped * 3, 0.3, 3.0})
-    if (value != shipped && broken_rule(info, value).empty()) return value;
-  ADD_FAILURE() << info.name << " has no other value";
-  return info.shipped;
-}
-
 TEST_F(BulletSettingsTable, EachSettingArrivesAndLeavesTheOthersAlone) {
   const Scene scene =
       scene_of(steel_ball(0.01), {rolling_along_x(0.01, 0, 0), rolling_along_x(0.01, 1, 0)},

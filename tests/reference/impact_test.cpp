@@ -35,8 +35,8 @@ Impact integrated(const NormalForce& law, double m, double v, ContactEnd end, in
     return Vector3(s[1], -2 * s[0] * force / m, 2 * s[0]);
   };
   const auto over = [&](const Vector3& s) {
-    return end == ContactEnd::zero_overlap ? s[0] < 0
-                                           : s[1] < 0 && normal_force(law, s[0] * s[0], s[1]) < 0;
+    return s[0] < 0 ||
+           (end == ContactEnd::zero_force && s[1] < 0 && normal_force(law, s[0] * s[0], s[1]) < 0);
   };
   const auto seen = [&](const Vector3& s) {
     if (s[0] * s[0] <= found.largest_overlap) return;

@@ -76,6 +76,16 @@ TEST(Models, PowerNormal) {
   EXPECT_EQ(model.gamma, 0);
 }
 
+TEST(Models, UnitsOfPowerNormalFollowItsExponents) {
+  EXPECT_DOUBLE_EQ(
+      normal<PowerNormal>("{model: power, modulus: 1e9 dyn/cm^2, viscosity: 0, alpha: 2}").modulus,
+      1e8);
+  expect_fault(with(kHard, "{model: hard, restitution: 0.9}",
+                    "{model: power, modulus: 1e8 N/m^1.5, viscosity: 0, alpha: 1.25}"),
+               "s.yaml:8:37: contacts[0].normal.modulus: must be a force over length^alpha, as in "
+               "\"1e9 N/m^1.25\", got 1e8 N/m^1.5");
+}
+
 TEST(Models, RestitutionAtASpeed) {
   const auto power =
       normal<PowerNormal>("{model: power, modulus: 1e9, restitution: 0.9, at_speed: 10 cm/s}");

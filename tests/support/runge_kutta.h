@@ -1,5 +1,7 @@
 #pragma once
 
+#include <stdexcept>
+
 #include "physics/sphere.h"
 
 // The independent integration that tests compare with: classical fourth-order Runge-Kutta with
@@ -26,11 +28,14 @@ State integrate(const Rate& rate, State s, double begin, double end, int steps) 
 }
 
 /// s where over(s) begins to hold, not before the first step h; found by halving the last one down
-/// to `shortest`. Shows seen(s) each on the way. The rate depends on s alone.
+/// to `shortest`. Shows seen(s) each on the way. The rate depends on s alone. Throws
+/// std::runtime_error where it does not within 10⁷ steps.
 template <class Rate, class State, class Over, class Seen>
 State integrate_until(const Over& over, const Rate& rate, State s, double h, double shortest,
                       const Seen& seen) {
+  int steps = 0;
   for (bool first = true; h > shortest; first = false) {
+    if (++steps > 10'000'000) throw std::runtime_error("what ends the integration never holds");
     const State next = runge_kutta_step(rate, 0, s, h);
     if (over(next) && !first) {
       h /= 2;

@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "scenario/record_keys.h"
@@ -36,13 +40,18 @@ Rule<HardRestitution> hard_restitution_rule() {
        {is_scalar, made_from<HardRestitution>(number(kPureNumber, kFraction), same)}});
 }
 
-/// A quantity of the power law, whose dimension depends on the exponents: base · length^−exponent.
-template <class Field>
-Rule<PowerNormal> power_quantity(Field PowerNormal::*field, double PowerNormal::*exponent,
-                                 Dimension base, const Range& range) {
-  return {[=](const YamlNode& node, Reading& reading, PowerNormal& target) {
+/// A quantity whose dimension depends on an exponent that is a key before it: base ·
+/// length^−exponent. The example of `base` ends with an exponent.
+template <class Model, class Field>
+Rule<Model> power_quantity(Field Model::*field, double Model::*exponent, Dimension base,
+                           const Range& range) {
+  return {[=](const YamlNode& node, Reading& reading, Model& target) {
             Dimension dimension = base;
             dimension.length -= target.*exponent;
+            const std::string_view any = base.example;
+            const std::string example =
+                fmt::format("{}{:g}", any.substr(0, any.rfind('^') + 1), target.*exponent);
+            dimension.example = example.c_str();
             double value = 0;
             if (!number(dimension, range).read(node, reading, value)) return false;
             target.*field = value;
