@@ -29,7 +29,9 @@ Scenario scenario_of(const YamlPointer& tree, const std::string& file, ReadNumbe
   reading.note_numbers(numbers);
   WrittenScene written;
   if (is_mapping(*root)) {
-    scene_rule().read(*root, reading, written);
+    // Making it takes longer than reading a scene.
+    static const Rule<WrittenScene> rule = scene_rule();
+    rule.read(*root, reading, written);
   } else {
     reading.fault(*root, "must be a scene, a mapping that begins with slipcheck: 1");
     reading.throw_faults();
