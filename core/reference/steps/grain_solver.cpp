@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <type_traits>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "base/stop_scope.h"
 #include "base/thread_team.h"
 #include "physics/numbers.h"
+#include "reference/steps/grain_blocks.h"
 #include "reference/steps/grain_islands.h"
 #include "reference/steps/grain_kernels.h"
 #include "reference/steps/grain_neighbours.h"
@@ -19,18 +19,6 @@
 
 namespace slipcheck {
 namespace {
-
-/// Costs in units of one grain gliding through a block, about 1 ns. They only tell how long blocks
-/// and how thick skins are.
-namespace cost {
-constexpr double kLook = 1.5;        // at a pair of Verlet's list
-constexpr double kSteps = 6;         // of a grain in an island, each step
-constexpr double kIsland = 40;       // to sort a grain into one
-constexpr double kNeighbours = 150;  // of a grain, to find them
-}  // namespace cost
-/// How much faster than the fastest now a grain may get in a block before it is done again.
-constexpr double kFaster = 1.25;
-constexpr std::size_t kLongestBlock = 64;
 
 double folded(double x, double length, std::int64_t& image) {
   if (!(length > 0)) return x;
@@ -74,18 +62,19 @@ class GrainSolver::Impl {
       grains_.sticks[i] = slip <= round_off ? 1 : 0;
       fastest2 = std::max(fastest2, state.velocity.head<2>().squaredNorm());
     }
-    fastest_ = std::sqrt(fastest2);
+    blocks_ = {step, braking()};
+    blocks_.set_fastest(std::sqrt(fastest2));
     find_neighbours(1);
   }
 
   void advance(std::size_t steps) {
     while (steps > 0) {
       heed_stop();
-      if (!(fastest_ * step_ <= 0.5 * radius()))
+      if (!(blocks_.fastest() * step_ <= 0.5 * radius()))
         throw StepTooLong("bodies move by more than half a radius in a step");
       const std::size_t length = next_block(steps);
       if (length == 0) {
-        find_neighbours(std::min(steps, kLongestBlock));
+        find_neighbours(std::min(steps, GrainBlocks::kLongest));
         continue;
       }
       if (run_block(length)) {
@@ -96,8 +85,7 @@ class GrainSolver::Impl {
   }
 
   void exchange(StateArchive& archive) {
-    archive(grains_, image_x_, image_y_, body_, n_, collisions_, fastest_, skin_, moved_, joining_,
-            last_length_, neighbours_, touching_);
+    archive(grains_, image_x_, image_y_, body_, n_, collisions_, blocks_, neighbours_, touching_);
   }
 
   double now() const { return static_cast<double>(n_) * step_; }
@@ -119,13 +107,13 @@ class GrainSolver::Impl {
   }
 
   void show(Frame& frame) {
-    if (2 * moved_ + margin(1) > skin_) find_neighbours(1);
+    if (!blocks_.cover(1)) find_neighbours(1);
     // All grains in one batch get the half kick from their velocities' time to that of positions.
     GrainBatch batch;
     batch.resize(grains_.size());
     for (std::size_t i = 0; i < grains_.size(); ++i) batch.take(i, grains_, i, kernels_.kinds());
     std::vector<std::uint32_t> near;
-    kernels_.find_near(grains_, neighbours_.first(), neighbours_.second(), margin(1), near);
+    kernels_.find_near(grains_, neighbours_.first(), neighbours_.second(), blocks_.margin(1), near);
     batch.pairs = pairs_of(near);
     const GrainGroup all = {0, grains_.size(), 0, batch.pairs.size()};
     kernels_.run(batch, all, {step_, n_ > 0 ? 0.5 * step_ : 0, 1, false, n_ > 0});
@@ -159,51 +147,32 @@ class GrainSolver::Impl {
 
   double radius() const { return kernels_.plane().radius; }
 
-  /// A bound on speeds within `length` steps [m/s]; run_block sees to it.
-  double bound(std::size_t length) const {
-    double friction = 0;
+  /// The largest μ_k g of a grain on the plane [m/s²].
+  double braking() const {
+    double most = 0;
     if (features().on_plane)
       for (const GrainKind& kind : kernels_.kinds())
-        friction = std::max(friction, kind.kinetic_friction * kind.weight * kind.inverse_mass);
-    return kFaster * fastest_ + friction * step_ * static_cast<double>(length);
-  }
-  /// How near grains must be to meet within `length` steps [m].
-  double margin(std::size_t length) const {
-    return 2 * bound(length) * step_ * static_cast<double>(length);
+        most = std::max(most, kind.kinetic_friction * kind.weight * kind.inverse_mass);
+    return most;
   }
 
-  /// The length that costs least a step, as the last block lets expect; 0 where the list of
-  /// neighbours no longer covers one step.
+  /// 0 where the list of neighbours no longer covers one step.
   std::size_t next_block(std::size_t steps) const {
     if (n_ == 0) return 1;  // its kick is half as long
-    const double all = static_cast<double>(grains_.size()) +
-                       cost::kLook * static_cast<double>(neighbours_.first().size()) +
-                       cost::kIsland * 2 * static_cast<double>(touching_.size());
-    const double best = std::sqrt(all / (cost::kSteps * std::max(joining_, 1e-6)));
-    auto length = static_cast<std::size_t>(
-        std::clamp(best, 1.0, static_cast<double>(std::min(steps, kLongestBlock))));
-    while (length > 0 && 2 * moved_ + margin(length) > skin_) length /= 2;
-    return length;
+    return blocks_.next(steps, grains_.size(), neighbours_.first().size(), touching_.size());
   }
 
   void find_neighbours(std::size_t length) {
-    // A grain has about π ρ d s neighbours in a skin s, looked at once in a block; s lasts for
-    // s over twice the speed.
-    const double d = 2 * radius(), speed = 2 * bound(length);
-    const double looks = cost::kLook * std::numbers::pi * density() * d /
-                         (static_cast<double>(last_length_) * step_);
-    const double best = std::sqrt(cost::kNeighbours * speed / looks);
-    skin_ = std::max(std::clamp(best, 0.1 * d, 0.6 * d), 1.01 * margin(1));
+    blocks_.renew(length, 2 * radius(), density());
     GrainArrays& g = grains_;
     for (std::size_t i = 0; i < g.size(); ++i) {
       g.x[i] = folded(g.x[i], kernels_.plane().length_x, image_x_[i]);
       g.y[i] = folded(g.y[i], kernels_.plane().length_y, image_y_[i]);
     }
     const std::vector<std::uint32_t>& order =
-        neighbours_.sort(g, kernels_.plane(), 2 * radius() + skin_);
+        neighbours_.sort(g, kernels_.plane(), 2 * radius() + blocks_.skin());
     reorder(order);
-    neighbours_.find(g, kernels_.plane(), skin_);
-    moved_ = 0;
+    neighbours_.find(g, kernels_.plane(), blocks_.skin());
   }
 
   /// ρ [1/m²] of a periodic plane, else that of grains side by side.
@@ -266,7 +235,7 @@ class GrainSolver::Impl {
 
   /// So many steps, or none where a grain got faster than foreseen.
   bool run_block(std::size_t length) {
-    find_near(margin(length));
+    find_near(blocks_.margin(length));
     islands_.find(grains_.size(), neighbours_.first(), neighbours_.second(), near_);
     const std::vector<std::uint32_t>& active = islands_.grains();
     batch_.resize(active.size());
@@ -291,11 +260,10 @@ class GrainSolver::Impl {
     const std::size_t begun = std::accumulate(begun_.begin(), begun_.end(), std::size_t{0});
     double fastest2 = 0;
     for (const double each : batch_.fastest) fastest2 = std::max(fastest2, each);
-    if (std::sqrt(fastest2) > bound(length)) {
-      fastest_ = std::sqrt(fastest2);
+    if (std::sqrt(fastest2) > blocks_.bound(length)) {
+      blocks_.set_fastest(std::sqrt(fastest2));
       return false;
     }
-    moved_ += bound(length) * step_ * static_cast<double>(length);
     // Grains at rest stay; the first kick is half as long, and without friction there is none.
     const double still2 =
         n_ == 0 && features().on_plane ? begin_gliding() : kernels_.glide(grains_, step_, length);
@@ -304,11 +272,7 @@ class GrainSolver::Impl {
     });
     keep_contacts(pairs.size());
     collisions_ += begun;
-    fastest_ = std::sqrt(std::max(fastest2, still2));
-    joining_ = std::max(0.0, static_cast<double>(active.size()) -
-                                 2 * static_cast<double>(touching_.size())) /
-               static_cast<double>(length);
-    last_length_ = length;
+    blocks_.took(length, active.size(), touching_.size(), std::sqrt(std::max(fastest2, still2)));
     return true;
   }
 
@@ -367,11 +331,7 @@ class GrainSolver::Impl {
   std::vector<std::int64_t> image_x_, image_y_;  ///< cells between a grain's path and its place
   std::vector<std::uint32_t> body_;              ///< of the scene
   std::size_t n_ = 0, collisions_ = 0;
-  double fastest_ = 0;  ///< speed [m/s]
-  double skin_ = 0;     ///< of the list [m]
-  double moved_ = 0;    ///< at most, by any grain since the list was made [m]
-  double joining_ = 1;  ///< grains that a further step in a block adds to islands
-  std::size_t last_length_ = 8;
+  GrainBlocks blocks_;
   GrainNeighbours neighbours_;
   GrainIslands islands_;
   std::vector<std::uint32_t> near_, place_of_;

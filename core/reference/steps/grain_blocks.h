@@ -1,0 +1,91 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "base/state_archive.h"
+
+namespace slipcheck {
+
+/// How many steps GrainSolver takes as one block, and how thick the skin of its list of neighbours
+/// is: what costs least, as the last block lets expect.
+class GrainBlocks {
+ public:
+  static constexpr std::size_t kLongest = 64;
+
+  GrainBlocks() = default;
+  /// step: h [s]; braking: the largest μ_k g of a grain that slides on the substrate [m/s²].
+  GrainBlocks(double step, double braking) : step_(step), braking_(braking) {}
+
+  void exchange(StateArchive& archive) { archive(fastest_, skin_, moved_, joining_, last_length_); }
+
+  double fastest() const { return fastest_; }  ///< speed of a grain [m/s]
+  void set_fastest(double speed) { fastest_ = speed; }
+  double skin() const { return skin_; }  ///< [m]
+
+  /// A bound on speeds within `length` steps [m/s]; GrainSolver does a block again that breaks it.
+  double bound(std::size_t length) const {
+    return kFaster * fastest_ + braking_ * step_ * static_cast<double>(length);
+  }
+  /// How near grains must be to meet within `length` steps [m].
+  double margin(std::size_t length) const {
+    return 2 * bound(length) * step_ * static_cast<double>(length);
+  }
+  /// Whether none but those of the list can meet within `length` steps.
+  bool cover(std::size_t length) const { return 2 * moved_ + margin(length) <= skin_; }
+
+  /// The length of the next block, at most `steps`; 0 where the list no longer covers one step.
+  /// listed: pairs of the list; touching: of them, those in contact.
+  std::size_t next(std::size_t steps, std::size_t grains, std::size_t listed,
+                   std::size_t touching) const {
+    const double all = static_cast<double>(grains) + kLook * static_cast<double>(listed) +
+                       kIsland * 2 * static_cast<double>(touching);
+    const double best = std::sqrt(all / (kSteps * std::max(joining_, 1e-6)));
+    auto length = static_cast<std::size_t>(
+        std::clamp(best, 1.0, static_cast<double>(std::min(steps, kLongest))));
+    while (length > 0 && !cover(length)) length /= 2;
+    return length;
+  }
+
+  /// Chooses the skin of a new list. density: grains over area [1/m²].
+  void renew(std::size_t length, double diameter, double density) {
+    // A grain has about π ρ d s neighbours in a skin s, looked at once in a block; s lasts for
+    // s over twice the speed.
+    const double speed = 2 * bound(length);
+    const double looks =
+        kLook * std::numbers::pi * density * diameter / (static_cast<double>(last_length_) * step_);
+    const double best = std::sqrt(kNeighbours * speed / looks);
+    skin_ = std::max(std::clamp(best, 0.1 * diameter, 0.6 * diameter), 1.01 * margin(1));
+    moved_ = 0;
+  }
+
+  /// A block is done. active: grains in islands; fastest: the speed after it [m/s].
+  void took(std::size_t length, std::size_t active, std::size_t touching, double fastest) {
+    moved_ += bound(length) * step_ * static_cast<double>(length);
+    fastest_ = fastest;
+    joining_ = std::max(0.0, static_cast<double>(active) - 2 * static_cast<double>(touching)) /
+               static_cast<double>(length);
+    last_length_ = length;
+  }
+
+ private:
+  // Costs in units of one grain gliding through a block, about 1 ns. They only tell how long blocks
+  // and how thick skins are.
+  static constexpr double kLook = 1.5;        ///< at a pair of the list
+  static constexpr double kSteps = 6;         ///< of a grain in an island, each step
+  static constexpr double kIsland = 40;       ///< to sort a grain into one
+  static constexpr double kNeighbours = 150;  ///< of a grain, to find them
+  /// How much faster than the fastest now a grain may get in a block before it is done again.
+  static constexpr double kFaster = 1.25;
+
+  double step_ = 0, braking_ = 0;
+  double fastest_ = 0;
+  double skin_ = 0;
+  double moved_ = 0;    ///< at most, by any grain since the list was made [m]
+  double joining_ = 1;  ///< grains that a further step in a block adds to islands
+  std::size_t last_length_ = 8;
+};
+
+}  // namespace slipcheck
