@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <system_error>
 
 #include "app/bundled_scenes.h"
 #include "app/commands.h"
@@ -260,8 +261,9 @@ void add_check_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("check", "Hold scenes against what they gave before, for CI");
   auto arguments = std::make_shared<CheckArguments>();
-  const fs::path beside = bundled_baselines().lexically_proximate(fs::current_path());
-  arguments->baselines = (*beside.begin() == ".." ? bundled_baselines() : beside).string();
+  std::error_code gone;  // a folder may be removed below its user's feet
+  const fs::path beside = bundled_baselines().lexically_proximate(fs::current_path(gone));
+  arguments->baselines = (gone || *beside.begin() == ".." ? bundled_baselines() : beside).string();
   arguments->options.phases = 16;
   command->add_option("FILE", arguments->files, "Scenario files; else all bundled scenes");
   command->add_option(

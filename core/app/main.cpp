@@ -88,27 +88,27 @@ int run_command_line(int argc, char** argv) {
       "slipcheck run "
       "scenarios/symmetric-30cms.yaml --phases 64");
   int exit_code = kWithinTolerance;
-  add_run_command(app, exit_code);
-  add_check_command(app, exit_code);
-  add_engines_command(app, exit_code);
-  add_completion_command(app, exit_code);
-  add_conformance_command(app, exit_code);
-  add_convert_command(app, exit_code);
-  add_explain_command(app, exit_code);
-  add_figures_command(app, exit_code);
-  add_gas_command(app, exit_code);
-  add_list_command(app, exit_code);
-  add_manual_command(app, exit_code);
-  add_merge_command(app, exit_code);
-  add_precision_command(app, exit_code);
-  add_query_command(app, exit_code);
-  add_report_command(app, exit_code);
-  add_schema_command(app, exit_code);
-  add_stability_command(app, exit_code);
-  add_sweep_command(app, exit_code);
-  add_tune_command(app, exit_code);
-  add_versions_command(app, exit_code);
   try {
+    add_run_command(app, exit_code);
+    add_check_command(app, exit_code);
+    add_engines_command(app, exit_code);
+    add_completion_command(app, exit_code);
+    add_conformance_command(app, exit_code);
+    add_convert_command(app, exit_code);
+    add_explain_command(app, exit_code);
+    add_figures_command(app, exit_code);
+    add_gas_command(app, exit_code);
+    add_list_command(app, exit_code);
+    add_manual_command(app, exit_code);
+    add_merge_command(app, exit_code);
+    add_precision_command(app, exit_code);
+    add_query_command(app, exit_code);
+    add_report_command(app, exit_code);
+    add_schema_command(app, exit_code);
+    add_stability_command(app, exit_code);
+    add_sweep_command(app, exit_code);
+    add_tune_command(app, exit_code);
+    add_versions_command(app, exit_code);
     const StopScope scope(&interrupted());
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

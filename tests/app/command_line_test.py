@@ -411,6 +411,14 @@ class CommandLine(unittest.TestCase):
             self.assertRegex(result.stdout, r"Example")
             self.assertIn("--quiet", result.stdout)
 
+    def test_a_folder_that_is_gone_is_no_end(self):
+        for arguments, code in ((["--version"], 0), (["list", "models"], 0), (["run", "s.yaml"], 2)):
+            folder = self.path / "gone"
+            folder.mkdir()
+            result = subprocess.run(["sh", "-c", 'rmdir "$PWD"; exec "$@"', "sh", SLIPCHECK, *arguments], cwd=folder,
+                                    capture_output=True, text=True, timeout=60)
+            self.assertEqual(result.returncode, code, result.stderr)
+
     def test_lists(self):
         engines = json.loads(run("list", "engines", "--json").stdout)
         self.assertIn(("bullet", "double"), [(e["engine"], e.get("precision")) for e in engines])
