@@ -292,8 +292,7 @@ nlohmann::ordered_json json_of(const SceneRecord& scene) {
 
 nlohmann::ordered_json json_of(const std::vector<SceneRecord>& scenes) {
   if (scenes.size() == 1) return json_of(scenes.front());
-  nlohmann::ordered_json json;
-  json["schema"] = "slipcheck-results/1";
+  nlohmann::ordered_json json = {{"schema", "slipcheck-results/1"}};
   json["results"] = nlohmann::ordered_json::array();
   for (const SceneRecord& scene : scenes) json["results"].push_back(json_of(scene));
   return json;

@@ -145,8 +145,7 @@ bool has_motions(const SceneRecord& scene) {
 }
 
 Json motion_json_of(const SceneRecord& scene) {
-  Json json;
-  json["schema"] = kSchema;
+  Json json = {{"schema", kSchema}};
   json["scenario"] = {{"name", valid_utf8(scene.scenario.name)}, {"sha256", scene.scenario.sha256}};
   json["bodies"] = Json::array();
   for (const Body& body : scene.scenario.bodies) json["bodies"].push_back(valid_utf8(body.name));

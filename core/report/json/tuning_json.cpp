@@ -18,6 +18,7 @@ Json score_json(const Score& score) {
 Json finalist_json(const TuningRecord& tuning, const TuningFinalist& finalist) {
   Json json{{"settings", written(finalist.settings)}, {"training", score_json(finalist.training)}};
   if (finalist.held_out) json["held_out"] = score_json(*finalist.held_out);
+  json["runs"] = Json::array();
   for (std::size_t k = 0; k < tuning.tasks.size(); ++k) {
     const TuningTask& task = tuning.tasks[k];
     const RunScore& run = finalist.runs[k];

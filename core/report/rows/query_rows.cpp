@@ -70,6 +70,8 @@ std::string query_csv(const QueryResult& result) {
 
 std::string query_json(const QueryResult& result) {
   nlohmann::ordered_json json = {{"schema", "slipcheck-query/1"}};
+  // As arrays from the beginning: what is null and cannot become one for want of memory is broken.
+  json["columns"] = nlohmann::ordered_json::array();
   for (const QueryColumn& column : result.columns)
     json["columns"].push_back({{"name", column.name}, {"unit", column.unit}});
   json["rows"] = nlohmann::ordered_json::array();
