@@ -79,13 +79,14 @@ const std::vector<Row> kRows = {
      0.4},
     {"lammps", "double", "physical", yes, yes, to_its_solvers_tolerance, yes, yes, kFewSeeds, 1e-7,
      0.4, 48},
-    // Its solver ends at 10⁻⁴ as it ships, and at 10⁻¹⁰. Three bodies at once come apart by their
-    // order, however well that is solved.
+    // Its solver ends at 10⁻⁴ as it ships; at 10⁻¹⁰, of which steps add up to ten times as much. By
+    // their order bodies come apart however well that is solved.
     {"siconos", "double", "default", yes, to_its_solvers_tolerance, to_its_solvers_tolerance,
      to_its_solvers_tolerance, no, kFewSeeds, 1e-4},
     {"siconos", "double", "physical", yes, to_its_solvers_tolerance, to_its_solvers_tolerance,
      to_its_solvers_tolerance, no, kFewSeeds, 1e-9},
-    // An integrator's steps are cut by the errors of its coordinates: accuracy 10⁻³ and 10⁻⁷.
+    // An integrator's steps are cut by the errors of its coordinates, accuracy 10⁻³ and 10⁻⁷ each,
+    // and what a collision takes of that it makes larger: ten and a hundred times.
     {"simbody", "double", "default", yes, to_its_solvers_tolerance, no, to_its_solvers_tolerance,
      to_its_solvers_tolerance, kFewSeeds, 1e-2},
     {"simbody", "double", "physical", yes, to_its_solvers_tolerance, to_its_solvers_tolerance,
