@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/folder.h"
+
 namespace slipcheck {
 namespace {
 
@@ -21,9 +23,8 @@ fs::path scenario_directory() {
 std::vector<fs::path> bundled_scenes(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(scenario_directory() / folder, ignored))
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-  std::ranges::sort(files);
+  for (const fs::path& file : entries_of(scenario_directory() / folder, ignored))
+    if (file.extension() == ".yaml") files.push_back(file);
   return files;
 }
 

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/folder.h"
 #include "engine/npm_engines.h"
 
 namespace slipcheck {
@@ -134,10 +135,10 @@ bool is_older_version(std::string_view one, std::string_view other) {
 std::vector<EngineExecutable> find_engines(const std::vector<fs::path>& directories) {
   std::map<std::pair<std::string, std::string>, fs::path> found;
   for (const fs::path& directory : directories) {
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
-      const auto name = parse_name(entry.path().filename().string());
-      if (name && is_executable(entry.path())) found.emplace(*name, entry.path());
+    std::error_code ignored;
+    for (const fs::path& file : entries_of(directory, ignored)) {
+      const auto name = parse_name(file.filename().string());
+      if (name && is_executable(file)) found.emplace(*name, file);
     }
   }
   std::vector<EngineExecutable> engines;

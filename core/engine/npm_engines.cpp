@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/folder.h"
 #include "base/json_node.h"
 #include "base/regular_file.h"
 
@@ -92,14 +93,14 @@ std::vector<EngineExecutable> installed_npm_engines() {
   std::vector<EngineExecutable> found;
   const fs::path all = engines_folder();
   std::error_code ignored;
-  if (all.empty() || !fs::is_directory(all, ignored)) return found;
+  if (all.empty()) return found;
   const std::vector<NpmEngine> engines = npm_engines();
-  for (const fs::directory_entry& entry : fs::directory_iterator(all, ignored)) {
-    const std::string name = entry.path().filename().string();
+  for (const fs::path& folder : entries_of(all, ignored)) {
+    const std::string name = folder.filename().string();
     const std::string version = engine_version(name);
     const auto engine = std::ranges::find(engines, engine_family(name), &NpmEngine::name);
-    if (version.empty() || engine == engines.end() || !entry.is_directory(ignored)) continue;
-    found.push_back(npm_worker(*engine, version, entry.path()));
+    if (version.empty() || engine == engines.end() || !fs::is_directory(folder, ignored)) continue;
+    found.push_back(npm_worker(*engine, version, folder));
   }
   return found;
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "base/folder.h"
 #include "engine/profile.h"
 #include "engine/settings.h"
 #include "scenario/units.h"
@@ -62,10 +63,10 @@ std::optional<fs::path> find_profile(const EngineExecutable& executable, const s
 
 std::vector<std::string> profile_names(const EngineExecutable& executable) {
   std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(executable.profiles, error)) {
-    const std::string stem = entry.path().stem().string();
-    if (entry.path().extension() == ".yaml" && is_profile_name(stem)) names.push_back(stem);
+  std::error_code ignored;
+  for (const fs::path& file : entries_of(executable.profiles, ignored)) {
+    const std::string stem = file.stem().string();
+    if (file.extension() == ".yaml" && is_profile_name(stem)) names.push_back(stem);
   }
   std::ranges::sort(names);
   return names;

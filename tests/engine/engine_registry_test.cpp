@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "../support/in_folder.h"
+#include "base/folder.h"
 
 namespace slipcheck {
 namespace {
@@ -52,6 +53,20 @@ TEST_F(EngineRegistryTest, FindsWhatIsNamedLikeAnEngineSortedAndFirstDirectoryFi
   EXPECT_FALSE(find_engine("ode", "single", find_engines({folder_ / "a"})).has_value());
 }
 
+TEST_F(EngineRegistryTest, AFolderIsReadByNameOrSaysWhyNot) {
+  fs::create_directories(folder_ / "d" / "below");
+  const fs::path file = put("d/b", fs::perms::owner_read);
+  put("d/.a", fs::perms::owner_read);
+  std::error_code error = std::make_error_code(std::errc::io_error);
+  EXPECT_EQ(entries_of(folder_ / "d", error),
+            (std::vector{folder_ / "d" / ".a", file, folder_ / "d" / "below"}));
+  EXPECT_FALSE(error);
+  EXPECT_TRUE(entries_of(file, error).empty());
+  EXPECT_EQ(error, std::errc::not_a_directory);
+  EXPECT_TRUE(entries_of(folder_ / "missing", error).empty());
+  EXPECT_EQ(error, std::errc::no_such_file_or_directory);
+}
+
 TEST_F(EngineRegistryTest, TheEnvironmentComesBeforeTheProgramsOwnFolder) {
   const std::string path = (folder_ / "b").string() + "::" + (folder_ / "a").string();
   setenv("SLIPCHECK_ENGINE_PATH", path.c_str(), 1);
@@ -60,7 +75,7 @@ TEST_F(EngineRegistryTest, TheEnvironmentComesBeforeTheProgramsOwnFolder) {
   ASSERT_EQ(directories.size(), 4u);
   EXPECT_EQ(directories[0], folder_ / "b");
   EXPECT_EQ(directories[1], folder_ / "a");
-  EXPECT_TRUE(fs::exists(directories[2] / "test_engine"));
+  EXPECT_TRUE(fs::exists(directories[2] / "engine_tests"));
   EXPECT_EQ(directories[3], directories[2].parent_path() / "libexec" / "slipcheck");
 }
 

@@ -142,7 +142,7 @@ void tell_stack() {
   backtrace_symbols_fd(frames, backtrace(frames, 64), STDERR_FILENO);
 }
 
-/// So does who reads at an address that there is none of.
+/// So does who reads at an address that there is none of, or gives up.
 void on_fault(int number) {
   tell_stack();
   signal(number, SIG_DFL);
@@ -153,7 +153,7 @@ int (*program)(int, char**, char**) = nullptr;
 
 int counting_main(int argc, char** argv, char** environment) {
   read_environment();
-  signal(SIGSEGV, on_fault);
+  for (const int number : {SIGSEGV, SIGABRT}) signal(number, on_fault);
   armed = true;
   const int code = program(argc, argv, environment);
   armed = false;

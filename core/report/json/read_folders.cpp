@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/folder.h"
 #include "base/regular_file.h"
 #include "report/json/common_fields.h"
 #include "report/json/json_report.h"
@@ -34,12 +35,11 @@ std::string text_of(const fs::path& file) {
 std::vector<fs::path> files_of(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
-  fs::directory_iterator entries(folder, error);
-  for (; !error && entries != fs::directory_iterator(); entries.increment(error))
-    if (entries->path().extension() == ".json" && entries->is_regular_file(error))
-      files.push_back(entries->path());
+  for (const fs::path& file : entries_of(folder, error)) {
+    if (file.extension() == ".json" && fs::is_regular_file(file, error)) files.push_back(file);
+    if (error) break;
+  }
   if (error) throw BadJson(fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
-  std::ranges::sort(files);
   return files;
 }
 

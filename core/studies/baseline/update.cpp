@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/folder.h"
 #include "base/regular_file.h"
 #include "studies/baseline/baseline_json.h"
 
@@ -41,9 +42,8 @@ std::map<std::string, SceneBaseline> load_baselines(const fs::path& folder,
     if (const fs::path file = baseline_file(folder, scene); fs::exists(file, ignored))
       baselines.emplace(scene, load_baseline(file));
   if (!scenes.empty()) return baselines;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (entry.path().extension() == ".json")
-      baselines.emplace(entry.path().stem().string(), load_baseline(entry.path()));
+  for (const fs::path& file : entries_of(folder, ignored))
+    if (file.extension() == ".json") baselines.emplace(file.stem().string(), load_baseline(file));
   return baselines;
 }
 
