@@ -20,7 +20,9 @@ ObservableKey ObservableKey::of(std::string_view other_owner) const {
 }
 
 std::string ObservableKey::text() const {
-  std::string all(owner);
+  std::string all;
+  all.reserve(owner.size() + 1 + observable.size() + 2);
+  all += owner;
   if (!owner.empty()) all += '.';
   all += observable;
   if (component != '\0') (all += '.') += component;

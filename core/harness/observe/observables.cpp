@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "physics/frame.h"
@@ -67,6 +69,31 @@ std::vector<ObservableKey> keys_of_body() {
   return keys;
 }
 
+std::vector<ObservableKey> keys_of_pair() {
+  std::vector<ObservableKey> keys;
+  for (const auto& scalar : kPairScalars) keys.push_back({"", scalar.name});
+  return keys;
+}
+
+/// Their places in the order of their texts.
+std::vector<std::size_t> order_of(const std::vector<ObservableKey>& keys) {
+  std::vector<std::size_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](std::size_t k) { return keys[k].text(); });
+  return order;
+}
+
+/// Of a pair of these bodies.
+std::string owner_of(const PairObservables& pair, const Observables& observables,
+                     const std::vector<std::string>& body_names) {
+  const auto second = [&]() -> std::string_view {
+    if (pair.second == kSubstrate) return "substrate";
+    if (pair.second >= 0) return body_names[static_cast<std::size_t>(pair.second)];
+    return body_names[observables.bodies.size() + touched_surface(pair.second)];
+  };
+  return pair_owner(body_names[static_cast<std::size_t>(pair.first)], second());
+}
+
 }  // namespace
 
 std::string value_name(const Observables& observables, const std::vector<std::string>& body_names,
@@ -77,13 +104,38 @@ std::string value_name(const Observables& observables, const std::vector<std::st
   const std::size_t left = index - of_bodies;
   if (left == kPairScalars.size() * observables.pairs.size()) return "all.height";
   const PairObservables& pair = observables.pairs[left / kPairScalars.size()];
-  const auto second = [&]() -> std::string_view {
-    if (pair.second == kSubstrate) return "substrate";
-    if (pair.second >= 0) return body_names[static_cast<std::size_t>(pair.second)];
-    return body_names[observables.bodies.size() + touched_surface(pair.second)];
+  return ObservableKey{owner_of(pair, observables, body_names),
+                       kPairScalars[left % kPairScalars.size()].name}
+      .text();
+}
+
+std::vector<std::size_t> order_of_names(const Observables& observables,
+                                        const std::vector<std::string>& body_names) {
+  static const std::vector<std::size_t> kOrderOfBody = order_of(keys_of_body());
+  static const std::vector<std::size_t> kOrderOfPair = order_of(keys_of_pair());
+  static const std::vector<std::size_t> kAlone = {0};
+  struct Owner {
+    std::string name;  // up to its dot, which no name of a body has
+    std::size_t first;
+    const std::vector<std::size_t>* order;
   };
-  const std::string owner = pair_owner(body_names[static_cast<std::size_t>(pair.first)], second());
-  return ObservableKey{owner, kPairScalars[left % kPairScalars.size()].name}.text();
+  std::vector<Owner> owners;
+  owners.reserve(observables.bodies.size() + observables.pairs.size() + 1);
+  std::size_t first = 0;
+  const auto add = [&](std::string name, const std::vector<std::size_t>& order) {
+    owners.push_back({std::move(name += '.'), first, &order});
+    first += order.size();
+  };
+  for (std::size_t k = 0; k < observables.bodies.size(); ++k) add(body_names[k], kOrderOfBody);
+  for (const PairObservables& pair : observables.pairs)
+    add(owner_of(pair, observables, body_names), kOrderOfPair);
+  add("all", kAlone);
+  std::ranges::sort(owners, {}, &Owner::name);
+  std::vector<std::size_t> places;
+  places.reserve(first);
+  for (const Owner& owner : owners)
+    for (const std::size_t k : *owner.order) places.push_back(owner.first + k);
+  return places;
 }
 
 std::vector<double> flat_values(const Observables& observables) {
@@ -107,8 +159,9 @@ std::map<std::string, double> named_values(const Observables& observables,
                                            const std::vector<std::string>& body_names) {
   const std::vector<double> values = flat_values(observables);
   std::map<std::string, double> named;
-  for (std::size_t k = 0; k < values.size(); ++k)
-    if (!std::isnan(values[k])) named.emplace(value_name(observables, body_names, k), values[k]);
+  for (const std::size_t k : order_of_names(observables, body_names))
+    if (!std::isnan(values[k]))
+      named.emplace_hint(named.end(), value_name(observables, body_names, k), values[k]);
   return named;
 }
 

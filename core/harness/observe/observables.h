@@ -73,6 +73,11 @@ std::string value_name(const Observables& observables, const std::vector<std::st
 /// The values in the order of their value_name(), NaN where not observed.
 std::vector<double> flat_values(const Observables& observables);
 
+/// The places of flat_values() in the order of their names: what is put into a map in this order
+/// needs no search in it.
+std::vector<std::size_t> order_of_names(const Observables& observables,
+                                        const std::vector<std::string>& body_names);
+
 /// Both together, what is not observed left out.
 std::map<std::string, double> named_values(const Observables& observables,
                                            const std::vector<std::string>& body_names);

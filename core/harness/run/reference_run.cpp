@@ -215,7 +215,7 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
       has_closed_form ? flat_values(aligned(closed_form_observables(scene), solved.seen))
                       : std::vector<double>(values.size(), kNotObserved);
   std::vector<std::string> not_numbers;
-  for (std::size_t k = 0; k < values.size(); ++k) {
+  for (const std::size_t k : order_of_names(solved.seen, names)) {
     const double value = values[k];
     if (std::isnan(value)) {
       if (!is_not_observed(value)) not_numbers.push_back(value_name(solved.seen, names, k));
@@ -224,9 +224,10 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
     std::string name = value_name(solved.seen, names, k);
     // A time has a frame at either end, whatever other steps happen to agree with it.
     const double least = solver.is_stepped() && is_time(name) ? 2 * solver.step() : 0;
-    if (!std::isnan(closed[k])) result.closed_form.emplace(name, closed[k]);
-    result.observables.emplace(std::move(name),
-                               UncertainValue{value, std::max(least, uncertainties[k])});
+    if (!std::isnan(closed[k]))
+      result.closed_form.emplace_hint(result.closed_form.end(), name, closed[k]);
+    result.observables.emplace_hint(result.observables.end(), std::move(name),
+                                    UncertainValue{value, std::max(least, uncertainties[k])});
   }
   if (!scene.periodic.isZero(0) && result.run.end_time > 0) {
     // Counts scatter by their square root where collisions are independent.
