@@ -50,7 +50,7 @@ class Reader {
         return -1 - static_cast<std::int64_t>(head.argument);
       case 2: {
         const auto bytes = next(head.argument);
-        return json::binary(Bytes(bytes.begin(), bytes.end()));
+        return byte_string(Bytes(bytes.begin(), bytes.end()));
       }
       case 3:
         return text(head.argument);
@@ -154,6 +154,12 @@ class Reader {
 };
 
 }  // namespace
+
+json byte_string(Bytes bytes) {
+  json value(json::value_t::binary);
+  static_cast<Bytes&>(value.get_binary()) = std::move(bytes);
+  return value;
+}
 
 nlohmann::json read_cbor(std::span<const std::uint8_t> bytes) { return Reader(bytes).read(); }
 

@@ -11,6 +11,9 @@ namespace slipcheck::protocol {
 
 using Bytes = std::vector<std::uint8_t>;
 
+/// A JSON value of these bytes; nlohmann's own binary() is broken where its allocation fails.
+nlohmann::json byte_string(Bytes bytes);
+
 /// What came in does not keep to the protocol.
 using Rubbish = BadJson;
 

@@ -59,12 +59,12 @@ json frames_json(const Frames& reply) {
   json message = {{"count", count},
                   {"bodies", bodies},
                   {"cpu_seconds", reply.cpu_seconds},
-                  {"states", json::binary(std::move(states))},
-                  {"touch_counts", json::binary(std::move(touch_counts))},
-                  {"touches", json::binary(std::move(touches))}};
+                  {"states", byte_string(std::move(states))},
+                  {"touch_counts", byte_string(std::move(touch_counts))},
+                  {"touches", byte_string(std::move(touches))}};
   const auto is_part = [](const Frame& frame) { return frame.part != 1; };
   if (std::ranges::any_of(reply.frames, is_part))
-    message.emplace("parts", json::binary(std::move(parts)));
+    message.emplace("parts", byte_string(std::move(parts)));
   return message;
 }
 
@@ -185,7 +185,7 @@ void describe_start(Fields& f, Message& message) {
   if constexpr (Fields::kReads)
     message.states = unpack_states(f["states"]);
   else
-    f("states", json::binary(pack_states(message.states)));
+    f("states", byte_string(pack_states(message.states)));
   f("time", message.time, kNotBelowZero);
 }
 

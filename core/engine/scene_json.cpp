@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/cbor.h"
 #include "engine/contact_json.h"
 #include "engine/message_fields.h"
 #include "engine/soft_json.h"
@@ -244,7 +245,7 @@ void describe_scene(Fields& f, Scene& scene, bool packed) {
     if constexpr (Fields::kReads)
       unpack_bodies(f["packed_bodies"], scene);
     else
-      f("packed_bodies", nlohmann::json::binary(packed_bodies(scene)));
+      f("packed_bodies", protocol::byte_string(packed_bodies(scene)));
   } else {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       bodies.push_back({scene.bodies[i], scene.material[i],
@@ -272,7 +273,7 @@ void describe_scene(Fields& f, Scene& scene, bool packed) {
     }
     scene.initial = protocol::unpack_states(f["initial"]);
   } else {
-    f("initial", nlohmann::json::binary(protocol::pack_states(scene.initial)));
+    f("initial", protocol::byte_string(protocol::pack_states(scene.initial)));
   }
 }
 

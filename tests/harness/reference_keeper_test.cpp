@@ -106,7 +106,7 @@ TEST_P(KilledReference, EndsWithTheSameBytes) {
                             : kind == "unlike"
                                 ? balls(viscous, "{uniform: [0.01, 0.02]}", "steps", "0.1")
                                 : balls("{model: spring, stiffness_ratio: 0.286, friction: 0.3}",
-                                        "{uniform: [0.015, 0.02]}", "contact", "0.1");
+                                        "{uniform: [0.015, 0.02]}", "contact", "0.04");
   ReferenceExtras extras;
   extras.samples = 20;
   const ContactScene scene = make_contact_scene(scenario);

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/cbor.h"
 #include "engine/scene_json.h"
 
 namespace slipcheck {
@@ -52,8 +53,9 @@ json configure_request(const Scene& scene, const Settings& settings) {
 }
 
 json start_request(const std::vector<BodyState>& states, double time) {
-  return {
-      {"type", "start"}, {"states", json::binary(protocol::pack_states(states))}, {"time", time}};
+  return {{"type", "start"},
+          {"states", protocol::byte_string(protocol::pack_states(states))},
+          {"time", time}};
 }
 
 json step_request(std::size_t count) { return {{"type", "step"}, {"count", count}}; }
