@@ -72,7 +72,7 @@ double overlap_of(const Vector3& a, double radius_a, const Vector3& b, double ra
   constexpr double kRoundOff = 1e-12;
   const double sum = radius_a + radius_b;
   const Vector3 apart = a - b;
-  // Most pairs of a fill: told without a distance, which costs as much as the rest of it.
+  // Far apart along one axis: told without a distance that neither overflows nor underflows.
   if ((apart.cwiseAbs().array() >= sum).any()) return 0;
   const double overlap = sum - apart.stableNorm();
   // Positions carry their own round-off, which far from the origin is more than the radii's.
