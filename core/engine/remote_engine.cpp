@@ -78,6 +78,8 @@ Applied RemoteEngine::configure(const EngineScene& scene, const Settings& settin
   const bool simpler = needs_of(scene, time_step).friction_law && !takes(scene_part::kFrictionLaw);
   EngineScene given = scene;
   if (simpler) static_cast<Scene&>(given) = with_friction_numbers(scene);
+  const bool forgets = scene.has_memory() && !takes(scene_part::kMemory);
+  if (forgets) given.forget_memory();
   given.packed = (scene.packed || scene.bodies.size() > kPackedFrom) && scene.extents.empty() &&
                  takes(scene_part::kMany);
   if (!given.packed && scene.bodies.size() > kMostOneByOne)
@@ -88,6 +90,11 @@ Applied RemoteEngine::configure(const EngineScene& scene, const Settings& settin
   bodies_ = scene.bodies.size();
   surfaces_ = scene.surfaces.size();
   if (simpler) reply.applied.not_represented.push_back({lack::kFrictionLaw, lack::kFrictionLaw});
+  if (forgets)
+    reply.applied.not_represented.push_back(
+        {fmt::format("{} (hard ones in their place, without resistance against rolling)",
+                     lack::kMemory),
+         lack::kMemory});
   return std::move(reply.applied);
 }
 

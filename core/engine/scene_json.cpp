@@ -286,10 +286,13 @@ void describe(Fields& f, EngineScene& scene) {
 namespace protocol {
 namespace {
 
-void check_soft_sizes(const JsonNode& node, const SoftContacts& soft, std::size_t materials,
-                      bool is_boxed) {
+void check_soft_sizes(const JsonNode& node, const Scene& scene, const SoftContacts& soft) {
+  const std::size_t materials = scene.substrate.size();
   check_size(node["pairs"], soft.pairs.size(), materials * materials, "pairs of materials");
-  const std::size_t surfaces = is_boxed ? materials : 0;
+  if (node.has("on_surfaces"))
+    check_size(node["on_surfaces"], soft.surfaces.size(), scene.on_surfaces.size(),
+               "materials on surfaces");
+  const std::size_t surfaces = scene.box ? materials : 0;
   for (const auto& [key, contacts] : {std::pair{"on_floor", &soft.box.on_floor},
                                       {"on_wall", &soft.box.on_wall},
                                       {"on_lid", &soft.box.on_lid}})
@@ -330,7 +333,7 @@ EngineScene scene_from_json(const JsonNode& node) {
                                         {"on_lid", &scene.box->on_lid}})
       check_size(node["box"][key], contacts->size(), materials, "materials");
   check_surfaces(node, scene);
-  if (scene.soft) check_soft_sizes(node["soft"], *scene.soft, materials, scene.box.has_value());
+  if (scene.soft) check_soft_sizes(node["soft"], scene, *scene.soft);
   return scene;
 }
 

@@ -54,6 +54,7 @@ inline constexpr const char* kCylinder = "cylinder";
 /// Of spheres alone: the request `skip`, bodies that are packed, longer messages.
 inline constexpr const char* kMany = "many";
 inline constexpr const char* kSurfaces = "surfaces";  ///< beside the substrate, or without one
+inline constexpr const char* kMemory = "memory";      ///< springs of contacts that remember
 }  // namespace scene_part
 
 /// What of a scene an engine cannot express, in words that are the same for all engines, so that
@@ -72,6 +73,7 @@ inline constexpr const char* kRestitution = "restitution";
 inline constexpr const char* kRestitutionLaw = "restitution that depends on the impact speed";
 inline constexpr const char* kTangentialRestitution = "tangential restitution";
 inline constexpr const char* kFrictionLaw = "friction between bodies that depends on the slip";
+inline constexpr const char* kMemory = "contacts that remember";
 inline constexpr const char* kConfinement = "confinement to the plane";
 inline constexpr const char* kFloorVelocity = "the floor's velocity at the contact";
 inline constexpr const char* kSubstrateVelocity = "the substrate's velocity at the end of a step";

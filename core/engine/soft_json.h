@@ -79,6 +79,34 @@ void describe(Fields& f, ImpactAngleForce& force) {
   describe_restitution(f, force.restitution);
 }
 
+template <>
+inline constexpr std::array kNamesOf<SpringFriction::Form> = {"constant", "mindlin",
+                                                              "mindlin_displacement"};
+
+template <class Fields>
+void describe(Fields& f, SpringFriction& spring) {
+  f("form", spring.form);
+  f("stiffness", spring.stiffness, kNotBelowZero);
+  f("damping", spring.damping, kNotBelowZero);
+  f("damping_ratio", spring.damping_ratio, kNotBelowZero);
+  f("static_friction", spring.static_friction, kNotBelowZero);
+  f("kinetic_friction", spring.kinetic_friction, kNotBelowZero);
+}
+
+template <class Fields>
+void describe(Fields& f, SpringTorque& spring) {
+  f("stiffness", spring.stiffness, kNotBelowZero);
+  f("damping", spring.damping, kNotBelowZero);
+  f("length", spring.length, kNotBelowZero);
+}
+
+template <class Fields>
+void describe(Fields& f, ContactMemory& memory) {
+  f("sliding", memory.sliding);
+  f("rolling", memory.rolling);
+  f("drilling", memory.drilling);
+}
+
 template <class Fields>
 void describe(Fields& f, SoftContact& contact) {
   const auto law = [&](const char* key, auto& force) {
@@ -88,6 +116,7 @@ void describe(Fields& f, SoftContact& contact) {
   law("tangential", contact.tangential);
   f("ends_at", contact.end);
   f("after_impact", contact.after_impact);
+  f("memory", contact.memory);
 }
 
 /// A list with null where the contact is hard.
@@ -114,6 +143,13 @@ void describe(Fields& f, SoftContacts& soft) {
   describe_soft_list(f, "on_floor", soft.box.on_floor);
   describe_soft_list(f, "on_wall", soft.box.on_wall);
   describe_soft_list(f, "on_lid", soft.box.on_lid);
+  const char* const on_surfaces = "on_surfaces";
+  bool any = false;
+  if constexpr (Fields::kReads)
+    any = f.has(on_surfaces);
+  else
+    for (const auto& contact : soft.surfaces) any = any || contact;
+  if (any) describe_soft_list(f, on_surfaces, soft.surfaces);
 }
 
 }  // namespace slipcheck

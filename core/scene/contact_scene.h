@@ -28,6 +28,11 @@ struct SoftContact {
   std::optional<ContactMemory> memory = {};
 };
 
+/// One of them keeps springs.
+inline bool any_remembers(const std::vector<std::optional<SoftContact>>& contacts) {
+  return std::ranges::any_of(contacts, [](const auto& each) { return each && each->memory; });
+}
+
 /// What a box's surfaces do to bodies where those contacts last; by material.
 struct SoftBox {
   std::vector<std::optional<SoftContact>> on_floor, on_wall, on_lid;
@@ -63,11 +68,9 @@ struct ContactScene {
   }
   /// A contact remembers more than one tangential law: only PileSolver keeps that.
   bool has_memory() const {
-    const auto remembers = [](const std::vector<std::optional<SoftContact>>& contacts) {
-      return std::ranges::any_of(contacts, [](const auto& each) { return each && each->memory; });
-    };
-    return remembers(soft) || remembers(soft_surfaces) || remembers(soft_box.on_floor) ||
-           remembers(soft_box.on_wall) || remembers(soft_box.on_lid);
+    return any_remembers(soft) || any_remembers(soft_surfaces) ||
+           any_remembers(soft_box.on_floor) || any_remembers(soft_box.on_wall) ||
+           any_remembers(soft_box.on_lid);
   }
 };
 

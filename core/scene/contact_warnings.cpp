@@ -185,10 +185,6 @@ std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneO
   if (mindlin && mindlin->form == MindlinTangential::Form::displacement)
     warn(".tangential.form",
          "a bent contact that is pressed harder gains energy; passive never does");
-  if (contact.rolling && contact.rolling->friction > 0)
-    warn(".rolling.friction",
-         "engines are given the contact without its resistance against rolling of bodies on each "
-         "other");
   return warnings;
 }
 

@@ -52,10 +52,16 @@ std::vector<Lack> not_represented(const EngineScene& scene, const LammpsSettings
                                   double time_step) {
   const SceneNeeds needs = needs_of(scene, time_step);
   const bool fields = settings.coefficients == Coefficients::fields;
-  bool any_hard = false, apart = false, low = false;
+  bool any_hard = false, apart = false, low = false, two_coefficients = needs.static_friction;
+  const auto remembered = [&](const SoftContact* soft) {
+    if (!soft || !soft->memory) return;
+    const SpringFriction& sliding = soft->memory->sliding;
+    two_coefficients |= sliding.static_friction != sliding.kinetic_friction;
+  };
   for (const auto& [i, j] : material_pairs(scene)) {
     const SoftContact* soft = scene.soft_between(i, j);
     any_hard |= !soft;
+    remembered(soft);
     const auto* viscous = soft ? std::get_if<ViscousForce>(&soft->tangential) : nullptr;
     apart |= viscous && viscous->friction > 0 && viscous->caps == ViscousForce::Caps::apart;
     const auto* e = std::get_if<double>(&scene.between(i, j).restitution);
@@ -65,26 +71,35 @@ std::vector<Lack> not_represented(const EngineScene& scene, const LammpsSettings
     low |=
         scene.has_substrate && scene.substrate[material].restitution < settings.lowest_restitution;
   for (const std::size_t body : peer::one_of_each_material(scene))
-    for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
-      low |= peer::typed_values(scene, static_cast<int>(body), surface_touch(k)).restitution <
-             settings.lowest_restitution;
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+      const SoftContact* soft = scene.soft_on_surface(body, k);
+      remembered(soft);
+      any_hard |= !soft;
+      low |=
+          !soft && peer::typed_values(scene, static_cast<int>(body), surface_touch(k)).restitution <
+                       settings.lowest_restitution;
+    }
+  const bool holds = holds_by_springs(scene, settings);
   LackList missing;
-  missing.note(needs.static_friction, lack::kStaticFriction,
-               "one coefficient, and damping below its limit");
+  missing.note(
+      two_coefficients, lack::kStaticFriction,
+      holds ? "one coefficient, the kinetic one" : "one coefficient, and damping below its limit");
   missing.note(needs.coupled_drilling, lack::kCoupledDrilling,
                "torque and friction are full, each by itself");
   missing.note(needs.rolling_only, lack::kRollingOnly, "it acts while sliding too");
   missing.note(needs.rolling_table, lack::kRollingTable);
   missing.note(any_hard && needs.bounce_law, lack::kRestitutionLaw);
-  missing.note(any_hard && needs.reversed_slip, lack::kTangentialRestitution,
+  missing.note(any_hard && needs.reversed_slip && !holds, lack::kTangentialRestitution,
                "friction only stops the slip");
   missing.note(scene.confined, lack::kConfinement);
   missing.note(needs.through_in_a_step, lack::kThrough);
   if (low)
     missing.add({fmt::format("restitution below {:.3g}", settings.lowest_restitution),
                  "restitution below …"});
-  missing.note(true, "contacts without duration",
-               any_hard ? "hard ones and the substrate are springs" : "the substrate is a spring");
+  missing.note(any_hard || scene.has_substrate, "contacts without duration",
+               !any_hard             ? "the substrate is a spring"
+               : scene.has_substrate ? "hard ones and the substrate are springs"
+                                     : "hard ones are springs");
   missing.note(apart, "friction whose parts in the plane and across it have a limit each");
   missing.note(fields, "restitution of a linear spring", "damping tsuji is made for Hertz's force");
   missing.note(settings.pair_style != PairStyle::law, "the tangential force",
@@ -100,7 +115,7 @@ class LammpsEngine final : public Engine {
             version,
             "double",
             infos_of(setting_rows()),
-            {scene_part::kMany, scene_part::kSurfaces}};
+            {scene_part::kMany, scene_part::kSurfaces, scene_part::kMemory}};
   }
 
   Applied configure(const EngineScene& scene, const Settings& chosen, double time_step) override {

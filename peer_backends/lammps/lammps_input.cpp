@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 
 #include "engine/engine.h"
@@ -30,9 +31,9 @@ std::vector<Spring> pair_springs(const EngineScene& scene, const AtomTypes& type
   return springs;
 }
 
-/// gran/hooke takes rates of the reduced mass, one set for all types.
+/// gran/hooke and gran/hooke/history take rates of the reduced mass, one set for all types.
 struct HookeCoefficients {
-  double stiffness, normal_rate, tangential_rate, friction;
+  double stiffness, shear, normal_rate, tangential_rate, friction;
   bool never_attracts;
   bool operator==(const HookeCoefficients&) const = default;
 };
@@ -40,7 +41,7 @@ struct HookeCoefficients {
 HookeCoefficients hooke_coefficients(const Spring& spring) {
   // gran/hertz/history: ρ = k √R_eff, and the damping is √(R_eff ξ) m_eff γ_n.
   const double unit = spring.hertz ? std::sqrt(spring.effective_radius) : 1;
-  return {spring.stiffness / unit, spring.damping / (spring.mass * unit),
+  return {spring.stiffness / unit,         spring.shear,    spring.damping / (spring.mass * unit),
           spring.tangential / spring.mass, spring.friction, spring.never_attracts};
 }
 
@@ -48,33 +49,57 @@ HookeCoefficients hooke_coefficients(const Spring& spring) {
 std::string gran_style(const char* style, const Spring& spring) {
   constexpr double kMostFriction = 1e4;
   const HookeCoefficients c = hooke_coefficients(spring);
-  return fmt::format("pair_style {} {} NULL {} {} {} 1{}\npair_coeff * *\n", style,
-                     exact(c.stiffness), exact(c.normal_rate), exact(c.tangential_rate),
-                     exact(std::min(c.friction, kMostFriction)),
-                     c.never_attracts ? " limit_damping" : "");
+  return fmt::format(
+      "pair_style {} {} {} {} {} {} 1{}\npair_coeff * *\n", style, exact(c.stiffness),
+      c.shear > 0 ? exact(c.shear) : "NULL", exact(c.normal_rate), exact(c.tangential_rate),
+      exact(std::min(c.friction, kMostFriction)), c.never_attracts ? " limit_damping" : "");
+}
+
+/// LAMMPS's tangential model of a spring, which multiplies k_t of Mindlin by √(R_eff ξ).
+std::string shear_words(const Spring& spring) {
+  using enum SpringFriction::Form;
+  if (spring.shear == 0) return "linear_nohistory";
+  if (spring.shear_form == constant) return "linear_history " + exact(spring.shear);
+  return fmt::format("{} {}", spring.shear_form == mindlin ? "mindlin_rescale/force" : "mindlin",
+                     exact(spring.shear / std::sqrt(spring.effective_radius)));
+}
+
+/// Rolling is a force at R_eff in LAMMPS, twisting a torque.
+std::string torque_words(const Spring& spring) {
+  const SpringTorque &rolling = spring.rolling, &drilling = spring.drilling;
+  const double R = spring.effective_radius;
+  std::string text;
+  if (rolling.length > 0)
+    text += fmt::format(" rolling sds {} {} {}", exact(rolling.stiffness / (R * R)),
+                        exact(rolling.damping / (R * R)), exact(rolling.length / R));
+  if (drilling.length > 0)
+    text += fmt::format(" twisting sds {} {} {}", exact(drilling.stiffness),
+                        exact(drilling.damping), exact(drilling.length));
+  return text;
 }
 
 /// The words of pair style `granular` and of fix wall/gran for a spring. Their tangential damping
 /// is a factor on the normal one, which so must not be zero.
 std::string granular(const Spring& spring) {
   const double unit = spring.hertz ? std::sqrt(spring.effective_radius) : 1;
-  const bool slips = spring.friction > 0 && spring.tangential > 0;
+  const bool is_damped = spring.friction > 0 && spring.tangential > 0;
   std::string text =
       fmt::format("{} {}", spring.hertz ? "hertz" : "hooke", exact(spring.stiffness / unit));
-  double factor = 0;
+  double factor = spring.tangential_ratio;
   if (spring.tsuji_restitution) {
     text += fmt::format(" {} damping tsuji", exact(*spring.tsuji_restitution));
     factor = 1;
   } else if (spring.hertz && spring.damping > 0) {
     text += fmt::format(" {} damping viscoelastic", exact(spring.damping / (spring.mass * unit)));
   } else {
-    const double normal = std::max(spring.damping, slips ? 1e-9 * spring.tangential : 0.0);
+    const double normal = std::max(spring.damping, is_damped ? 1e-9 * spring.tangential : 0.0);
     text += fmt::format(" {} damping velocity", exact(normal));
-    if (slips) factor = spring.tangential / normal;
+    if (is_damped) factor = spring.tangential / normal;
   }
-  text += fmt::format(" tangential linear_nohistory {} {}", exact(factor),
+  const bool slips = is_damped || spring.shear > 0 || spring.tangential_ratio > 0;
+  text += fmt::format(" tangential {} {} {}", shear_words(spring), exact(factor),
                       exact(slips ? spring.friction : 0.0));
-  return text;
+  return text + torque_words(spring) + (spring.never_attracts ? " limit_damping" : "");
 }
 
 std::string pair_commands(const EngineScene& scene, const AtomTypes& types,
@@ -93,37 +118,20 @@ std::string pair_commands(const EngineScene& scene, const AtomTypes& types,
                       alike ? "of another law than the scene's" : "and the scene's pairs differ"));
     return gran_style(hertz ? "gran/hertz/history" : "gran/hooke/history", springs[0]);
   }
-  if (alike && !springs[0].hertz && !springs[0].tsuji_restitution)
-    return gran_style("gran/hooke", springs[0]);
+  const auto turns = [](const Spring& each) {
+    return each.rolling.length > 0 || each.drilling.length > 0;
+  };
+  if (alike && !springs[0].hertz && !springs[0].tsuji_restitution &&
+      springs[0].shear_form == SpringFriction::Form::constant &&
+      std::ranges::none_of(springs, turns))
+    return gran_style(springs[0].shear > 0 ? "gran/hooke/history" : "gran/hooke", springs[0]);
   std::string text = "pair_style granular\n";
   std::size_t place = 0;
   for (std::size_t a = 0; a < types.first_body.size(); ++a)
     for (std::size_t b = a; b < types.first_body.size(); ++b) {
       const Spring& spring = springs[place++];
-      text += fmt::format("pair_coeff {} {} {}{}\n", a + 1, b + 1, granular(spring),
-                          spring.never_attracts ? " limit_damping" : "");
+      text += fmt::format("pair_coeff {} {} {}\n", a + 1, b + 1, granular(spring));
     }
-  return text;
-}
-
-/// Rolling and twisting as springs that hold up to their caps and are critically damped.
-std::string wall_torques(const Sphere& sphere, const SubstrateContact& ground, const Spring& spring,
-                         const LammpsSettings& settings) {
-  const double q = sphere.shape_factor;
-  std::string text;
-  if (!ground.rolling.is_zero()) {
-    // The torque is R μ F_N; a sphere that rolls is slowed by R μ F_N/((1 + q) m R).
-    const double factor = settings.coefficients == Coefficients::fields ? 1 : 1 + q;
-    const double damping = 2 * std::sqrt(spring.stiffness * (1 + q) * sphere.mass);
-    text += fmt::format(" rolling sds {} {} {}", exact(spring.stiffness), exact(damping),
-                        exact(factor * ground.rolling.points().front().coefficient));
-  }
-  if (ground.drilling_length > 0) {
-    const double stiffness = spring.stiffness * sphere.radius * sphere.radius;
-    const double damping = 2 * std::sqrt(stiffness * sphere.moment_of_inertia());
-    text += fmt::format(" twisting sds {} {} {}", exact(stiffness), exact(damping),
-                        exact(ground.drilling_length));
-  }
   return text;
 }
 
@@ -133,18 +141,14 @@ std::string wall_commands(const EngineScene& scene, const AtomTypes& types,
   for (std::size_t type = 0; type < types.first_body.size(); ++type) {
     const std::size_t body = types.first_body[type];
     text += fmt::format("group type{0} type {0}\n", type + 1);
-    const auto wall = [&](const std::string& of, const Spring& spring,
-                          const SubstrateContact& ground, const std::string& where) {
-      text += fmt::format("fix {0}{1} type{1} wall/{2} granular {3}{4} {5}\n", of, type + 1,
-                          of == "wall" ? "gran" : "gran/region", granular(spring),
-                          wall_torques(scene.bodies[body], ground, spring, settings), where);
+    const auto wall = [&](const std::string& of, const Spring& spring, const std::string& where) {
+      text += fmt::format("fix {0}{1} type{1} wall/{2} granular {3} {4}\n", of, type + 1,
+                          of == "wall" ? "gran" : "gran/region", granular(spring), where);
     };
-    if (scene.has_substrate)
-      wall("wall", substrate_spring(scene, body, settings), scene.on_substrate(body),
-           "zplane 0 NULL");
+    if (scene.has_substrate) wall("wall", substrate_spring(scene, body, settings), "zplane 0 NULL");
     for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
       wall(fmt::format("beside{}_", k), surface_spring(scene, body, k, settings),
-           scene.on_surface(body, k).lasting, fmt::format("region {}", region_name(k)));
+           fmt::format("region {}", region_name(k)));
   }
   return text;
 }
@@ -277,10 +281,16 @@ InnerSteps inner_steps(const EngineScene& scene, const LammpsSettings& settings,
   const AtomTypes types = atom_types(scene);
   refuse_many_types(types);
   const double speed = approach_speed(scene);
-  double shortest = settings.collision_time > 0 ? settings.collision_time : time_step;
-  if (scene.bodies.size() > 1)
-    for (const Spring& spring : pair_springs(scene, types, settings))
-      shortest = std::min(shortest, collision_time(spring, speed));
+  double shortest = std::numeric_limits<double>::infinity();
+  const auto look_at = [&](const Spring& spring) {
+    shortest = std::min(shortest, collision_time(spring, speed));
+  };
+  if (scene.bodies.size() > 1) std::ranges::for_each(pair_springs(scene, types, settings), look_at);
+  for (const std::size_t body : types.first_body) {
+    if (scene.has_substrate) look_at(substrate_spring(scene, body, settings));
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
+      look_at(surface_spring(scene, body, k, settings));
+  }
   const double count = std::ceil(time_step / shortest * settings.steps_per_collision);
   if (!(count < 1e8))
     throw Refused(
@@ -355,6 +365,9 @@ Settings applied(const EngineScene& scene, const LammpsSettings& settings,
     all[of + "_damping"] = spring.damping;
     all[of + "_tangential_damping"] = spring.tangential;
     all[of + "_friction"] = spring.friction;
+    if (spring.shear > 0) all[of + "_tangential_stiffness"] = spring.shear;
+    if (spring.rolling.length > 0) all[of + "_rolling_length"] = spring.rolling.length;
+    if (spring.drilling.length > 0) all[of + "_twisting_length"] = spring.drilling.length;
   };
   if (scene.bodies.size() > 1) tell("pair", pair_spring(scene, 0, 1, settings));
   if (scene.has_substrate) tell("substrate", substrate_spring(scene, 0, settings));

@@ -33,7 +33,10 @@ const std::vector<SettingRow<LammpsSettings>>& setting_rows() {
           .within(0, 1e6)
           .search(1, 20, true)
           .about("rate, times collision_time, at which friction of hard contacts and of the "
-                 "substrate takes a slip away below Coulomb's cap"),
+                 "substrate takes a slip away below Coulomb's cap where sticking_by is damping"),
+      Make::word("sticking_by", &S::sticking_by, {"scene", "damping", "spring"})
+          .about("what takes that slip away: damping, or a spring that remembers it and so holds; "
+                 "scene: springs where contacts of the scene remember"),
       Make::number("lowest_restitution", "", &S::lowest_restitution)
           .within(1e-6, 1)
           .about("of springs that stand for hard contacts: below it they would be overdamped"),

@@ -11,27 +11,39 @@
 #include "engine/engine.h"
 #include "peer_backends/shared/contact_values.h"
 #include "physics/contact/linear_contact.h"
+#include "physics/contact/sticking_spring.h"
 
 namespace slipcheck::lammps {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+/// What a hard contact is made of, between spheres of the reduced mass and κ of the slip.
+struct HardContact {
+  double restitution, tangential_restitution, mass, kappa;
+};
+
 /// ξ̈ + γ ξ̇ + ω0² ξ = 0 takes t_col = π/ω and leaves e = exp(−γ t_col/2).
-Spring spring_with(double restitution, double mass, const LammpsSettings& settings) {
+Spring spring_with(const HardContact& hard, bool holds, const LammpsSettings& settings) {
   if (settings.collision_time == 0)
     throw Refused(
         "lammps: the scene has hard contacts, LAMMPS has forces that last alone, and the setting "
         "collision_time allows no spring in their place");
   Spring spring;
-  spring.mass = mass;
-  const double e = std::max(restitution, settings.lowest_restitution);
-  const LinearContact law = LinearContact::with_collision_time(mass, e, settings.collision_time,
-                                                               ContactEnd::zero_overlap);
+  spring.mass = hard.mass;
+  const double e = std::max(hard.restitution, settings.lowest_restitution);
+  const LinearContact law = LinearContact::with_collision_time(
+      hard.mass, e, settings.collision_time, ContactEnd::zero_overlap);
   spring.stiffness = law.stiffness();
-  spring.damping = law.damping_rate() * mass;
-  if (settings.coefficients == Coefficients::fields) spring.tsuji_restitution = restitution;
-  spring.tangential = settings.sticking / settings.collision_time * mass;
+  spring.damping = law.damping_rate() * hard.mass;
+  if (settings.coefficients == Coefficients::fields) spring.tsuji_restitution = hard.restitution;
+  spring.tangential = settings.sticking / settings.collision_time * hard.mass;
+  if (!holds || hard.tangential_restitution == -1) return spring;
+  const StickingSpring sticks =
+      sticking_spring(hard.tangential_restitution, settings.collision_time);
+  const double slides = hard.kappa * hard.mass;
+  spring.shear = sticks.frequency * sticks.frequency * slides;
+  spring.tangential = 2 * sticks.damping * sticks.frequency * slides;
   return spring;
 }
 
@@ -73,6 +85,20 @@ struct TangentialOf {
   }
 };
 
+void remember(const ContactMemory& memory, Spring& spring) {
+  const SpringFriction& sliding = memory.sliding;
+  spring.friction = sliding.kinetic_friction;
+  spring.shear = sliding.stiffness;
+  spring.shear_form = sliding.form;
+  spring.tangential = sliding.damping;
+  if (spring.hertz && spring.damping > 0)
+    spring.tangential_ratio = sliding.damping_ratio;
+  else
+    spring.tangential += sliding.damping_ratio * spring.damping;
+  spring.rolling = memory.rolling;
+  spring.drilling = memory.drilling;
+}
+
 Spring soft_spring(const SoftContact& contact, double mass, double effective_radius) {
   if (contact.after_impact)
     throw Refused("lammps: the scene's forces only hold what an impact leaves together");
@@ -81,11 +107,38 @@ Spring soft_spring(const SoftContact& contact, double mass, double effective_rad
   spring.effective_radius = effective_radius;
   spring.never_attracts = contact.end == ContactEnd::zero_force;
   std::visit(NormalOf{spring}, contact.normal);
-  std::visit(TangentialOf{spring}, contact.tangential);
+  if (contact.memory)
+    remember(*contact.memory, spring);
+  else
+    std::visit(TangentialOf{spring}, contact.tangential);
   if (spring.hertz && spring.damping > 0 && spring.friction > 0 && spring.tangential > 0)
     throw Refused(
         "lammps: its tangential damping goes with its normal one, by the root of the overlap, "
         "where the scene's does not");
+  return spring;
+}
+
+/// m_eff κ of a sphere on a body that cannot move is m/(1 + 1/q).
+double kappa_of(const Sphere& sphere) { return 1 / (1 + sphere.inverse_shape_factor()); }
+
+/// On something rigid. Rolling and drilling are springs that hold up to their caps and are
+/// critically damped.
+Spring spring_on(const HardContact& hard, double friction, const SubstrateContact& ground,
+                 const Sphere& sphere, const EngineScene& scene, const LammpsSettings& settings) {
+  Spring spring = spring_with(hard, holds_by_springs(scene, settings), settings);
+  spring.effective_radius = sphere.radius;
+  spring.friction = friction;
+  const double q = sphere.shape_factor, R = sphere.radius;
+  const double stiffness = spring.stiffness * R * R;
+  if (!ground.rolling.is_zero()) {
+    // The torque is R μ F_N; a sphere that rolls is slowed by R μ F_N/((1 + q) m R).
+    const double factor = settings.coefficients == Coefficients::fields ? 1 : 1 + q;
+    spring.rolling = {stiffness, 2 * R * R * std::sqrt(spring.stiffness * (1 + q) * sphere.mass),
+                      factor * ground.rolling.points().front().coefficient * R};
+  }
+  if (ground.drilling_length > 0)
+    spring.drilling = {stiffness, 2 * std::sqrt(stiffness * sphere.moment_of_inertia()),
+                       ground.drilling_length};
   return spring;
 }
 
@@ -111,30 +164,39 @@ Spring pair_spring(const EngineScene& scene, std::size_t i, std::size_t j,
   const double radius = first.radius * second.radius / (first.radius + second.radius);
   if (const SoftContact* soft = scene.soft_between(i, j)) return soft_spring(*soft, mass, radius);
   const PairContact& hard = scene.between(i, j);
+  const double e = restitution_at(hard.restitution, approach_speed(scene));
   Spring spring =
-      spring_with(restitution_at(hard.restitution, approach_speed(scene)), mass, settings);
+      spring_with({e, hard.tangential_restitution, mass, tangential_mass_ratio(first, second)},
+                  holds_by_springs(scene, settings), settings);
   spring.effective_radius = radius;
   // β0 = −1, u_t' = u_t: no tangential impulse whatever μ is.
   spring.friction = hard.tangential_restitution == -1 ? 0 : std::get<double>(hard.friction);
   return spring;
 }
 
-Spring substrate_spring(const Scene& scene, std::size_t body, const LammpsSettings& settings) {
+Spring substrate_spring(const EngineScene& scene, std::size_t body,
+                        const LammpsSettings& settings) {
   const SubstrateContact& ground = scene.on_substrate(body);
-  Spring spring = spring_with(ground.restitution, scene.bodies[body].mass, settings);
-  spring.effective_radius = scene.bodies[body].radius;
-  spring.friction = ground.kinetic_friction;
-  return spring;
+  return spring_on({ground.restitution, 0, scene.bodies[body].mass, kappa_of(scene.bodies[body])},
+                   ground.kinetic_friction, ground, scene.bodies[body], scene, settings);
 }
 
-Spring surface_spring(const Scene& scene, std::size_t body, std::size_t k,
+Spring surface_spring(const EngineScene& scene, std::size_t body, std::size_t k,
                       const LammpsSettings& settings) {
+  const Sphere& sphere = scene.bodies[body];
+  if (const SoftContact* soft = scene.soft_on_surface(body, k))
+    return soft_spring(*soft, sphere.mass, sphere.radius);
   const int touch = surface_touch(k), whose = static_cast<int>(body);
-  Spring spring = spring_with(peer::typed_values(scene, whose, touch).restitution,
-                              scene.bodies[body].mass, settings);
-  spring.effective_radius = scene.bodies[body].radius;
-  spring.friction = peer::exact_values(scene, whose, touch, {}).friction;
-  return spring;
+  const SurfaceContact& contact = scene.on_surface(body, k);
+  return spring_on({peer::typed_values(scene, whose, touch).restitution,
+                    contact.impact.tangential_restitution, sphere.mass, kappa_of(sphere)},
+                   peer::exact_values(scene, whose, touch, {}).friction, contact.lasting, sphere,
+                   scene, settings);
+}
+
+bool holds_by_springs(const EngineScene& scene, const LammpsSettings& settings) {
+  return settings.sticking_by == StickingBy::spring ||
+         (settings.sticking_by == StickingBy::scene && scene.has_memory());
 }
 
 double collision_time(const Spring& spring, double speed) {

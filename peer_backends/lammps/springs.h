@@ -17,6 +17,13 @@ struct Spring {
   double tangential = 0;        ///< of the slip, below Coulomb's cap [N s/m]
   double friction = 0;          ///< [-]
   bool never_attracts = false;  ///< LAMMPS's limit_damping
+  /// A spring that remembers the slip beside that damping: k_t [N/m], or of Mindlin k_t/√ξ
+  /// [N/m^1.5]; 0: none.
+  double shear = 0;
+  SpringFriction::Form shear_form = SpringFriction::Form::constant;
+  /// Of a Hertz contact with damping: that of the slip over it, in place of `tangential` [-].
+  double tangential_ratio = 0;
+  SpringTorque rolling = {}, drilling = {};  ///< with a length of 0 where there is none
   /// e in place of `damping`, for LAMMPS's damping model `tsuji`.
   std::optional<double> tsuji_restitution = {};
   double mass = 0;              ///< reduced [kg]
@@ -35,11 +42,16 @@ AtomTypes atom_types(const Scene& scene);
 Spring pair_spring(const EngineScene& scene, std::size_t i, std::size_t j,
                    const LammpsSettings& settings);
 /// That of a body and the substrate. Throws Refused.
-Spring substrate_spring(const Scene& scene, std::size_t body, const LammpsSettings& settings);
+Spring substrate_spring(const EngineScene& scene, std::size_t body, const LammpsSettings& settings);
 
-/// That of a body and surface k beside the substrate. Throws Refused.
-Spring surface_spring(const Scene& scene, std::size_t body, std::size_t k,
+/// That of a body and surface k beside the substrate: its soft contact, or one in place of the hard
+/// one. Throws Refused.
+Spring surface_spring(const EngineScene& scene, std::size_t body, std::size_t k,
                       const LammpsSettings& settings);
+
+/// Hard contacts and those with the substrate hold by a spring, not by damping alone: a scene whose
+/// contacts remember rests on what holds.
+bool holds_by_springs(const EngineScene& scene, const LammpsSettings& settings);
 
 /// How long a collision takes [s], of a Hertz contact at the relative speed [m/s].
 double collision_time(const Spring& spring, double speed);

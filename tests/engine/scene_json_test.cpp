@@ -243,6 +243,66 @@ TEST(SceneJson, SoftContactsComeThroughWhole) {
   EXPECT_FALSE(box.on_wall[0]);
 }
 
+/// Contacts that remember, of two spheres and of one material on two surfaces.
+EngineScene remembering_scene() {
+  EngineScene scene(some_surfaces());
+  SoftContact contact{LinearForce{1e5, 0.3}, ContactEnd::zero_force, NoTangentialForce{}, false};
+  contact.memory.emplace();
+  contact.memory->sliding = {
+      SpringFriction::Form::mindlin_displacement, 1.0 / 3, 0.1, 0.2, 0.5, 0.4};
+  contact.memory->rolling = {1.0 / 7, 0.3, 1e-4};
+  contact.memory->drilling = {1.0 / 9, 0.5, 2e-4};
+  const std::optional<SoftContact> none;
+  scene.soft = SoftContacts{{contact, none, none, none}, {}, {}};
+  scene.soft->surfaces.resize(8);
+  scene.soft->surfaces[1] = scene.soft->surfaces[6] = contact;
+  return scene;
+}
+
+TEST(SceneJson, ContactsThatRememberComeThroughWhole) {
+  const EngineScene scene = remembering_scene();
+  const EngineScene received = through(scene);
+  EXPECT_EQ(scene_to_json(received), scene_to_json(scene));
+  EXPECT_EQ(received.soft_on_surface(0, 0), nullptr);
+  for (const SoftContact* contact : {received.soft_between(0, 0), received.soft_on_surface(0, 1),
+                                     received.soft_on_surface(1, 2)}) {
+    ASSERT_TRUE(contact && contact->memory);
+    const auto& [sliding, rolling, drilling] = *contact->memory;
+    EXPECT_EQ(sliding.form, SpringFriction::Form::mindlin_displacement);
+    EXPECT_EQ(sliding.stiffness, 1.0 / 3);
+    EXPECT_EQ(sliding.damping, 0.1);
+    EXPECT_EQ(sliding.damping_ratio, 0.2);
+    EXPECT_EQ(sliding.static_friction, 0.5);
+    EXPECT_EQ(sliding.kinetic_friction, 0.4);
+    EXPECT_EQ(rolling.stiffness, 1.0 / 7);
+    EXPECT_EQ(rolling.length, 1e-4);
+    EXPECT_EQ(drilling.damping, 0.5);
+  }
+}
+
+TEST(SceneJson, WhatForgetsHasHardContactsInTheirPlace) {
+  EngineScene scene = remembering_scene();
+  EXPECT_TRUE(scene.has_memory());
+  scene.forget_memory();
+  EXPECT_FALSE(scene.has_memory());
+  EXPECT_EQ(scene.soft_between(0, 0), nullptr);
+  EXPECT_EQ(scene.soft_on_surface(0, 1), nullptr);
+  EXPECT_FALSE(scene_to_json(scene)["soft"].contains("on_surfaces"));
+}
+
+TEST(SceneJson, ABadContactThatRemembersIsNamed) {
+  const auto expect = [](auto spoil, const char* reason) {
+    expect_rubbish(remembering_scene(), spoil, reason);
+  };
+  expect([](json& s) { s["soft"]["on_surfaces"].erase(0); },
+         "soft.on_surfaces: must have an entry for each of 8 materials on surfaces, has 7");
+  expect([](json& s) { s["soft"]["pairs"][0]["memory"]["sliding"]["form"] = "round"; },
+         "soft.pairs[0].memory.sliding.form: must be one of constant, mindlin, "
+         "mindlin_displacement, got \"round\"");
+  expect([](json& s) { s["soft"]["on_surfaces"][6]["memory"]["rolling"]["length"] = -1; },
+         "soft.on_surfaces[6].memory.rolling.length: must be >= 0, got -1");
+}
+
 TEST(SceneJson, WhereAllIsHardNothingIsSaidOfSoftContacts) {
   EXPECT_FALSE(scene_to_json(some_scene()).contains("soft"));
   EXPECT_FALSE(EngineScene(with_hard_contacts(some_scene())).soft);

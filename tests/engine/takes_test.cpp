@@ -37,5 +37,19 @@ TEST(Takes, InPlaceOfALawOfFrictionItIsGivenANumberAndThatIsTold) {
   EXPECT_EQ(texts_of(engine.configure(scene, {}, 1e-3).not_represented), expected);
 }
 
+TEST(Takes, InPlaceOfContactsThatRememberItIsGivenHardOnesAndThatIsTold) {
+  RemoteEngine engine(faulty_engine());
+  EngineScene scene = some_scene();
+  SoftContact contact{LinearForce{1e5, 0.3}, ContactEnd::zero_force, NoTangentialForce{}, false};
+  scene.soft = SoftContacts{std::vector<std::optional<SoftContact>>(4, contact), {}, {}};
+  const auto lacks = [&] { return engine.configure(scene, {}, 1e-3).not_represented; };
+  const std::vector<Lack> before = lacks();
+  contact.memory.emplace();
+  scene.soft->pairs[1] = scene.soft->pairs[2] = contact;
+  const std::vector<Lack> now = lacks();
+  ASSERT_EQ(now.size(), before.size() + 1);
+  EXPECT_EQ(now.back().kind, lack::kMemory);
+}
+
 }  // namespace
 }  // namespace slipcheck

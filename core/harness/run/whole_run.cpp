@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/stop_scope.h"
+#include "engine/scene_needs.h"
 #include "harness/observe/assembly_observer.h"
 #include "harness/observe/energy_budget.h"
 #include "harness/run/engine_state.h"
@@ -30,9 +31,10 @@ double last_time(const EnsembleTask& task) {
 }
 
 void note_warnings(const ContactScene& scene, EngineRecord& record) {
-  if (scene.has_memory())
+  if (std::ranges::find(record.applied.not_represented, lack::kMemory, &Lack::kind) !=
+      record.applied.not_represented.end())
     record.warnings.emplace_back(
-        "contacts with memory go to engines as hard ones: stress and elastic energy are of the "
+        "contacts that remember went to it as hard ones: stress and elastic energy are of the "
         "scene's own law at the overlaps that the engine shows");
   if (!is_left_alone(scene.hard)) return;
   const EnergyBudget budget = energy_budget(*record.assembly);
