@@ -92,6 +92,9 @@ class PileLaneStep {
       first[k] = bodies_ + lanes.first[l + k] * kBody;
       second[k] = bodies_ + lanes.second[l + k] * kBody;
       law_row[k] = laws_ + lanes.law[l + k] * 8;
+      // Where the forces go.
+      __builtin_prefetch(first[k] + kForce, 1);
+      __builtin_prefetch(second[k] + kForce, 1);
     }
     V a[8], b[8];
     load_rows(first, 0, a);
@@ -178,6 +181,7 @@ class PileLaneStep {
   }
 
   static constexpr std::size_t kBody = sizeof(PileBody) / sizeof(double);
+  static constexpr std::size_t kForce = offsetof(PileBody, force) / sizeof(double);
 
   const double* bodies_;
   const double* laws_;

@@ -34,11 +34,10 @@ namespace slipcheck {
 
 HWY_EXPORT(take_on);
 
-bool take_on_lanes(const PileWorld& world, std::span<const PileLaneLaw> laws,
+bool take_on_lanes(const PileWorld& world, std::span<const PileLaneLaw> laws, std::size_t contact,
                    PileLaneContacts& contacts) {
-  contacts.forces().resize(contacts.lanes().size() * PileLanes::kCount);
-  return HWY_DYNAMIC_DISPATCH(take_on)(world, laws.data(), contacts.lanes(),
-                                       contacts.forces().data());
+  const auto [lanes, forces] = contacts.take_group(contact);
+  return HWY_DYNAMIC_DISPATCH(take_on)(world, laws.data(), lanes, forces);
 }
 
 PileLaneLaw::PileLaneLaw(const PileLaw& law)

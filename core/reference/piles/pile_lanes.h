@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/state_archive.h"
@@ -69,25 +71,39 @@ class PileLaneContacts {
   }
   void exchange(StateArchive& archive) { archive(lanes_, places_); }
 
+  /// No group is taken on yet.
+  void begin_step() {
+    forces_.resize(lanes_.size() * kLanes);
+    is_taken_on_.assign((forces_.size() + kInGroup - 1) / kInGroup, false);
+  }
+  bool is_taken_on(std::size_t k) const { return is_taken_on_[k / kInGroup]; }
   /// Whether take_on_lanes() has told its force.
   bool lasted(std::size_t k) const { return bit(lanes_[k / kLanes].lasted, k); }
   const PileLaneForce& force(std::size_t k) const { return forces_[k]; }
-  std::span<PileLanes> lanes() { return lanes_; }
-  std::vector<PileLaneForce>& forces() { return forces_; }
+  /// The lanes of a contact's group, which is taken on now, and where their forces go.
+  std::pair<std::span<PileLanes>, PileLaneForce*> take_group(std::size_t k) {
+    const std::size_t group = k / kInGroup, first = group * (kInGroup / kLanes);
+    is_taken_on_[group] = true;
+    return {std::span(lanes_).subspan(first, std::min(kInGroup / kLanes, lanes_.size() - first)),
+            &forces_[first * kLanes]};
+  }
 
  private:
   static constexpr std::size_t kLanes = PileLanes::kCount;
+  /// Contacts that are taken on together: they and their bodies fit into the nearest cache.
+  static constexpr std::size_t kInGroup = 32;
   static bool bit(std::uint8_t bits, std::size_t k) { return bits >> k % kLanes & 1; }
   void put(const PileNear& near, const Contact& contact);
 
   std::vector<PileLanes> lanes_;
   std::vector<PileLaneForce> forces_;
+  std::vector<std::uint8_t> is_taken_on_;  ///< by group, in this step
   PilePlaces places_;
 };
 
-/// Takes all that touch, and neither begin nor end, on to now, as PileStep does and with the
-/// same bits, and tells their forces. Returns whether one of them slides.
-bool take_on_lanes(const PileWorld& world, std::span<const PileLaneLaw> laws,
+/// Takes those of the contact's group that touch, and neither begin nor end, on to now, as PileStep
+/// does and with the same bits, and tells their forces. Returns whether one of them slides.
+bool take_on_lanes(const PileWorld& world, std::span<const PileLaneLaw> laws, std::size_t contact,
                    PileLaneContacts& contacts);
 
 }  // namespace slipcheck

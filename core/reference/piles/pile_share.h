@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/flatten.h"
@@ -43,17 +45,17 @@ class PileShare {
   void find_forces(PileWorld& world, std::span<const NearSphere> spheres, List& list,
                    const PileLawTable& laws, std::span<const PileLaneLaw> lane_laws,
                    double budget) {
-    if constexpr (kLanes) take_on(world, lane_laws);
+    if constexpr (kLanes) lanes_.begin_step();
     meeting_.clear();
-    for (std::uint32_t k = 0; k < far_above_.size(); ++k)
-      if (budget <= far_above_[k]) look(world, spheres, list[k], k, budget);
+    look_at_far(world, spheres, list, budget);
     meeting_.push_back(kNone);
     after_.clear();
     auto next = meeting_.begin();
     for (const std::uint32_t k : known_) {
       while (*next < k) act(world, laws, list, *next++);
       if constexpr (kLanes)
-        if (const PileNear& near = list[k]; near.second >= 0 && lanes_.lasted(near.contact)) {
+        if (const PileNear& near = list[k];
+            near.second >= 0 && lasts(world, lane_laws, near.contact)) {
           push(world, near, lanes_.force(near.contact));
           after_.push_back(k);
           continue;
@@ -62,6 +64,12 @@ class PileShare {
     }
     while (*next != kNone) act(world, laws, list, *next++);
     known_.swap(after_);
+    // No sooner: lanes that hold one are not taken on in the step in which it begins.
+    for (const auto& [k, contact] : begun_) {
+      keep(list[k], contact, laws);
+      far_above_[k] = -kNever;
+    }
+    begun_.clear();
   }
 
   /// As the contact of an entry of the list.
@@ -167,6 +175,27 @@ class PileShare {
     return world.scene->hard.surfaces[touched_surface(near.second)].nearest(world.time(), x);
   }
 
+  /// Looks at those whose way may be used up. Who they are is no branch, and where they lie is
+  /// asked for ahead of it.
+  void look_at_far(const PileWorld& world, std::span<const NearSphere> spheres, const List& list,
+                   double budget) {
+    constexpr std::size_t kEntries = 16, kSpheres = 8;  // ahead
+    far_.resize(far_above_.size() + kEntries);
+    std::size_t count = 0;
+    for (std::uint32_t k = 0; k < far_above_.size(); ++k) {
+      far_[count] = k;
+      count += budget <= far_above_[k];
+    }
+    for (std::size_t i = count; i < count + kEntries; ++i) far_[i] = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      __builtin_prefetch(&list[far_[i + kEntries]]);
+      const PileNear& ahead = list[far_[i + kSpheres]];
+      __builtin_prefetch(&spheres[ahead.first]);
+      __builtin_prefetch(&spheres[static_cast<std::size_t>(std::max(ahead.second, 0))]);
+      look(world, spheres, list[far_[i]], far_[i], budget);
+    }
+  }
+
   /// Two that did not touch: do they now, or when may they?
   void look(const PileWorld& world, std::span<const NearSphere> spheres, const PileNear& near,
             std::uint32_t k, double budget) {
@@ -203,8 +232,7 @@ class PileShare {
       made.law = &laws[near.law];
       act_on(world, step, near, made);
       if (!made.touching) return;
-      keep(near, made, laws);
-      far_above_[k] = -kNever;
+      begun_.emplace_back(k, made);
     } else {
       change(near, laws, [&](Contact& c) { act_on(world, step, near, c); });
       if (!world.watched && !touches(near)) {
@@ -229,9 +257,12 @@ class PileShare {
     }
   }
 
-  /// Those that last, of whose forces push() is the rest.
-  void take_on(const PileWorld& world, std::span<const PileLaneLaw> laws) {
-    if (take_on_lanes(world, laws, lanes_)) sum_.slid = true;
+  /// Whether a contact in lanes lasts, of whose force push() is the rest. Takes it on, and the next
+  /// ones with it: their bodies are in the nearest cache when it comes to these.
+  bool lasts(const PileWorld& world, std::span<const PileLaneLaw> laws, std::uint32_t contact) {
+    if (!lanes_.is_taken_on(contact) && take_on_lanes(world, laws, contact, lanes_))
+      sum_.slid = true;
+    return lanes_.lasted(contact);
   }
 
   void push(PileWorld& world, const PileNear& near, const PileLaneForce& f) {
@@ -251,7 +282,9 @@ class PileShare {
   // Of the list:
   std::vector<double> far_above_;               ///< do not touch before the budget is so small [m]
   std::vector<std::uint32_t> known_;            ///< have a contact, in order
+  std::vector<std::uint32_t> far_;              ///< of one step: are looked at
   std::vector<std::uint32_t> meeting_, after_;  ///< of one step: overlap anew, and have one then
+  std::vector<std::pair<std::uint32_t, Contact>> begun_;  ///< of one step
 };
 
 }  // namespace slipcheck
