@@ -173,6 +173,12 @@ around(Worker, "hello", wrap)
 """,
     "skip": MANY.replace("w.step(dict(r))", "w.step(dict(r, count=1))"),
     "packed bodies": MANY.replace('"material": material', '"material": 0'),
+    # It says that it takes them, and goes on with the hard contacts.
+    "contacts that remember": """
+def wrap(old, w, r):
+    return {**old(w, r), "takes": ["memory"]}
+around(Worker, "hello", wrap)
+""",
     "free fall": in_step("for b in w.bodies: b.velocity = example.add(b.velocity, b.velocity, -0.002)"),
     "gravity along the plane": in_request("configure", "r['scene']['downhill'] = [0.0, 0.0]"),
     "rest stays": in_step("for b in w.bodies: b.position = example.add(b.position, (0, 0, -1e-6))"),
@@ -223,11 +229,11 @@ class Conformance(unittest.TestCase):
             self.assertEqual(result.returncode, 0, result.stdout)
             not_passed = {name: check["verdict"] for name, check in checks.items()
                           if check["verdict"] != "passed"}
-            self.assertEqual(not_passed, {} if worker == self.worker else
-                             {"skip": "not judged", "packed bodies": "not judged"})
+            many = {} if worker == self.worker else {"skip": "not judged", "packed bodies": "not judged"}
+            self.assertEqual(not_passed, {**many, "contacts that remember": "not judged"})
 
-    def test_lammps_takes_many(self):
-        result, checks = conformance("lammps", "--only", "skip,packed bodies")
+    def test_lammps_takes_many_and_what_remembers(self):
+        result, checks = conformance("lammps", "--only", "skip,packed bodies,contacts that remember")
         if result.returncode == 2:
             self.skipTest("no LAMMPS here")
         self.assertEqual(result.returncode, 0, result.stdout)

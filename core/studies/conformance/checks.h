@@ -21,8 +21,8 @@ std::vector<Check> talk_checks();
 std::vector<Check> setting_checks();
 /// Starts, steps and what they return.
 std::vector<Check> frame_checks();
-/// What is asked only of a worker that takes many bodies.
-std::vector<Check> many_checks();
+/// What is asked only of a worker that says that it takes it.
+std::vector<Check> takes_checks();
 /// Scenes that an engine may refuse, but must not fall over.
 std::vector<Check> scene_checks();
 /// Where there is no doubt how a sphere moves.

@@ -12,7 +12,7 @@ namespace {
 
 std::vector<Check> all_checks() {
   std::vector<Check> all;
-  for (const auto& group : {talk_checks(), setting_checks(), frame_checks(), many_checks(),
+  for (const auto& group : {talk_checks(), setting_checks(), frame_checks(), takes_checks(),
                             scene_checks(), motion_checks()})
     all.insert(all.end(), group.begin(), group.end());
   return all;

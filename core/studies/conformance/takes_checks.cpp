@@ -1,7 +1,11 @@
-// What is asked only of a worker that takes many bodies.
+// What is asked only of a worker that says that it takes it.
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -12,9 +16,13 @@
 namespace slipcheck {
 namespace {
 
+void expect_taken(const RemoteEngine& engine, const char* part, const char* what) {
+  if (std::ranges::find(engine.info().takes, part) == engine.info().takes.end())
+    throw NotJudged(fmt::format("it does not take {}", what));
+}
+
 void expect_many(const RemoteEngine& engine) {
-  if (std::ranges::find(engine.info().takes, scene_part::kMany) == engine.info().takes.end())
-    throw NotJudged("it does not take many bodies");
+  expect_taken(engine, scene_part::kMany, "many bodies");
 }
 
 /// Its bodies alone.
@@ -73,9 +81,46 @@ std::string packed_bodies(const Trial& trial) {
   return {};
 }
 
+/// The slip of the first one's surface on the second's where they face each other along x [m/s].
+double slip_of(const Frame& frame) {
+  const BodyState &a = frame.bodies[0], &b = frame.bodies[1];
+  return a.velocity.y() - b.velocity.y() +
+         kTrialRadius * (a.angular_velocity.z() + b.angular_velocity.z());
+}
+
+/// Two in flight that collide without loss and turn alike, so that their surfaces slip. A spring
+/// k_t = κ k_n that always sticks moves κ m_eff and so swings as the normal one does: when they
+/// part it has reversed the slip.
+std::string springs_that_remember(const Trial& trial) {
+  constexpr double kContact = 8 * kStep, kSlip = 0.01, kKappa = 2.0 / 7;
+  RemoteEngine engine = trial.engine();
+  expect_taken(engine, scene_part::kMemory, "contacts that remember");
+  EngineScene scene = two_that_meet(0.1);
+  for (BodyState& state : scene.initial) {
+    state.position.z() = 1;
+    state.angular_velocity = {0, 0, 0.5 * kSlip / kTrialRadius};
+  }
+  const double mass = 0.5 * scene.bodies[0].mass, omega = std::numbers::pi / kContact;
+  const double stiffness = omega * omega * mass;
+  SoftContact contact{LinearForce{stiffness, 0}, ContactEnd::zero_overlap, NoTangentialForce{}};
+  ContactMemory& memory = contact.memory.emplace();
+  memory.sliding.stiffness = kKappa * stiffness;
+  memory.sliding.static_friction = memory.sliding.kinetic_friction = 100;
+  scene.soft = SoftContacts{{contact}, {}, {}};
+  engine.configure(scene, {}, kStep);
+  const Frames frames = run(engine, scene, 150);
+  const double left = slip_of(frames.back()) / kSlip;
+  if (!(std::abs(left + 1) < 0.2))
+    throw Breach(
+        fmt::format("a slip that springs should reverse is {:.3g} of what it was, in place of −1, "
+                    "when the bodies have parted",
+                    left));
+  return fmt::format("of a slip {:.3g} is left, in place of −1", left);
+}
+
 }  // namespace
 
-std::vector<Check> many_checks() {
+std::vector<Check> takes_checks() {
   return {
       {"skip",
        "Answer a skip of count n with the bodies where n steps would have left them, in one frame, "
@@ -85,6 +130,11 @@ std::vector<Check> many_checks() {
        "Read packed_bodies where it stands in place of bodies: 28 bytes for each, radius, mass and "
        "shape factor as float64 and the material as u32, little-endian.",
        packed_bodies},
+      {"contacts that remember",
+       "Let the springs of a contact's memory act beside its normal force: sliding is a force "
+       "−stiffness·s − damping·ṡ on the first body against the slip ṡ, s since the first touch, up "
+       "to friction times the normal force.",
+       springs_that_remember},
   };
 }
 
