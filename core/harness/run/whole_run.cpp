@@ -30,9 +30,14 @@ double last_time(const EnsembleTask& task) {
   return reference.reached ? std::min(last, reference.end_time) : last;
 }
 
+/// The engine was given hard contacts in place of those that remember.
+bool forgets(const EngineRecord& record) {
+  return std::ranges::find(record.applied.not_represented, lack::kMemory, &Lack::kind) !=
+         record.applied.not_represented.end();
+}
+
 void note_warnings(const ContactScene& scene, EngineRecord& record) {
-  if (std::ranges::find(record.applied.not_represented, lack::kMemory, &Lack::kind) !=
-      record.applied.not_represented.end())
+  if (forgets(record))
     record.warnings.emplace_back(
         "contacts that remember went to it as hard ones: stress and elastic energy are of the "
         "scene's own law at the overlaps that the engine shows");
@@ -60,7 +65,7 @@ struct Progress {
 };
 
 /// Goes on from a state that was kept. Throws Refused for one of another version of the engine.
-void resume(const std::string& state, double interval, Progress& progress) {
+void resume(const std::string& state, double interval, bool remembers, Progress& progress) {
   EngineRecord& record = *progress.record;
   const std::string version = record.version;
   StateArchive archive{std::string_view(state)};
@@ -71,10 +76,10 @@ void resume(const std::string& state, double interval, Progress& progress) {
     throw Refused(
         fmt::format("what was kept is of {} {}, and this is {}", record.engine, kept, version));
   progress.starts.push_back(static_cast<double>(progress.sample) * interval);
-  record.warnings.push_back(
-      fmt::format("went on at {:g} s from bodies' states alone: not with the bits of a run in one "
-                  "piece",
-                  fmt::join(progress.starts, " s and ")));
+  record.warnings.push_back(fmt::format(
+      "went on at {:g} s from bodies' states alone{}: not with the bits of a run in one piece",
+      fmt::join(progress.starts, " s and "),
+      remembers ? ", with the springs of contacts relaxed" : ""));
 }
 
 }  // namespace
@@ -97,7 +102,7 @@ void run_whole(RemoteEngine& engine, const EnsembleTask& task, std::size_t sampl
   std::optional<CheckpointClock> clock;
   if (checkpoints) clock.emplace(*checkpoints);
   if (checkpoints && !checkpoints->state.empty())
-    resume(checkpoints->state, interval, progress);
+    resume(checkpoints->state, interval, scene.has_memory() && !forgets(record), progress);
   else
     progress.observer.take(0, frame);
   engine.start(frame.bodies, static_cast<double>(progress.sample) * interval);
