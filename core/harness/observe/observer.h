@@ -108,50 +108,51 @@ class Observer final : public FrameSink {
   /// scene's speed it has ended.
   static constexpr double kCoupledSlip = 1e-6;
 
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
   /// The substrate at one instant.
   struct Ground {
     Vector3 position = Vector3::Zero(), velocity = Vector3::Zero();
   };
+  /// The flags first, in a row: two bodies are a kilobyte, which the heap gives at once.
   struct Body {
+    bool supported = true, sliding = false, resting = false, spinning = false;
+    bool began_on_plane = true, touched = false, collided_now = false;
+    bool spun = false;
+    bool jumping = false;
+    bool collided = false;
+    /// The slide has ended with some slip left; the next frame tells whether it went on. The rest
+    /// of the step is then part of it.
+    bool faint = false;
+    /// Frames in succession on the substrate, and among them those without a vertical speed.
+    int supported_frames = 0, quiet_frames = 0;
+    int base = kSubstrate;  ///< what carries it, or did last
+    int landed_on = kSubstrate;
+    std::uint32_t last_pair = kNone;  ///< of the last collision, an index of pairs_
     Resolution zero;
     double seen = 0;  ///< the time of its last frame [s]
     double origin_time = 0;
     Vector3 origin = Vector3::Zero();  ///< over the substrate, as are all ways below
-    bool supported = true, sliding = false, resting = false, spinning = false;
-    /// Frames in succession on the substrate, and among them those without a vertical speed.
-    int supported_frames = 0, quiet_frames = 0;
     double hop_end = 0;  ///< the last frame that shows the end of a bounce too small for a flight
-    /// The slide has ended with some slip left; the next frame tells whether it went on. The rest
-    /// of the step is then part of it.
-    bool faint = false;
     double faint_time = 0;
     Vector3 faint_way = Vector3::Zero();
-    bool began_on_plane = true, touched = false, collided_now = false;
-    int base = kSubstrate;  ///< what carries it, or did last
-    Vector3 up = kUp;       ///< its normal there
+    Vector3 up = kUp;  ///< of the base, its normal there
     FallingQuantity slip, speed, spin;
     double slide_end = 0, slide_time = 0;
     Vector3 slide = Vector3::Zero();
     Vector3 rolling_velocity = kVectorNotObserved;
     double stop_time = kNotObserved, spin_stop_time = kNotObserved;
     Vector3 stop_position = kVectorNotObserved;
-    bool spun = false;
-    bool jumping = false;
     double unsupported_since = kNotObserved, unsupported_height = 0;
     double lift_off_time = 0, lift_off_speed = kNotObserved, lift_off_height = 0;
     double peak = 0, flight_time = kNotObserved;
     // The last collision.
-    bool collided = false;
-    std::size_t last_pair = kNone;  ///< an index of pairs_
     BodyState after;
     Vector3 slip_after = Vector3::Zero();
     double collision_begin = 0, collision_height = 0;
     Vector3 away = Vector3::Zero();  ///< n from the other body
     double fall_speed = 0;           ///< of the last landing, for the pair with the substrate
     double landing_restitution = kNotObserved;
-    int landed_on = kSubstrate;
     double fastest_landing = 0;
   };
   struct Pair {

@@ -192,7 +192,7 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
   // A body that collides again never shows what its earlier collision would have come to.
   for_bodies_of(pair, [&](std::size_t k) {
     if (bodies_[k].last_pair != kNone) pairs_[bodies_[k].last_pair].awaits_rolling = false;
-    bodies_[k].last_pair = static_cast<std::size_t>(&pair - pairs_.data());
+    bodies_[k].last_pair = static_cast<std::uint32_t>(&pair - pairs_.data());
   });
   pair.awaits_rolling = true;
   for_bodies_of(pair, [&](std::size_t k) {
