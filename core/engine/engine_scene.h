@@ -56,6 +56,7 @@ struct EngineScene : Scene {
   bool has_memory() const { return soft && soft->has_memory(); }
   /// Contacts that remember become hard ones, those that come closest to them.
   void forget_memory() {
+    if (!soft) return;
     for (auto* contacts : {&soft->pairs, &soft->box.on_floor, &soft->box.on_wall, &soft->box.on_lid,
                            &soft->surfaces})
       for (std::optional<SoftContact>& contact : *contacts)

@@ -128,9 +128,10 @@ class Whole(unittest.TestCase):
         self.assertNotIn("contacts that remember", lacks["lammps"])
         self.assertIn("contacts that remember", lacks["bullet"])
         compared = {row["quantity"]: row for row in self.rows("bed.comparison.csv") if row["engine"] == "lammps"}
-        # Where each of them lies is chance. The mean height of such beds scatters by 1 % (75
-        # spheres, LammpsHistory.ABedSettlesToTheSameHeight: by less than 2 %).
-        for quantity, delta in {"height": 0.05, "coordination": 0.15}.items():
+        # Where each of them lies is chance. The mean height of a bed of 75 scatters by 2.2 %
+        # (LammpsHistory.ABedSettlesToTheSameHeight), and so does the difference of two of 150. Of three
+        # seeds heights are apart by up to 1.7 %, coordinations by 2.6 %.
+        for quantity, delta in {"height": 0.05, "coordination": 0.1}.items():
             row = compared[quantity]
             self.assertAlmostEqual(float(row["value"]) / float(row["reference"]), 1, delta=delta, msg=quantity)
         # It lies: what moves is less than what a fall by a hundredth of a radius gives.

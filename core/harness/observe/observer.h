@@ -136,7 +136,7 @@ class Observer final : public FrameSink {
     double hop_end = 0;  ///< the last frame that shows the end of a bounce too small for a flight
     double faint_time = 0;
     Vector3 faint_way = Vector3::Zero();
-    Vector3 up = kUp;  ///< of the base, its normal there
+    Vector3 up = kUp;  ///< the base's normal there
     FallingQuantity slip, speed, spin;
     double slide_end = 0, slide_time = 0;
     Vector3 slide = Vector3::Zero();
