@@ -17,41 +17,6 @@ bool is_in(const std::array<Range, N>& ranges, char32_t c) {
                      [c](const Range& r) { return r.first <= c && c <= r.second; });
 }
 
-/// Takes one code point off the text, the replacement character for a byte that begins none: also
-/// overlong forms, surrogates and what lies beyond U+10FFFF (Unicode 15, table 3-7).
-char32_t take_code_point(std::string_view& text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  const std::size_t length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  char32_t c = length == 1 ? first : first & (0xFFu >> (length + 1));
-  bool valid = first < 0x80 || (first >= 0xC2 && first <= 0xF4 && text.size() >= length);
-  for (std::size_t i = 1; valid && i < length; ++i) {
-    valid = (byte(i) & 0xC0) == 0x80;
-    c = (c << 6) | (byte(i) & 0x3Fu);
-  }
-  valid = valid && !(length == 3 && c < 0x800) && !(length == 4 && c < 0x10000) &&
-          !(c >= 0xD800 && c <= 0xDFFF) && c <= 0x10FFFF;
-  text.remove_prefix(valid ? length : 1);
-  return valid ? c : kReplacement;
-}
-
-void append(std::string& to, char32_t c) {
-  const auto put = [&](char32_t bits) { to += static_cast<char>(bits); };
-  if (c < 0x80) return put(c);
-  if (c < 0x800) {
-    put(0xC0 | (c >> 6));
-  } else {
-    if (c < 0x10000) {
-      put(0xE0 | (c >> 12));
-    } else {
-      put(0xF0 | (c >> 18));
-      put(0x80 | ((c >> 12) & 0x3F));
-    }
-    put(0x80 | ((c >> 6) & 0x3F));
-  }
-  put(0x80 | (c & 0x3F));
-}
-
 /// C0, DEL and C1; separators of lines; marks, embeddings and isolates of direction; non-characters
 /// that XML cannot hold.
 constexpr std::array<Range, 5> kControls = {
@@ -83,12 +48,50 @@ std::size_t columns(char32_t c) {
   return is_in(kWide, c) ? 2 : 1;
 }
 
+/// One code point off the text, the replacement character for a byte that begins none.
+char32_t take_or_replace(std::string_view& text) {
+  return take_code_point(text).value_or(kReplacement);
+}
+
 }  // namespace
+
+std::optional<char32_t> take_code_point(std::string_view& text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  const std::size_t length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  char32_t c = length == 1 ? first : first & (0xFFu >> (length + 1));
+  bool valid = first < 0x80 || (first >= 0xC2 && first <= 0xF4 && text.size() >= length);
+  for (std::size_t i = 1; valid && i < length; ++i) {
+    valid = (byte(i) & 0xC0) == 0x80;
+    c = (c << 6) | (byte(i) & 0x3Fu);
+  }
+  valid = valid && !(length == 3 && c < 0x800) && !(length == 4 && c < 0x10000) &&
+          !(c >= 0xD800 && c <= 0xDFFF) && c <= 0x10FFFF;
+  text.remove_prefix(valid ? length : 1);
+  return valid ? std::optional(c) : std::nullopt;
+}
+
+void append_code_point(std::string& to, char32_t c) {
+  const auto put = [&](char32_t bits) { to += static_cast<char>(bits); };
+  if (c < 0x80) return put(c);
+  if (c < 0x800) {
+    put(0xC0 | (c >> 6));
+  } else {
+    if (c < 0x10000) {
+      put(0xE0 | (c >> 12));
+    } else {
+      put(0xF0 | (c >> 18));
+      put(0x80 | ((c >> 12) & 0x3F));
+    }
+    put(0x80 | ((c >> 6) & 0x3F));
+  }
+  put(0x80 | (c & 0x3F));
+}
 
 std::string valid_utf8(std::string_view text) {
   std::string result;
   result.reserve(text.size());
-  while (!text.empty()) append(result, take_code_point(text));
+  while (!text.empty()) append_code_point(result, take_or_replace(text));
   return result;
 }
 
@@ -96,10 +99,10 @@ std::string printable(std::string_view text) {
   std::string result;
   result.reserve(text.size());
   while (!text.empty()) {
-    char32_t c = take_code_point(text);
+    char32_t c = take_or_replace(text);
     if (c == '\n' || c == '\t' || c == '\r') c = ' ';
     if (is_in(kControls, c) || is_in(kNonCharacters, c)) c = kReplacement;
-    append(result, c);
+    append_code_point(result, c);
   }
   return result;
 }
@@ -110,7 +113,7 @@ std::size_t display_width(std::string_view text) {
     if (text.starts_with("\x1b["))  // an ink, to its letter
       text.remove_prefix(std::min(text.find('m'), text.size() - 1) + 1);
     else
-      width += columns(take_code_point(text));
+      width += columns(take_or_replace(text));
   }
   return width;
 }
@@ -121,10 +124,10 @@ std::string shortened(std::string_view text, std::size_t width) {
   std::string result;
   std::size_t taken = 0;
   while (!text.empty()) {
-    const char32_t c = take_code_point(text);
+    const char32_t c = take_or_replace(text);
     if (taken + columns(c) > width - 1) break;
     taken += columns(c);
-    append(result, c);
+    append_code_point(result, c);
   }
   return result + "…";
 }

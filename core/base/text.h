@@ -1,10 +1,19 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace slipcheck {
+
+/// Takes one code point off the text; nothing, and one byte, where the text does not begin with a
+/// well-formed one: also overlong forms, surrogates and what lies beyond U+10FFFF (Unicode 15,
+/// table 3-7). The text must not be empty.
+std::optional<char32_t> take_code_point(std::string_view& text);
+
+/// Writes a code point, at most U+10FFFF, as UTF-8 at the end.
+void append_code_point(std::string& to, char32_t c);
 
 /// Well-formed UTF-8, with U+FFFD for each byte that is not: JSON and HTML can hold nothing else.
 std::string valid_utf8(std::string_view text);

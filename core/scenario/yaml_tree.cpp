@@ -10,6 +10,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/text.h"
 #include "scenario/fault.h"
 
 namespace slipcheck {
@@ -18,6 +19,17 @@ namespace {
 Location location_of(const YAML::Mark& mark) {
   if (mark.is_null()) return {};
   return {mark.line + 1, mark.column + 1};
+}
+
+/// What yaml-cpp read from well-formed text, which writes the escapes \N and \_ as the bytes 85 and
+/// A0 alone: with the characters U+0085 and U+00A0 that YAML 1.2, 5.7, means by them.
+std::string whole_characters(const std::string& value) {
+  std::string result;
+  for (std::string_view rest = value; !rest.empty();) {
+    const auto first = static_cast<unsigned char>(rest[0]);
+    append_code_point(result, take_code_point(rest).value_or(first));
+  }
+  return result;
 }
 
 /// Leaves the parser at the first thing that makes the rest meaningless.
@@ -61,7 +73,7 @@ class TreeBuilder : public YAML::EventHandler {
     auto node = std::make_shared<YamlNode>();
     node->kind = YamlNode::Kind::scalar;
     node->location = location_of(mark);
-    node->text = value;
+    node->text = whole_characters(value);
     node->plain = tag != "!";
     add(std::move(node), anchor);
   }

@@ -119,7 +119,8 @@ TEST(Profile, WhatIsWrittenReadsBackAsTheSame) {
                       {"j", std::string("")},
                       {"k", std::string("null")},
                       {"l", 16384.0},
-                      {"m", 1e22}};
+                      {"m", 1e22},
+                      {"n", parse_profile(kHead + R"(about: "\_ \N")", "p.yaml").about}};
   const std::string text = profile_yaml(profile, {"seed: 7", "scenes:", "  - a"});
   const Profile read = parse_profile(text, "p.yaml");
   EXPECT_EQ(read.engine, profile.engine);

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "../support/text_of.h"
+#include "scenario/content_digest.h"
 #include "scenario/file_text.h"
 #include "scenes.h"
 
@@ -235,6 +236,16 @@ run: {until: 2}
     EXPECT_NEAR(values(cgs)[i] / values(si)[i], 1, 1e-15) << i;
     EXPECT_NEAR(values(text)[i] / values(si)[i], 1, 1e-15) << i;
   }
+}
+
+// YAML 1.2, 5.7: \N is U+0085 and \_ is U+00A0, which yaml-cpp gives as one byte each.
+TEST(Load, EscapesOfOneCharacterAreThatCharacter) {
+  const Scenario scenario =
+      parse_scenario(with(kHard, "title: ", R"(title: "\_a é\_\x41\u00e9 \N" #)"), "s.yaml");
+  EXPECT_EQ(scenario.title, "\u00a0a \u00e9\u00a0A\u00e9 \xc2\x85");
+  EXPECT_EQ(content_digest(scenario),
+            content_digest(parse_scenario(
+                with(kHard, "title: ", R"(title: "\xA0a é\u00A0Aé \x85" #)"), "s.yaml")));
 }
 
 }  // namespace
