@@ -131,7 +131,7 @@ void unpack_bodies(const JsonNode& node, Scene& scene) {
     const Sphere body{protocol::read_f64(from), protocol::read_f64(from + 8),
                       protocol::read_f64(from + 16)};
     for (const double value : {body.radius, body.mass, body.shape_factor})
-      if (!(value > 0 && std::isfinite(value)))
+      if (!(value >= kTiny && std::isfinite(value)))
         node.fault_alone(
             fmt::format("has {} in body {}, must be finite and > 0", value, at / kPackedBytes));
     scene.bodies.push_back(body);

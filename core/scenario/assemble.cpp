@@ -181,11 +181,12 @@ void check_place(Body& body, const WrittenScene& written, const std::string& pat
 
 Body resolve(const WrittenBody& written_body, const WrittenScene& written, Reading& reading) {
   const bool in_container = written.container.has_value();
-  Body body{written_body.name, written_body.material, written_body.sphere, {}, written_body.extent};
+  Body body{written_body.name, written_body.material, written_body.sphere, {}};
+  if (written_body.extent) body.extent = std::make_shared<Extent>(*written_body.extent);
   const double radius = body.sphere.radius;
   body.sphere.mass = written_body.mass ? *written_body.mass
-                                       : mass_of(written, body.material, body.sphere, body.extent,
-                                                 written_body.path, reading);
+                                       : mass_of(written, body.material, body.sphere,
+                                                 written_body.extent, written_body.path, reading);
   for (const auto& [key, values] : {std::pair(".position", &written_body.position),
                                     std::pair(".velocity", &written_body.velocity)}) {
     if (in_container && values->size() != 2) {

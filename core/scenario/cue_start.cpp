@@ -50,7 +50,7 @@ void strike(const WrittenBody& written, const WrittenScene& scene, Body& body, R
                              ? *cue.impulse
                              : stroke.impulse(body.sphere, *cue.speed, *cue.mass, cue.restitution);
   stroke.strike(body.sphere, impulse, body.initial);
-  body.stroke = Stroke{impulse, stroke.direction()};
+  body.stroke = std::make_shared<Stroke>(impulse, stroke.direction());
 }
 
 }  // namespace slipcheck

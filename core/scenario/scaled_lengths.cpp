@@ -130,8 +130,11 @@ class Scale {
   void operator()(Body& body) const {
     body.sphere.radius *= length;
     body.sphere.mass *= of(kMass);
-    if (body.extent) body.extent->size *= length;
-    if (body.stroke) body.stroke->impulse *= of(1, 1, -1);
+    if (body.extent)
+      body.extent = std::make_shared<Extent>(length * body.extent->size, body.extent->axis);
+    if (body.stroke)
+      body.stroke =
+          std::make_shared<Stroke>(of(1, 1, -1) * body.stroke->impulse, body.stroke->direction);
     body.initial.position *= length;
     body.initial.velocity *= speed();
     body.initial.angular_velocity /= time;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -264,8 +265,9 @@ struct Body {
   std::string material;
   Sphere sphere;
   BodyState initial;
-  std::optional<Extent> extent = {};  ///< where it is no sphere
-  std::optional<Stroke> stroke = {};
+  // What few of many bodies have takes a pointer's room of the others; null: it has none.
+  std::shared_ptr<const Extent> extent = {};  ///< where it is no sphere
+  std::shared_ptr<const Stroke> stroke = {};
 };
 
 /// A value that a preset brought.

@@ -181,7 +181,7 @@ SceneOutline make_outline(const Scenario& scenario) {
     scene.initial.push_back(body.initial);
     if (body.extent) {
       scene.extents.resize(scene.bodies.size());
-      scene.extents.back() = body.extent;
+      scene.extents.back() = *body.extent;
     }
     scene.material.push_back(entry->second);
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -66,6 +67,14 @@ TEST(SceneJson, BodiesInOnePieceAreTheSame) {
   expect_rubbish(
       scene, [](json& o) { o["packed_bodies"].get_binary()[28 + 7] |= 0x80; },
       "packed_bodies: has -0.002 in body 1, must be finite and > 0");
+  expect_rubbish(  // denormal, as "bodies" may not have it
+      scene,
+      [](json& o) {
+        auto& bytes = o["packed_bodies"].get_binary();
+        std::fill_n(bytes.begin() + 28, 8, 0);
+        bytes[28] = 1;
+      },
+      "packed_bodies: has 5e-324 in body 1, must be finite and > 0");
   expect_rubbish(
       scene, [](json& o) { o["packed_bodies"].get_binary()[2 * 28 + 24] = 7; },
       "packed_bodies: has the material 7 in body 2, must be below 2");

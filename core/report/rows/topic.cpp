@@ -47,8 +47,7 @@ std::string topic_of(const Scenario& scenario) {
   const auto* substrate = std::get_if<Substrate>(&scenario.surroundings);
   if (substrate == nullptr || scenario.bodies.size() >= kMany) return known[7];
   if (!scenario.surfaces.empty()) return known[4];
-  if (std::ranges::any_of(scenario.bodies,
-                          [](const Body& body) { return body.extent.has_value(); }))
+  if (std::ranges::any_of(scenario.bodies, [](const Body& body) { return body.extent != nullptr; }))
     return known[5];
   if (!std::holds_alternative<StillMotion>(substrate->motion)) return known[3];
   if (substrate->tilt > 0) return known[2];

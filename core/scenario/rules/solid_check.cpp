@@ -90,8 +90,8 @@ void check_cylinder(const WrittenBody& written, const std::optional<Vector2>& li
                      "substrate's motion have several");
     return;
   }
-  body.extent->axis = Vector2(-line->y(), line->x());
-  const Vector3 axis(body.extent->axis.x(), body.extent->axis.y(), 0);
+  const Vector3 axis(-line->y(), line->x(), 0);
+  body.extent = std::make_shared<Extent>(body.extent->size, axis.head<2>());
   const Vector3& spin = body.initial.angular_velocity;
   if ((spin - spin.dot(axis) * axis).norm() > kRounding * spin.norm())
     reading.fault_at(written.path + ".spin",
