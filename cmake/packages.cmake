@@ -40,7 +40,7 @@ foreach(engine dart lammps mujoco ode siconos simbody)
   endif()
 endforeach()
 slipcheck_package(dev libslipcheck-dev "Slipcheck's reference as C++ libraries, and what an engine of your own implements"
-  DEPENDS "libeigen3-dev, libfmt-dev, libhwy-dev, libsundials-dev, libudunits2-dev, libyaml-cpp-dev, nettle-dev, nlohmann-json3-dev, pkg-config")
+  DEPENDS "libboost-dev, libeigen3-dev, libfmt-dev, libhwy-dev, libsundials-dev, libudunits2-dev, libyaml-cpp-dev, nettle-dev, nlohmann-json3-dev, pkg-config")
 if(TARGET slipcheck_python)
   # What find_package() says is known in that folder alone.
   get_target_property(minor slipcheck_python SLIPCHECK_PYTHON_MINOR)

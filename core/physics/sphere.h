@@ -15,8 +15,6 @@ struct Sphere {
   double shape_factor = 2.0 / 5;  ///< q = I/(m R²) [-], > 0: 2/5 solid, 2/3 shell, 1/2 disk, 1 ring
   Shape shape = Shape::sphere;
 
-  bool operator==(const Sphere&) const = default;
-
   /// I = q m R² [kg m²]; of a cylinder about its axis, of a block about the vertical.
   double moment_of_inertia() const { return shape_factor * mass * radius * radius; }
   /// K's A = m R²/I = 1/q [-]: how much more friction changes the slip than the velocity. 0 for a

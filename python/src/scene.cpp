@@ -26,12 +26,13 @@ Array vectors_of(const std::vector<BodyState>& states, Vector3 BodyState::*which
 }
 
 py::dict dict_of(const ReferenceResult& result) {
-  py::dict observables;
+  py::dict observables, closed_form;
+  for (const auto& [name, value] : result.closed_form) closed_form[py::str(name)] = value;
   for (const auto& [name, value] : result.observables)
     observables[py::str(name)] = py::make_tuple(value.value, value.uncertainty);
   const SolvedRun& run = result.run;
   return py::dict("solver"_a = result.solver, "cpu_seconds"_a = result.cpu_seconds,
-                  "observables"_a = observables, "closed_form"_a = result.closed_form,
+                  "observables"_a = observables, "closed_form"_a = closed_form,
                   "end_time"_a = run.end_time, "reached"_a = run.reached, "failed"_a = run.failed,
                   "reason"_a = run.reason, "first_contact"_a = result.first_contact,
                   "collisions"_a = run.collisions, "events"_a = run.events, "steps"_a = run.steps,

@@ -16,7 +16,7 @@ Scenario with_tolerance(const std::string& observable, double value, bool absolu
 }
 
 /// That came to its end, of a scene of 1 m, 1 kg, 1 s.
-ReferenceResult reference(std::map<std::string, UncertainValue> values) {
+ReferenceResult reference(ByName<UncertainValue> values) {
   ReferenceResult result;
   result.run.reached = true;
   result.scales = {.speed = 1, .large = 1, .small = 1, .mass = 1, .time = 1};
@@ -124,7 +124,7 @@ std::map<std::string, double> vector_values(const std::string& name, double x, d
 
 TEST(Deviations, OfVectorsCountDirectionAndRelateToTheLength) {
   const std::string name = "i.final_velocity";
-  std::map<std::string, UncertainValue> truth;
+  ByName<UncertainValue> truth;
   for (const auto& [key, value] : vector_values(name, 3, 4)) truth[key] = {value, 1e-15};
   const auto found = deviations(with_tolerance("final_velocity", 0.5), reference(truth),
                                 ensemble_values({vector_values(name, 4, 3)}));
@@ -138,7 +138,7 @@ TEST(Deviations, OfAFinalPositionRelateToTheWayFromTheStart) {
   const std::string name = "i.final_position";
   Scenario scenario = with_tolerance("final_position", 0.01);
   scenario.bodies[0].initial.position = {100, 0, 0};
-  std::map<std::string, UncertainValue> truth;
+  ByName<UncertainValue> truth;
   for (const auto& [key, value] : vector_values(name, 101, 0)) truth[key] = {value, 1e-15};
   const auto found =
       deviations(scenario, reference(truth), ensemble_values({vector_values(name, 101.1, 0)}));

@@ -14,7 +14,7 @@
 namespace slipcheck {
 namespace {
 
-using Named = std::map<std::string, UncertainValue>;
+using Named = ByName<UncertainValue>;
 
 Named reference(const ContactScene& scene, Compare::Reference solver, double end) {
   return run_reference(ReferenceSolver(scene, solver), until_time(end), {"i", "j"}).observables;

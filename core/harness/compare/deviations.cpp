@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/by_name.h"
 #include "harness/compare/comparison.h"
 #include "harness/observe/observables.h"
 #include "scenario/observable_key.h"
@@ -20,12 +21,6 @@ namespace {
 using Ensemble = std::map<std::string, EnsembleValue>;
 
 constexpr const char* kDidNotEnd = "the reference did not come to its end";
-
-template <class Value>
-const Value* find(const std::map<std::string, Value>& map, const std::string& name) {
-  const auto found = map.find(name);
-  return found == map.end() ? nullptr : &found->second;
-}
 
 /// By how much each phase is off, and what that is relative to.
 struct Differences {
@@ -74,7 +69,7 @@ class Judge {
       result.tolerance = tolerance->value;
       result.absolute = tolerance->absolute;
     }
-    const EnsembleValue* seen = find(ensemble, name);
+    const EnsembleValue* seen = find_in(ensemble, name);
     const bool is_vector = observable && observable->is_vector;
     const Differences differences = is_vector
                                         ? vector_differences(ensemble, key)
@@ -129,7 +124,7 @@ class Judge {
       uncertainty[k] = value.uncertainty;
       if (is_way && body != bodies_.end()) length[k] -= body->second->initial.position[k];
       if (key.component != '\0' && key.component != kComponents[at]) continue;
-      const Differences one = scalar_differences(value, find(ensemble, components[at]));
+      const Differences one = scalar_differences(value, find_in(ensemble, components[at]));
       own[k] = one.uncertainty;
       squares.resize(one.by_phase.size());
       for (std::size_t p = 0; p < squares.size(); ++p)

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "harness/run/reference_run.h"
@@ -8,7 +7,7 @@
 
 namespace slipcheck {
 
-using ReferenceValues = std::map<std::string, UncertainValue>;  ///< by full name
+using ReferenceValues = ByName<UncertainValue>;  ///< by full name
 
 /// What a relative move of an observable is relative to [its unit], >= 0, as errors are: the
 /// reference's value, of vectors and their components the vector's length, of a position the way

@@ -215,6 +215,8 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
       has_closed_form ? flat_values(aligned(closed_form_observables(scene), solved.seen))
                       : std::vector<double>(values.size(), kNotObserved);
   std::vector<std::string> not_numbers;
+  result.observables.reserve(values.size() + 1);
+  if (has_closed_form) result.closed_form.reserve(values.size());
   for (const std::size_t k : order_of_names(solved.seen, names)) {
     const double value = values[k];
     if (std::isnan(value)) {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/by_name.h"
 #include "harness/observe/assembly_observer.h"
 #include "harness/observe/box_observer.h"
 #include "harness/observe/motion.h"
@@ -47,8 +47,8 @@ struct BoxReference {
 struct ReferenceResult {
   std::string solver = "event";  ///< or "contact"
   double cpu_seconds = 0;        ///< of the one run that the values come from
-  std::map<std::string, UncertainValue> observables;
-  std::map<std::string, double> closed_form;  ///< where one applies
+  ByName<UncertainValue> observables;
+  ByName<double> closed_form;  ///< where one applies
   SolvedRun run;
   double first_contact = 0;         ///< time of the first collision or landing [s], maybe infinite
   NaturalScales scales;             ///< of the scene; none of one in a box

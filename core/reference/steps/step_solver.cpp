@@ -29,13 +29,18 @@ StepKind make_kind(const Scene& scene, std::size_t i, bool general) {
   return kind;
 }
 
+bool is_alike(const Sphere& a, const Sphere& b) {
+  return a.radius == b.radius && a.mass == b.mass && a.shape_factor == b.shape_factor &&
+         a.shape == b.shape;
+}
+
 /// The place among `kinds` of that of body i, which is added where it is none of the last.
 std::uint32_t kind_of(const Scene& scene, std::size_t i, bool general,
                       std::vector<StepKind>& kinds) {
   constexpr std::size_t kLooked = 8;  // where radii are drawn each body is of its own kind
   for (std::size_t k = kinds.size(), looked = 0; k > 0 && looked < kLooked; ++looked)
     if (const StepKind& kind = kinds[--k];
-        kind.sphere == scene.bodies[i] && kind.contact == &scene.on_substrate(i))
+        is_alike(kind.sphere, scene.bodies[i]) && kind.contact == &scene.on_substrate(i))
       return static_cast<std::uint32_t>(k);
   kinds.push_back(make_kind(scene, i, general));
   return static_cast<std::uint32_t>(kinds.size() - 1);

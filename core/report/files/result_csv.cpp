@@ -3,17 +3,12 @@
 #include <map>
 #include <set>
 
+#include "base/by_name.h"
 #include "report/rows/csv_rows.h"
 #include "report/rows/selection.h"
 
 namespace slipcheck {
 namespace {
-
-template <typename Value>
-const Value* find(const std::map<std::string, Value>& map, const std::string& name) {
-  const auto found = map.find(name);
-  return found == map.end() ? nullptr : &found->second;
-}
 
 CsvValue count_of(std::size_t number) { return static_cast<double>(number); }
 CsvValue truth(bool value) { return std::string(value ? "true" : "false"); }
@@ -33,15 +28,15 @@ std::vector<CsvValue> names_of(const SceneRecord& scene, const EngineRecord& run
 
 /// reference, uncertainty, closed_form
 std::vector<CsvValue> reference_of(const ReferenceResult& reference, const std::string& name) {
-  const UncertainValue* value = find(reference.observables, name);
-  const double* exact = find(reference.closed_form, name);
+  const UncertainValue* value = find_in(reference.observables, name);
+  const double* exact = find_in(reference.closed_form, name);
   return {value ? value->value : kNotObserved, value ? value->uncertainty : kNotObserved,
           exact ? *exact : kNotObserved};
 }
 
 /// median … missing
 std::vector<CsvValue> ensemble_of(const EngineRecord& run, const std::string& name) {
-  const EnsembleValue* value = find(run.observables, name);
+  const EnsembleValue* value = find_in(run.observables, name);
   // What is not there is missing in every phase.
   if (!value) return {kNotObserved, kNotObserved, kNotObserved, count_of(run.phases)};
   return {value->median, value->min, value->max, count_of(value->missing)};
@@ -49,7 +44,7 @@ std::vector<CsvValue> ensemble_of(const EngineRecord& run, const std::string& na
 
 /// median_error … within
 std::vector<CsvValue> error_of(const EngineRecord& run, const std::string& name) {
-  const Deviation* error = find(run.errors, name);
+  const Deviation* error = find_in(run.errors, name);
   if (!error) return empty(5);
   // Where the scene says what it expects of a run, tolerances do not judge it.
   const bool judged = error->tolerance && !run.expect;
@@ -66,9 +61,9 @@ std::vector<CsvValue> similarity_of(const EngineRecord& run, const EnsembleValue
 
 std::string reason_of(const EngineRecord& run, const std::string& name,
                       const std::map<std::string, std::string>& absent) {
-  if (const Deviation* error = find(run.errors, name); error && !error->reason.empty())
+  if (const Deviation* error = find_in(run.errors, name); error && !error->reason.empty())
     return error->reason;
-  const std::string* reason = find(absent, name);
+  const std::string* reason = find_in(absent, name);
   return reason ? *reason : "";
 }
 
@@ -106,7 +101,7 @@ class ResultRows {
       append(row, {CsvValue(name)});
       append(row, reference_of(scene_.reference, name));
       append(row, empty(9));
-      const std::string* reason = find(absent_, name);
+      const std::string* reason = find_in(absent_, name);
       append(row, {CsvValue(std::string()), CsvValue(reason ? *reason : std::string()),
                    CsvValue(scene_.reference.cpu_seconds), count_of(scene_.reference.run.steps)});
       append(row, empty(3));
@@ -123,7 +118,7 @@ class ResultRows {
       append(row, error_of(run, name));
       append(row, {count_of(run.phases), CsvValue(reason_of(run, name, absent_)),
                    CsvValue(run.cpu_seconds), count_of(run.steps)});
-      append(row, similarity_of(run, find(run.observables, name)));
+      append(row, similarity_of(run, find_in(run.observables, name)));
       rows.add(row);
     }
   }
@@ -162,7 +157,7 @@ std::string phases_csv(const std::vector<SceneRecord>& scenes) {
     for (const EngineRecord& run : scene.runs)
       for (const auto& [name, ensemble] : run.observables) {
         if (!has_tolerance(scene.scenario, name)) continue;
-        const UncertainValue* right = find(scene.reference.observables, name);
+        const UncertainValue* right = find_in(scene.reference.observables, name);
         const std::size_t phases = ensemble.values.size() / run.headings;
         for (std::size_t k = 0; k < ensemble.values.size(); ++k) {
           std::vector<CsvValue> row = names_of(scene, run);

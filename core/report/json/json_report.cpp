@@ -79,9 +79,8 @@ std::map<std::string, ShownObservable> shown_observables(const SceneRecord& scen
 }
 
 /// What is absent the scene tells again; an uncertainty without a number has no bound.
-std::map<std::string, UncertainValue> observables_of(
-    const std::map<std::string, ShownObservable>& shown) {
-  std::map<std::string, UncertainValue> observables;
+ByName<UncertainValue> observables_of(const std::map<std::string, ShownObservable>& shown) {
+  ByName<UncertainValue> observables;
   for (const auto& [name, seen] : shown)
     if (seen.value) observables[name] = {*seen.value, seen.uncertainty.value_or(kInfinity)};
   return observables;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/by_name.h"
 #include "engine/engine_registry.h"
 #include "harness/compare/observable_scale.h"
 #include "report/rows/selection.h"
@@ -15,12 +16,6 @@
 
 namespace slipcheck {
 namespace {
-
-template <typename Value>
-const Value* find(const std::map<std::string, Value>& map, const std::string& name) {
-  const auto found = map.find(name);
-  return found == map.end() ? nullptr : &found->second;
-}
 
 Cell spread_cell(const EnsembleValue& ensemble, const QuantityFormat& format) {
   const std::string low = format.number(ensemble.min), high = format.number(ensemble.max);
@@ -71,7 +66,7 @@ QuantityFormat format_for(const SceneRecord& scene, const std::string& name,
                           const EnsembleValue* ensemble) {
   double magnitude = 0;
   if (ensemble) magnitude = std::max(std::abs(ensemble->min), std::abs(ensemble->max));
-  if (const UncertainValue* value = find(scene.reference.observables, name)) {
+  if (const UncertainValue* value = find_in(scene.reference.observables, name)) {
     // A zero with its rounding errors has no magnitude of its own; an uncertain mean has.
     const double factor = scene.reference.box ? 1 : 10;
     const bool is_zero = std::abs(value->value) <= factor * value->uncertainty;
@@ -95,8 +90,8 @@ std::string tolerance_text(double tolerance, bool absolute, const Dimension& dim
 
 std::string closed_form_text(const ReferenceResult& reference, const std::string& name,
                              const QuantityFormat& format) {
-  const double* exact = find(reference.closed_form, name);
-  const UncertainValue* value = find(reference.observables, name);
+  const double* exact = find_in(reference.closed_form, name);
+  const UncertainValue* value = find_in(reference.observables, name);
   if (!exact || !value) return {};
   std::string text = fmt::format("{:.10g}", *exact / format.factor());
   if (!format.unit().empty()) text += " " + format.unit();
@@ -108,7 +103,7 @@ std::string closed_form_text(const ReferenceResult& reference, const std::string
 
 Cell reference_cell(const SceneRecord& scene, const std::string& name,
                     const QuantityFormat& format) {
-  const UncertainValue* value = find(scene.reference.observables, name);
+  const UncertainValue* value = find_in(scene.reference.observables, name);
   if (!value) return {"–"};
   std::string text = format.number(value->value);
   const bool is_zero = std::abs(value->value) <= 1e-9 * format.factor();
@@ -124,9 +119,9 @@ std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const Engin
                                            const std::vector<std::string>& names) {
   std::vector<ComparisonRow> rows;
   for (const std::string& name : names) {
-    const EnsembleValue* ensemble = find(run.observables, name);
+    const EnsembleValue* ensemble = find_in(run.observables, name);
     const bool in_reference = scene.reference.observables.count(name) > 0;
-    const Deviation* deviation = find(run.errors, name);
+    const Deviation* deviation = find_in(run.errors, name);
     if (!ensemble && !in_reference && !deviation) continue;
     const QuantityFormat format = format_for(scene, name, ensemble);
     ComparisonRow row;
@@ -208,10 +203,10 @@ TextTable reference_table(const SceneRecord& scene, const std::vector<std::strin
     const QuantityFormat format = format_for(scene, name, nullptr);
     Cell closed_form{closed_form_text(scene.reference, name, format), Tone::faint};
     if (!closed_form.text.empty()) {
-      closed_form.value = *find(scene.reference.closed_form, name);
+      closed_form.value = *find_in(scene.reference.closed_form, name);
       table.columns[2].header = "closed form";
     }
-    if (const std::string* reason = find(absent, name)) closed_form.text = *reason;
+    if (const std::string* reason = find_in(absent, name)) closed_form.text = *reason;
     table.rows.push_back({{name}, reference_cell(scene, name, format), closed_form});
   }
   return table;

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "base/by_name.h"
 #include "scenario/observable_key.h"
 #include "scenario/tolerances.h"
 
@@ -20,15 +21,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double finite_or_zero(double value) { return std::isfinite(value) ? value : 0; }
 
-template <class Value>
-const Value* find(const std::map<std::string, Value>& map, const std::string& name) {
-  const auto found = map.find(name);
-  return found == map.end() ? nullptr : &found->second;
-}
-
-template <class Value>
-std::set<std::string> names_of(const std::map<std::string, Value>& one,
-                               const std::map<std::string, Value>& other) {
+template <class Map>
+std::set<std::string> names_of(const Map& one, const Map& other) {
   std::set<std::string> names;
   for (const auto& [name, value] : one) names.insert(name);
   for (const auto& [name, value] : other) names.insert(name);
@@ -92,8 +86,8 @@ class Checker {
   void check_reference() {
     if (old_.solver != now_.solver) words("reference", Statistic::solver, old_.solver, now_.solver);
     for (const std::string& name : names_of(old_.reference, now_.reference)) {
-      const UncertainValue* before = find(old_.reference, name);
-      const UncertainValue* after = find(now_.reference, name);
+      const UncertainValue* before = find_in(old_.reference, name);
+      const UncertainValue* after = find_in(now_.reference, name);
       ++check_.compared;
       if (before && after) {
         check_reference_value(name, *before, *after);
@@ -185,8 +179,8 @@ class Checker {
       added.gates = record.expect.has_value();
     }
     for (const std::string& name : names_of(before.observables, after.observables)) {
-      const BaselineSpread* was = find(before.observables, name);
-      const BaselineSpread* is = find(after.observables, name);
+      const BaselineSpread* was = find_in(before.observables, name);
+      const BaselineSpread* is = find_in(after.observables, name);
       check_missing(label, name, was ? was->missing : before.phases,
                     is ? is->missing : after.phases);
       if (!was || !is) continue;
@@ -203,7 +197,7 @@ class Checker {
     Change& added = change(label, name, Statistic::missing);
     added.before = static_cast<double>(before);
     added.after = static_cast<double>(after);
-    const bool is_right = (find(now_.reference, name) != nullptr) == (after < before);
+    const bool is_right = (find_in(now_.reference, name) != nullptr) == (after < before);
     added.direction = is_right ? Direction::better : Direction::worse;
   }
 
@@ -217,7 +211,7 @@ class Checker {
       ++check_.drifted;
       return;
     }
-    const UncertainValue* reference = find(now_.reference, name);
+    const UncertainValue* reference = find_in(now_.reference, name);
     Change& added = change(label, name, statistic);
     added.before = before;
     added.after = after;
@@ -228,8 +222,8 @@ class Checker {
   /// NaN where nothing says how far a statistic may move.
   double allowed_move(const std::string& name, Statistic statistic, double before,
                       const EngineRecord& record) const {
-    const UncertainValue* was = find(old_.reference, name);
-    const UncertainValue* is = find(now_.reference, name);
+    const UncertainValue* was = find_in(old_.reference, name);
+    const UncertainValue* is = find_in(now_.reference, name);
     const double uncertainty =
         (was ? finite_or_zero(was->uncertainty) : 0) + (is ? finite_or_zero(is->uncertainty) : 0);
     if (const auto tolerance = tolerance_of_part(scene_.scenario, name)) {
@@ -240,7 +234,7 @@ class Checker {
       return tolerance->value * scale + (scene_.reference.box ? uncertainty : 0);
     }
     const ExpectedObservable* expected =
-        record.expect ? find(record.expect->observables, name) : nullptr;
+        record.expect ? find_in(record.expect->observables, name) : nullptr;
     if (expected == nullptr) return kNaN;
     const auto& range = statistic == Statistic::min   ? expected->min
                         : statistic == Statistic::max ? expected->max
