@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "../support/in_part.h"
 #include "gases.h"
 #include "physics/granular_gas.h"
 #include "reference/gas/sonine.h"
@@ -40,7 +41,7 @@ TEST(GasCooling, ElasticGasIsAMaxwelliansAndCollidesAsOne) {
 
 TEST(GasCooling, HaffsLawWithItsPrefactor) {
   for (const int D : {2, 3})
-    for (const double e : {0.6, 0.8, 0.95}) {
+    for (const double e : test::in_part<double>({0.6, 0.8, 0.95})) {
       const GasSetup setup = test::small_gas(D, 100'000);
       const GasRun run = cooled(setup, test::smooth(e), 30 / (1 - e * e));
       const GasStatement exponent = test::stated(run, test::kExponent)[0];
@@ -67,15 +68,15 @@ TEST(GasCooling, HaffsLawWithItsPrefactor) {
 }
 
 TEST(GasCooling, FourthCumulantIsThatOfTwoSonineTerms) {
-  for (const auto& [D, e] : {std::pair{3, 0.5},
-                             {3, 0.7},
-                             {3, 0.8},
-                             {3, 0.9},
-                             {3, 0.95},
-                             {2, 0.6},
-                             {2, 0.8},
-                             {2, 0.9},
-                             {2, 0.95}}) {
+  for (const auto& [D, e] : test::in_part<std::pair<int, double>>({{3, 0.5},
+                                                                   {3, 0.7},
+                                                                   {3, 0.8},
+                                                                   {3, 0.9},
+                                                                   {3, 0.95},
+                                                                   {2, 0.6},
+                                                                   {2, 0.8},
+                                                                   {2, 0.9},
+                                                                   {2, 0.95}})) {
     const GasRun run = cooled(test::small_gas(D, 200'000), test::smooth(e), 50);
     const std::vector<GasStatement> a2 = test::stated(run, "a_2");
     ASSERT_EQ(a2.size(), 3u);
@@ -147,7 +148,8 @@ TEST(GasCooling, RoughSpheresEndInThePartitionOfTheMeanField) {
   // What the mean field leaves out, correlations of spin and velocity, is of some per cent
   // (Brilliantov et al., Phys. Rev. Lett. 98, 128001 (2007)).
   for (const int D : {2, 3})
-    for (const auto& [e, beta] : {std::pair{0.9, 0.0}, {0.8, 0.7}, {0.95, -0.5}}) {
+    for (const auto& [e, beta] :
+         test::in_part<std::pair<double, double>>({{0.9, 0.0}, {0.8, 0.7}, {0.95, -0.5}})) {
       GasSetup setup = test::small_gas(D, 40'000);
       setup.rotation = 0.5;
       const GasRun run = cooled(setup, test::rough(e, 1e300, beta), 120);
