@@ -152,11 +152,10 @@ class StepLoop final : public StepKernel {
                               std::size_t begin, std::size_t end, std::vector<BodyState>& shown) {
     for (std::size_t k = begin; k < end; ++k) {
       StepBody body = world.bodies[k];
-      const double half =
-          world.n > 0 ? kick<Substrate>(body, *body.kind, around, 0.5 * world.step) : 0;
+      if (world.n > 0) kick<Substrate>(body, around, 0.5 * world.step);
       const std::size_t i = world.number_of(k);
       shown[i] = {body.position, body.velocity, body.angular_velocity};
-      impulses_[i] = 2 * half;
+      impulses_[i] = world.n > 0 ? 2 * body.normal_impulse : 0;
     }
   }
   void forces_by_neighbours(StepWorld& world) {
@@ -264,12 +263,11 @@ class StepLoop final : public StepKernel {
     double step, dt, slowest_rebound;
 
     void operator()(StepBody& b) const {
-      const StepKind& kind = *b.kind;
-      kick<Substrate>(b, kind, around, dt);
+      kick<Substrate>(b, around, dt);
       b.position += step * b.velocity;
       if constexpr (std::is_same_v<Substrate, BareSubstrate>) return;
       if (!b.supported && b.position.z() < b.radius && b.velocity.z() < 0) [[unlikely]]
-        land_after_drift(b, kind, around, slowest_rebound);
+        land_after_drift(b, around, slowest_rebound);
     }
   };
 
