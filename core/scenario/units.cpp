@@ -38,6 +38,7 @@ class UnitLibrary {
   /// Nothing if the library does not know the unit; throws BadQuantity for one that is no plain
   /// multiple of base units.
   std::optional<Measure> measure(const std::string& name) {
+    if (name.find('\n') != std::string::npos) return std::nullopt;  // which it would print
     const std::lock_guard lock(mutex_);
     const UnitPointer unit(ut_parse(system_.get(), name.c_str(), UT_UTF8));
     if (!unit) return std::nullopt;

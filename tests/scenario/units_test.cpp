@@ -89,6 +89,14 @@ TEST(Units, RefusesWhatIsNoMultiple) {
   EXPECT_NE(refusal("1 000 m", kLength), "");
 }
 
+TEST(Units, ALineBreakIsInNoneAndIsNotPrinted) {
+  ::testing::internal::CaptureStdout();
+  EXPECT_NE(refusal("2 m\n", kLength), "");
+  EXPECT_NE(refusal("2 m\ns^-1", kVelocity), "");
+  EXPECT_NE(refusal("2 \n\n", kLength), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+}
+
 TEST(UnitsDeathTest, AMissingDataBaseIsAFault) {
   ::testing::FLAGS_gtest_death_test_style = "threadsafe";  // a process that has not loaded it yet
   EXPECT_EXIT(
