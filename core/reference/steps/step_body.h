@@ -112,12 +112,18 @@ template <class Substrate>
   const Vector3 velocity = b.velocity + 0.5 * b.velocity_change;
   const Vector3 spin = b.angular_velocity + 0.5 * b.angular_velocity_change;
   Vector2 direction(velocity.x() - b.radius * spin.y(), velocity.y() + b.radius * spin.x());
-  if constexpr (kMoves) direction -= 0.5 * (s.velocity_before + s.velocity);
+  if constexpr (kMoves) {  // component by component: of sums of vectors the compiler leaves calls
+    direction.x() -= 0.5 * (s.velocity_before.x() + s.velocity.x());
+    direction.y() -= 0.5 * (s.velocity_before.y() + s.velocity.y());
+  }
   if (!(direction.dot(u) > 0)) [[unlikely]]
     direction = u;
   const double change = c.kinetic_friction * per_slip * (1 / direction.norm());
-  v.head<2>() -= change * direction;
-  w.head<2>() += (change * b.turn) * Vector2(-direction.y(), direction.x());
+  const double turn = change * b.turn;
+  v.x() -= change * direction.x();
+  v.y() -= change * direction.y();
+  w.x() -= turn * direction.y();
+  w.y() += turn * direction.x();
 }
 
 /// The same with all else that a substrate does to a body.
@@ -215,7 +221,10 @@ template <class Substrate>
 [[gnu::always_inline]] inline void kick_and_rub(StepBody& b, const StepSurroundings& s, double dt) {
   Vector3 v = b.velocity + (dt * b.inverse_mass) * b.force;
   Vector3 w = b.angular_velocity + (dt * b.inverse_inertia) * b.torque;
-  if constexpr (std::is_same_v<Substrate, FullSubstrate>) v.head<2>() += dt * s.downhill;
+  if constexpr (std::is_same_v<Substrate, FullSubstrate>) {
+    v.x() += dt * s.downhill.x();
+    v.y() += dt * s.downhill.y();
+  }
   b.normal_impulse = 0;
   if (b.supported) {
     const double normal = b.weight - b.force.z();

@@ -174,19 +174,14 @@ class StepLoop final : public StepKernel {
     }
   }
 
-  /// The bodies from `begin` to before `end`.
+  /// The bodies from `begin` to before `end`, on which advance_all() has left no forces.
   [[gnu::noinline]] void meet_neighbours(StepWorld& world, Share& share, std::size_t begin,
                                          std::size_t end) {
     share.outside.clear();
-    std::size_t i = begin;
-    const auto forget_before = [&](std::size_t body) {
-      for (; i < body; ++i) forget_forces(world.bodies[i]);
-    };
     StepTally tally;
     const std::vector<StepNeighbour>& all = neighbours_->all();
     for (std::size_t k = share.pairs; k < all.size() && all[k].further() < end; ++k) {
       const StepNeighbour& near = all[k];
-      forget_before(near.further() + 1);
       const StepBody &a = world.bodies[near.first], &b = world.bodies[near.second];
       const auto push_one = [&](const Push& push, std::size_t stored, bool is_second) {
         if (stored < begin) [[unlikely]]
@@ -207,7 +202,6 @@ class StepLoop final : public StepKernel {
             push_one(push, near.second, true);
           });
     }
-    forget_before(end);
     share.tally = tally;
   }
 
@@ -271,7 +265,7 @@ class StepLoop final : public StepKernel {
     }
   };
 
-  /// Advances these; the longest way of one, squared [m²], or kNever.
+  /// Advances these and forgets their forces; the longest way of one, squared [m²], or kNever.
   SLIPCHECK_FLATTEN static double advance_all(const Advance& given, std::span<StepBody> bodies) {
     // Copies, of which the compiler knows that no body changes them.
     const StepSurroundings around = given.around;
@@ -280,6 +274,7 @@ class StepLoop final : public StepKernel {
     for (StepBody& b : bodies) {
       const Vector3 before = b.position;
       advance(b);
+      forget_forces(b);  // here, where they lie in the nearest cache
       const double way2 = (b.position - before).squaredNorm();
       longest2 = way2 <= longest2 ? longest2 : std::isnan(way2) ? kNever : way2;
     }
