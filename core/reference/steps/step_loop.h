@@ -175,7 +175,7 @@ class StepLoop final : public StepKernel {
   }
 
   /// The bodies from `begin` to before `end`, on which advance_all() has left no forces.
-  [[gnu::noinline]] void meet_neighbours(StepWorld& world, Share& share, std::size_t begin,
+  [[gnu::noinline]] SLIPCHECK_FLATTEN void meet_neighbours(StepWorld& world, Share& share, std::size_t begin,
                                          std::size_t end) {
     share.outside.clear();
     StepTally tally;
