@@ -11,6 +11,19 @@
 
 namespace slipcheck {
 
+/// What bodies of one material and size have in common.
+struct StepKind {
+  double inverse_mass = 0;     ///< 1/m [1/kg]
+  double inverse_inertia = 0;  ///< 1/I [1/(kg m²)]
+  double weight = 0;           ///< m g along −z [N]
+  double inverse_radius = 0;   ///< [1/m]
+  double share = 0;            ///< 1/(1+A): the slip that reaches the centre when a body sticks [-]
+  double turn = 0;             ///< A/R: |ΔΩ| for each |Δv| by friction [1/m]
+  Sphere sphere;
+  const SubstrateContact* contact = nullptr;
+  bool coulomb_alone = false;  ///< nothing else of the substrate need be looked at
+};
+
 /// One sphere in the fixed-step solver. Velocities lie half a step before the positions. What says
 /// which bodies touch lies in one line of the cache.
 struct alignas(64) StepBody {
@@ -24,20 +37,11 @@ struct alignas(64) StepBody {
   Vector3 force = Vector3::Zero();   ///< by other bodies [N]
   Vector3 torque = Vector3::Zero();  ///< by other bodies [N m]
 
-  double inverse_mass = 0;     ///< 1/m [1/kg]
-  double inverse_inertia = 0;  ///< 1/I [1/(kg m²)]
-  double weight = 0;           ///< m g along −z [N]
-  double inverse_radius = 0;   ///< [1/m]
-  double share = 0;            ///< 1/(1+A): the slip that reaches the centre when a body sticks [-]
-  double turn = 0;             ///< A/R: |ΔΩ| for each |Δv| by friction [1/m]
-  const Sphere* sphere = nullptr;
-  const SubstrateContact* contact = nullptr;
-
-  bool supported = false;      ///< on the substrate
-  bool sticks = false;         ///< to it: no slip
-  bool coulomb_alone = false;  ///< nothing else of the substrate need be looked at
-  double normal_impulse = 0;   ///< of the substrate in the last step [N s]
+  const StepKind* kind = nullptr;
+  bool supported = false;  ///< on the substrate
+  bool sticks = false;     ///< to it: no slip
 };
+static_assert(sizeof(StepBody) == 192, "three lines of the cache");
 
 /// What acts on all bodies alike.
 struct StepSurroundings {
@@ -64,11 +68,11 @@ inline bool is_coulomb_alone(const SubstrateContact& contact) {
 /// Rolling friction of a body that sticks, K (16): it takes μ_r |N|/m dt from the velocity relative
 /// to the substrate, and all of it at most. The couple (1+q) μ_r |N| R and the static friction it
 /// calls for do the same to the centre. Returns the change [m/s].
-inline Vector2 rolling_change(const StepBody& b, const Vector2& relative, double load) {
-  if (b.contact->rolling.is_zero()) return Vector2::Zero();
+inline Vector2 rolling_change(const StepKind& kind, const Vector2& relative, double load) {
+  if (kind.contact->rolling.is_zero()) return Vector2::Zero();
   const double speed = relative.norm();
   if (!(speed > 0)) return Vector2::Zero();
-  const double lost = std::min(speed, b.contact->rolling(speed) * load * b.inverse_mass);
+  const double lost = std::min(speed, kind.contact->rolling(speed) * load * kind.inverse_mass);
   return (-lost / speed) * relative;
 }
 
@@ -85,14 +89,15 @@ inline double towards_zero(double rate, double lost) {
 ///
 /// This is what Coulomb's friction does alone.
 template <class Substrate>
-[[gnu::always_inline]] inline void rub_alone(StepBody& b, const StepSurroundings& s, double load,
-                                             Vector3& v, Vector3& w) {
+[[gnu::always_inline]] inline void rub_alone(StepBody& b, const StepKind& kind,
+                                             const StepSurroundings& s, double load, Vector3& v,
+                                             Vector3& w) {
   constexpr bool kMoves = std::is_same_v<Substrate, FullSubstrate>;
-  const SubstrateContact& c = *b.contact;
+  const SubstrateContact& c = *kind.contact;
   Vector2 u(v.x() - b.radius * w.y(), v.y() + b.radius * w.x());
   if constexpr (kMoves) u -= s.velocity;
-  const Vector2 stop = b.share * u;
-  const double per_slip = load * b.inverse_mass;  // (1+A) times this is taken from the slip
+  const Vector2 stop = kind.share * u;
+  const double per_slip = load * kind.inverse_mass;  // (1+A) times this is taken from the slip
   const double cap = (b.sticks ? c.static_friction : c.kinetic_friction) * per_slip;
   b.sticks = stop.squaredNorm() <= cap * cap;
   if (b.sticks) {
@@ -103,7 +108,7 @@ template <class Substrate>
     } else {
       v.head<2>() = relative;
     }
-    w.head<2>() = Vector2(-relative.y(), relative.x()) * b.inverse_radius;
+    w.head<2>() = Vector2(-relative.y(), relative.x()) * kind.inverse_radius;
     return;
   }
   // Friction acts against the slip that the last step lets expect in the middle of this one, so
@@ -119,7 +124,7 @@ template <class Substrate>
   if (!(direction.dot(u) > 0)) [[unlikely]]
     direction = u;
   const double change = c.kinetic_friction * per_slip * (1 / direction.norm());
-  const double turn = change * b.turn;
+  const double turn = change * kind.turn;
   v.x() -= change * direction.x();
   v.y() -= change * direction.y();
   w.x() -= turn * direction.y();
@@ -127,9 +132,9 @@ template <class Substrate>
 }
 
 /// The same with all else that a substrate does to a body.
-inline void rub_and_roll(StepBody& b, const StepSurroundings& s, double load, Vector3& v,
-                         Vector3& w) {
-  const SubstrateContact& c = *b.contact;
+inline void rub_and_roll(StepBody& b, const StepKind& kind, const StepSurroundings& s, double load,
+                         Vector3& v, Vector3& w) {
+  const SubstrateContact& c = *kind.contact;
   const double R = b.radius;
   const auto slip = [R](const Vector3& velocity, const Vector3& spin,
                         const Vector2& substrate) -> Vector2 {
@@ -137,15 +142,15 @@ inline void rub_and_roll(StepBody& b, const StepSurroundings& s, double load, Ve
   };
   const double spin = std::abs(b.angular_velocity.z() + 0.5 * b.angular_velocity_change.z());
   const bool shares_friction = c.coupled_radius > 0 && spin > 0;
-  const double per_slip = load * b.inverse_mass;
+  const double per_slip = load * kind.inverse_mass;
   Vector2 u = slip(v, w, s.velocity);
   double drilling = c.drilling_length * load;
 
   // A disc that spins has no static friction: it creeps.
   const double held_by = shares_friction ? 0 : b.sticks ? c.static_friction : c.kinetic_friction;
-  const Vector2 sticking = -b.share * u;
+  const Vector2 sticking = -kind.share * u;
   const Vector2 held = v.head<2>() + sticking - s.velocity;
-  const Vector2 rolling = rolling_change(b, held, load);
+  const Vector2 rolling = rolling_change(kind, held, load);
   // Rolling friction that ends where the body slips cannot break it loose.
   const Vector2 load_on_stick = c.rolling_while_sliding ? Vector2(sticking + rolling) : sticking;
   const double cap = held_by * per_slip;
@@ -153,15 +158,15 @@ inline void rub_and_roll(StepBody& b, const StepSurroundings& s, double load, Ve
   if (b.sticks) {
     const Vector2 relative = held + rolling;
     v.head<2>() = s.velocity + relative;
-    w.x() = -relative.y() * b.inverse_radius;
-    w.y() = relative.x() * b.inverse_radius;
+    w.x() = -relative.y() * kind.inverse_radius;
+    w.y() = relative.x() * kind.inverse_radius;
   } else {
     if (c.rolling_while_sliding) {
       // The couple (1+q) μ_r |N| R against the rolling rate; 1+q = 1/(1 − 1/(1+A)).
       const double rate = w.head<2>().norm();
       if (rate > 0) {
-        const double couple = c.rolling(R * rate) * load * R / (1 - b.share);
-        w.head<2>() *= std::max(0.0, 1 - couple * b.inverse_inertia / rate);
+        const double couple = c.rolling(R * rate) * load * R / (1 - kind.share);
+        w.head<2>() *= std::max(0.0, 1 - couple * kind.inverse_inertia / rate);
         u = slip(v, w, s.velocity);
       }
     }
@@ -180,58 +185,60 @@ inline void rub_and_roll(StepBody& b, const StepSurroundings& s, double load, Ve
     }
     // As much along `direction` as rub_alone() takes, with the same roundings.
     double change = 0;
-    if (friction * friction >= (b.share * u).squaredNorm()) {
+    if (friction * friction >= (kind.share * u).squaredNorm()) {
       direction = u;
-      change = b.share;
+      change = kind.share;
       b.sticks = !shares_friction;
     } else if (size > 0) {
       change = friction * (1 / size);
     }
-    const double turn = change * b.turn;
+    const double turn = change * kind.turn;
     v.head<2>() -= change * direction;
     w.x() -= turn * direction.y();
     w.y() += turn * direction.x();
   }
-  w.z() = towards_zero(w.z(), drilling * b.inverse_inertia);
+  w.z() = towards_zero(w.z(), drilling * kind.inverse_inertia);
 }
 
 template <class Substrate>
-[[gnu::always_inline]] inline void rub(StepBody& b, const StepSurroundings& s, double load,
-                                       Vector3& v, Vector3& w) {
-  if (std::is_same_v<Substrate, PlainSubstrate> || b.coulomb_alone) {
-    rub_alone<Substrate>(b, s, load, v, w);
+[[gnu::always_inline]] inline void rub(StepBody& b, const StepKind& kind, const StepSurroundings& s,
+                                       double load, Vector3& v, Vector3& w) {
+  if (std::is_same_v<Substrate, PlainSubstrate> || kind.coulomb_alone) {
+    rub_alone<Substrate>(b, kind, s, load, v, w);
   } else {
-    rub_and_roll(b, s, load, v, w);
+    rub_and_roll(b, kind, s, load, v, w);
   }
 }
 
-[[gnu::always_inline]] inline void kick_freely(StepBody& b, double dt) {
-  const Vector3 w = b.angular_velocity + (dt * b.inverse_inertia) * b.torque;
-  const double vx = b.velocity.x() + (dt * b.inverse_mass) * b.force.x();
-  const double vy = b.velocity.y() + (dt * b.inverse_mass) * b.force.y();
-  b.normal_impulse = std::abs(b.weight - b.force.z()) * dt;
+[[gnu::always_inline]] inline double kick_freely(StepBody& b, const StepKind& kind, double dt) {
+  const Vector3 w = b.angular_velocity + (dt * kind.inverse_inertia) * b.torque;
+  const double vx = b.velocity.x() + (dt * kind.inverse_mass) * b.force.x();
+  const double vy = b.velocity.y() + (dt * kind.inverse_mass) * b.force.y();
+  const double impulse = std::abs(kind.weight - b.force.z()) * dt;
   b.velocity_change = Vector3(vx, vy, 0) - b.velocity;
   b.angular_velocity_change = w - b.angular_velocity;
   b.velocity = {vx, vy, 0};
   b.angular_velocity = w;
   b.sticks = vx == b.radius * w.y() && vy == -b.radius * w.x();
+  return impulse;
 }
 
 template <class Substrate>
-[[gnu::always_inline]] inline void kick_and_rub(StepBody& b, const StepSurroundings& s, double dt) {
-  Vector3 v = b.velocity + (dt * b.inverse_mass) * b.force;
-  Vector3 w = b.angular_velocity + (dt * b.inverse_inertia) * b.torque;
+[[gnu::always_inline]] inline double kick_and_rub(StepBody& b, const StepKind& kind,
+                                                  const StepSurroundings& s, double dt) {
+  Vector3 v = b.velocity + (dt * kind.inverse_mass) * b.force;
+  Vector3 w = b.angular_velocity + (dt * kind.inverse_inertia) * b.torque;
   if constexpr (std::is_same_v<Substrate, FullSubstrate>) {
     v.x() += dt * s.downhill.x();
     v.y() += dt * s.downhill.y();
   }
-  b.normal_impulse = 0;
+  double impulse = 0;
   if (b.supported) {
-    const double normal = b.weight - b.force.z();
+    const double normal = kind.weight - b.force.z();
     if (normal >= 0 || s.confined) {
       v.z() = 0;
-      b.normal_impulse = std::abs(normal) * dt;
-      rub<Substrate>(b, s, b.normal_impulse, v, w);
+      impulse = std::abs(normal) * dt;
+      rub<Substrate>(b, kind, s, impulse, v, w);
     } else {
       b.supported = b.sticks = false;
       v.z() -= dt * s.gravity;
@@ -243,23 +250,27 @@ template <class Substrate>
   b.angular_velocity_change = w - b.angular_velocity;
   b.velocity = v;
   b.angular_velocity = w;
+  return impulse;
 }
 
-/// The velocities of a body dt later, under the forces of now.
+/// The velocities of a body dt later, under the forces of now. Returns what the substrate presses
+/// it with meanwhile [N s].
 template <class Substrate>
-[[gnu::always_inline]] inline void kick(StepBody& b, const StepSurroundings& s, double dt) {
+[[gnu::always_inline]] inline double kick(StepBody& b, const StepKind& kind,
+                                          const StepSurroundings& s, double dt) {
   if constexpr (std::is_same_v<Substrate, BareSubstrate>)
-    kick_freely(b, dt);
+    return kick_freely(b, kind, dt);
   else
-    kick_and_rub<Substrate>(b, s, dt);
+    return kick_and_rub<Substrate>(b, kind, s, dt);
 }
 
 /// A body that came down on the substrate within the last step lands, in the substrate's frame.
-inline void land_after_drift(StepBody& b, const StepSurroundings& s, double slowest_rebound) {
+inline void land_after_drift(StepBody& b, const StepKind& kind, const StepSurroundings& s,
+                             double slowest_rebound) {
   const Vector3 substrate(s.velocity.x(), s.velocity.y(), 0);
   const double late = std::min((b.radius - b.position.z()) / -b.velocity.z(), 1.0);
   BodyState state{b.position, b.velocity - substrate, b.angular_velocity};
-  land(*b.sphere, *b.contact, slowest_rebound, state);
+  land(kind.sphere, *kind.contact, slowest_rebound, state);
   b.velocity = state.velocity + substrate;
   b.angular_velocity = state.angular_velocity;
   b.velocity_change.setZero();

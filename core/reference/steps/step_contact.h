@@ -56,7 +56,8 @@ struct StepPush {
   /// What is taken back from a body that the other pressed down was borne by the substrate and
   /// must not lift it.
   static void keep_down(StepBody& body, double before) {
-    if (body.supported) body.force.z() = before + std::min(body.force.z() - before, body.weight);
+    if (body.supported)
+      body.force.z() = before + std::min(body.force.z() - before, body.kind->weight);
   }
 };
 

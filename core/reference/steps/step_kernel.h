@@ -17,6 +17,7 @@ namespace slipcheck {
 /// All that the fixed-step solver's loops work on, but for the contacts of bodies.
 struct StepWorld {
   std::vector<StepBody> bodies;
+  std::vector<StepKind> kinds;  ///< of these
   /// Where many are stored near those that they are near, by their places in the scene's order;
   /// empty: in that order.
   std::vector<std::uint32_t> number;  ///< in the scene's order, of each that is stored
@@ -65,7 +66,7 @@ class StepKernel {
   virtual void show(const StepWorld& world, Frame& frame) = 0;
   /// What the loop was made for, in a few words each: "linear normal force", ...
   virtual std::vector<std::string> features() const = 0;
-  /// The world, but for what its bodies point at, and what the loop goes on with.
+  /// The world, but for what the scene says of it, and what the loop goes on with.
   virtual void exchange(StateArchive& archive, StepWorld& world) = 0;
 };
 

@@ -152,10 +152,11 @@ class StepLoop final : public StepKernel {
                               std::size_t begin, std::size_t end, std::vector<BodyState>& shown) {
     for (std::size_t k = begin; k < end; ++k) {
       StepBody body = world.bodies[k];
-      if (world.n > 0) kick<Substrate>(body, around, 0.5 * world.step);
+      const double half =
+          world.n > 0 ? kick<Substrate>(body, *body.kind, around, 0.5 * world.step) : 0;
       const std::size_t i = world.number_of(k);
       shown[i] = {body.position, body.velocity, body.angular_velocity};
-      impulses_[i] = world.n > 0 ? 2 * body.normal_impulse : 0;
+      impulses_[i] = 2 * half;
     }
   }
   void forces_by_neighbours(StepWorld& world) {
@@ -175,8 +176,8 @@ class StepLoop final : public StepKernel {
   }
 
   /// The bodies from `begin` to before `end`, on which advance_all() has left no forces.
-  [[gnu::noinline]] SLIPCHECK_FLATTEN void meet_neighbours(StepWorld& world, Share& share, std::size_t begin,
-                                         std::size_t end) {
+  [[gnu::noinline]] SLIPCHECK_FLATTEN void meet_neighbours(StepWorld& world, Share& share,
+                                                           std::size_t begin, std::size_t end) {
     share.outside.clear();
     StepTally tally;
     const std::vector<StepNeighbour>& all = neighbours_->all();
@@ -257,11 +258,12 @@ class StepLoop final : public StepKernel {
     double step, dt, slowest_rebound;
 
     void operator()(StepBody& b) const {
-      kick<Substrate>(b, around, dt);
+      const StepKind& kind = *b.kind;
+      kick<Substrate>(b, kind, around, dt);
       b.position += step * b.velocity;
       if constexpr (std::is_same_v<Substrate, BareSubstrate>) return;
       if (!b.supported && b.position.z() < b.radius && b.velocity.z() < 0) [[unlikely]]
-        land_after_drift(b, around, slowest_rebound);
+        land_after_drift(b, kind, around, slowest_rebound);
     }
   };
 

@@ -14,19 +14,43 @@
 namespace slipcheck {
 namespace {
 
+StepKind make_kind(const Scene& scene, std::size_t i, bool general) {
+  const Sphere& sphere = scene.bodies[i];
+  StepKind kind;
+  kind.sphere = sphere;
+  kind.contact = &scene.on_substrate(i);
+  kind.inverse_mass = 1 / sphere.mass;
+  kind.inverse_inertia = 1 / sphere.moment_of_inertia();
+  kind.weight = sphere.mass * scene.gravity;
+  kind.inverse_radius = 1 / sphere.radius;
+  kind.share = 1 / (1 + sphere.inverse_shape_factor());
+  kind.turn = sphere.inverse_shape_factor() / sphere.radius;
+  kind.coulomb_alone = !general && is_coulomb_alone(*kind.contact);
+  return kind;
+}
+
+bool is_alike(const Sphere& a, const Sphere& b) {
+  return a.radius == b.radius && a.mass == b.mass && a.shape_factor == b.shape_factor &&
+         a.shape == b.shape;
+}
+
+/// The place among `kinds` of that of body i, which is added where it is none of the last.
+std::uint32_t kind_of(const Scene& scene, std::size_t i, bool general,
+                      std::vector<StepKind>& kinds) {
+  constexpr std::size_t kLooked = 8;  // where radii are drawn each body is of its own kind
+  for (std::size_t k = kinds.size(), looked = 0; k > 0 && looked < kLooked; ++looked)
+    if (const StepKind& kind = kinds[--k];
+        is_alike(kind.sphere, scene.bodies[i]) && kind.contact == &scene.on_substrate(i))
+      return static_cast<std::uint32_t>(k);
+  kinds.push_back(make_kind(scene, i, general));
+  return static_cast<std::uint32_t>(kinds.size() - 1);
+}
+
 StepBody make_body(const Scene& scene, std::size_t i, const BodyState& state,
                    double slowest_rebound) {
   const Sphere& sphere = scene.bodies[i];
   StepBody b;
-  b.sphere = &sphere;
-  b.contact = &scene.on_substrate(i);
   b.radius = sphere.radius;
-  b.inverse_mass = 1 / sphere.mass;
-  b.inverse_inertia = 1 / sphere.moment_of_inertia();
-  b.weight = sphere.mass * scene.gravity;
-  b.inverse_radius = 1 / sphere.radius;
-  b.share = 1 / (1 + sphere.inverse_shape_factor());
-  b.turn = sphere.inverse_shape_factor() / sphere.radius;
 
   const Vector3 substrate = scene.motion.velocity(0);
   BodyState relative = state;
@@ -66,11 +90,13 @@ class StepSolver::Impl {
     world_.around.velocity = hard.motion.velocity(0).head<2>();
     world_.slowest_rebound = std::max(settings.landing_fraction * speed_scale(hard, initial),
                                       hard.gravity * settings.step);
+    std::vector<std::uint32_t> kind(initial.size());
+    for (std::size_t i = 0; i < initial.size(); ++i)
+      kind[i] = kind_of(hard, i, settings.general, world_.kinds);
     world_.bodies.reserve(initial.size());
     for (std::size_t i = 0; i < initial.size(); ++i) {
-      StepBody b = make_body(hard, i, initial[i], world_.slowest_rebound);
-      b.coulomb_alone = !settings.general && is_coulomb_alone(*b.contact);
-      world_.bodies.push_back(b);
+      world_.bodies.push_back(make_body(hard, i, initial[i], world_.slowest_rebound));
+      world_.bodies.back().kind = &world_.kinds[kind[i]];
     }
   }
 
@@ -100,13 +126,13 @@ class StepSolver::Impl {
 
   void exchange(StateArchive& archive) {
     archive(quiet_from_);
+    std::vector<const StepKind*> kinds;  // as they were made, in the scene's order
+    if (archive.reads())
+      for (const StepBody& body : world_.bodies) kinds.push_back(body.kind);
     kernel_->exchange(archive, world_);
     goes_on_ = archive.reads();
-    for (std::size_t k = 0; goes_on_ && k < world_.bodies.size(); ++k) {
-      const std::size_t i = world_.number_of(k);
-      world_.bodies[k].sphere = &scene_->hard.bodies[i];
-      world_.bodies[k].contact = &scene_->hard.on_substrate(i);
-    }
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+      world_.bodies[k].kind = kinds[world_.number_of(k)];
   }
 
   double now() const { return world_.time(); }
