@@ -30,7 +30,10 @@ struct EngineScene : Scene {
   EngineScene() = default;
   /// A scene in which every contact is hard.
   EngineScene(Scene scene) : Scene(std::move(scene)) {}  // NOLINT: a scene is one for engines
+  /// Throws Unsupported where each two bodies have a contact of their own.
   explicit EngineScene(const ContactScene& scene) : Scene(scene.hard) {
+    if (scene.own)
+      throw Unsupported("no engine is given bodies that have each two a contact of their own");
     if (!scene.is_hard()) soft = SoftContacts{scene.soft, scene.soft_box, scene.soft_surfaces};
   }
 

@@ -65,7 +65,7 @@ double release_speed(const ContactScene& scene, std::span<const InitialContact> 
   double largest = 0;
   for (const InitialContact& c : contacts) {
     const double reduced = effective_mass(scene.hard.bodies[c.first], scene.hard.bodies[c.second]);
-    const SoftContact& law = *scene.between(c.first, c.second);
+    const SoftContact law = *scene.contact_of(c.first, c.second);
     largest = std::max(largest, release_speed(law, c.overlap, reduced));
   }
   return largest;

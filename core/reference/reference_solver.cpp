@@ -103,6 +103,10 @@ bool runs_in_phases(const Scene& scene) {
 ReferenceSolver::ReferenceSolver(const ContactScene& scene, const ReferenceSettings& settings)
     : scene_(&scene), settings_(settings) {
   scene.hard.box ? choose_in_box() : choose_on_plane();
+  if (scene.own && !is_stepped() && !is_piled())
+    throw Unsupported(
+        "bodies of too many sizes for a table of what each two do to each other are only solved in "
+        "steps: compare.reference may be steps, where bodies do not move in a container");
 }
 
 void ReferenceSolver::choose_in_box() {

@@ -147,7 +147,14 @@ bool ContactMaker::is_viscoelastic_restitution() const {
   return hard && std::holds_alternative<ViscoelasticRestitution>(hard->restitution);
 }
 
-SoftContact ContactMaker::soft(const ClassPair& pair) {
+SoftContact ContactMaker::soft(const ClassPair& pair) const {
+  SoftContact made = unchecked(pair);
+  check_stiffness(made, pair);
+  check_damping(made, pair);
+  return made;
+}
+
+SoftContact ContactMaker::unchecked(const ClassPair& pair) const {
   SoftContact made;
   made.normal = std::visit([&](const auto& model) { return normal(model, pair); }, contact_.normal);
   made.end = end();
@@ -159,8 +166,6 @@ SoftContact ContactMaker::soft(const ClassPair& pair) {
         tangential_mass_ratio(pair.first, pair.second), restitution_of(made, pair)};
   made.memory = memory(made.normal, pair);
   if (made.memory) made.tangential = NoTangentialForce{};
-  check_stiffness(made, pair);
-  check_damping(made, pair);
   return made;
 }
 
@@ -219,7 +224,7 @@ void ContactMaker::check_damping(const SoftContact& made, const ClassPair& pair)
           viscous->damping / pair.mass());
 }
 
-RestitutionLaw ContactMaker::restitution_of(const SoftContact& soft, const ClassPair& pair) {
+RestitutionLaw ContactMaker::restitution_of(const SoftContact& soft, const ClassPair& pair) const {
   if (const auto* linear = std::get_if<LinearForce>(&soft.normal)) {
     const double rate = linear->damping / pair.mass();
     return LinearContact(pair.mass(), linear->stiffness, rate, soft.end).restitution();
@@ -228,7 +233,7 @@ RestitutionLaw ContactMaker::restitution_of(const SoftContact& soft, const Class
   return curve(at_one.law).over_speed(at_one.dissipation);
 }
 
-PairContact ContactMaker::hard_equivalent(const SoftContact& soft, const ClassPair& pair) {
+PairContact ContactMaker::hard_equivalent(const SoftContact& soft, const ClassPair& pair) const {
   PairContact hard;
   hard.restitution = restitution_of(soft, pair);
   if (const auto* viscous = std::get_if<ViscousForce>(&soft.tangential)) {
@@ -270,7 +275,7 @@ PairContact ContactMaker::hard_equivalent(const SoftContact& soft, const ClassPa
   return hard;
 }
 
-PairContact ContactMaker::hard(const ClassPair& pair) {
+PairContact ContactMaker::hard(const ClassPair& pair) const {
   PairContact made = hard_pair(contact_);
   if (is_viscoelastic_restitution()) {
     const ImpactScales at_one = impact_scales(hard_viscoelastic(pair), pair.mass(), 1);
@@ -296,11 +301,11 @@ ContactEnd ContactMaker::end() const {
       contact_.normal);
 }
 
-NormalForce ContactMaker::normal(const HardNormal&, const ClassPair& pair) {
+NormalForce ContactMaker::normal(const HardNormal&, const ClassPair& pair) const {
   return HertzForce{pair.hertz()};  // never asked for
 }
 
-NormalForce ContactMaker::normal(const LinearNormal& model, const ClassPair& pair) {
+NormalForce ContactMaker::normal(const LinearNormal& model, const ClassPair& pair) const {
   const LinearContact contact = linear_contact(model, pair.mass());
   // As where it is given, the restitution is above 0.
   if (model.damping_rate && model.collision_time && !(contact.restitution() > 0))
@@ -313,17 +318,17 @@ NormalForce ContactMaker::normal(const LinearNormal& model, const ClassPair& pai
   return LinearForce{contact.stiffness(), contact.damping_rate() * pair.mass()};
 }
 
-NormalForce ContactMaker::normal(const HertzNormal&, const ClassPair& pair) {
+NormalForce ContactMaker::normal(const HertzNormal&, const ClassPair& pair) const {
   return HertzForce{pair.hertz()};
 }
 
-NormalForce ContactMaker::normal(const PowerNormal& model, const ClassPair& pair) {
+NormalForce ContactMaker::normal(const PowerNormal& model, const ClassPair& pair) const {
   const PowerForce force{model.modulus, model.viscosity.value_or(0), model.alpha, model.gamma};
   if (!model.restitution) return force;
   return with_given_restitution(force, pair, *model.restitution, *model.at_speed);
 }
 
-NormalForce ContactMaker::normal(const ViscoelasticNormal& model, const ClassPair& pair) {
+NormalForce ContactMaker::normal(const ViscoelasticNormal& model, const ClassPair& pair) const {
   double time = model.dissipation_time.value_or(0);
   if (model.viscosity) {
     time = pair.dissipation(dissipation_of(pair.first_material, *model.viscosity),
@@ -338,7 +343,7 @@ NormalForce ContactMaker::normal(const ViscoelasticNormal& model, const ClassPai
 
 /// with_restitution() with its root found once, as D is the same for all pairs.
 NormalForce ContactMaker::with_given_restitution(const NormalForce& force, const ClassPair& pair,
-                                                 double restitution, double speed) {
+                                                 double restitution, double speed) const {
   if (!dissipation_) {
     try {
       dissipation_ =
@@ -352,7 +357,7 @@ NormalForce ContactMaker::with_given_restitution(const NormalForce& force, const
   return with_dissipation(force, pair.mass(), speed, *dissipation_);
 }
 
-RestitutionCurve& ContactMaker::curve(const ScaledLaw& law) {
+RestitutionCurve& ContactMaker::curve(const ScaledLaw& law) const {
   if (!curve_) curve_.emplace(law, end());
   return *curve_;
 }

@@ -35,7 +35,7 @@ ClassPair class_pair(const Scenario& scenario, const BodyClass& first, const Bod
 ClassPair surface_pair(const Scenario& scenario, const BodyClass& body);
 
 /// Gives one contact of a scenario to each pair of classes that has it. What is the same for all of
-/// them, a root or a curve, is found once.
+/// them, a root or a curve, is found with the first; then several threads may ask.
 class ContactMaker {
  public:
   /// Both must outlive the maker.
@@ -49,10 +49,12 @@ class ContactMaker {
 
   /// Throws BadScenario for a restitution that the law cannot reach, and for a damping beside which
   /// there is no elastic force.
-  SoftContact soft(const ClassPair& pair);
+  SoftContact soft(const ClassPair& pair) const;
+  /// The same where two bodies that stand for these have been found to be within the bounds.
+  SoftContact unchecked(const ClassPair& pair) const;
   /// The hard contact that comes closest to a soft one.
-  PairContact hard_equivalent(const SoftContact& soft, const ClassPair& pair);
-  PairContact hard(const ClassPair& pair);
+  PairContact hard_equivalent(const SoftContact& soft, const ClassPair& pair) const;
+  PairContact hard(const ClassPair& pair) const;
   /// The law behind a hard restitution `viscoelastic`.
   static ViscoelasticForce hard_viscoelastic(const ClassPair& pair);
 
@@ -63,21 +65,21 @@ class ContactMaker {
   std::string written_place(std::initializer_list<const char*> keys) const;
   void check_stiffness(const SoftContact& made, const ClassPair& pair) const;
   void check_damping(const SoftContact& made, const ClassPair& pair) const;
-  NormalForce normal(const HardNormal& model, const ClassPair& pair);
-  NormalForce normal(const LinearNormal& model, const ClassPair& pair);
-  NormalForce normal(const HertzNormal& model, const ClassPair& pair);
-  NormalForce normal(const PowerNormal& model, const ClassPair& pair);
-  NormalForce normal(const ViscoelasticNormal& model, const ClassPair& pair);
+  NormalForce normal(const HardNormal& model, const ClassPair& pair) const;
+  NormalForce normal(const LinearNormal& model, const ClassPair& pair) const;
+  NormalForce normal(const HertzNormal& model, const ClassPair& pair) const;
+  NormalForce normal(const PowerNormal& model, const ClassPair& pair) const;
+  NormalForce normal(const ViscoelasticNormal& model, const ClassPair& pair) const;
   /// Over the impact speed, of the normal law alone.
-  RestitutionLaw restitution_of(const SoftContact& soft, const ClassPair& pair);
+  RestitutionLaw restitution_of(const SoftContact& soft, const ClassPair& pair) const;
   NormalForce with_given_restitution(const NormalForce& force, const ClassPair& pair,
-                                     double restitution, double speed);
-  RestitutionCurve& curve(const ScaledLaw& law);
+                                     double restitution, double speed) const;
+  RestitutionCurve& curve(const ScaledLaw& law) const;
 
   const Scenario& scenario_;
   const BodyContact& contact_;
-  std::optional<double> dissipation_;      // D at the speed that the restitution is given for
-  std::optional<RestitutionCurve> curve_;  // one law for all pairs
+  mutable std::optional<double> dissipation_;  // D at the speed that the restitution is given for
+  mutable std::optional<RestitutionCurve> curve_;  // one law for all pairs
 };
 
 }  // namespace slipcheck

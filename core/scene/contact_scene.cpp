@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <list>
 #include <set>
+#include <utility>
 
 #include "scenario/contact_models.h"
 #include "scenario/surfaces.h"
 #include "scene/contact_maker.h"
 #include "scene/contact_warnings.h"
 #include "scene/obstacles.h"
+#include "scene/own_contacts.h"
 #include "scene/scene_outline.h"
 
 namespace slipcheck {
@@ -34,7 +36,7 @@ struct MadeContact {
   std::optional<SoftContact> soft;
 };
 
-MadeContact make_contact(ContactMaker& maker, const ClassPair& pair) {
+MadeContact make_contact(const ContactMaker& maker, const ClassPair& pair) {
   if (!maker.is_soft()) return {maker.hard(pair), std::nullopt};
   const SoftContact soft = maker.soft(pair);
   return {maker.hard_equivalent(soft, pair), soft};
@@ -47,9 +49,9 @@ class Makers {
     for (const BodyContact& contact : scenario.contacts) makers_.emplace_back(scenario, contact);
   }
 
-  std::list<ContactMaker>& all() { return makers_; }
+  const std::list<ContactMaker>& all() const { return makers_; }
   /// Of two materials, or one and a surface of the box; null where the file has none.
-  ContactMaker* find(const std::string& first, const std::string& second) {
+  const ContactMaker* find(const std::string& first, const std::string& second) const {
     const BodyContact* contact = find_contact(scenario_, first, second);
     if (!contact) return nullptr;
     return &*std::ranges::find(makers_, contact,
@@ -61,13 +63,37 @@ class Makers {
   std::list<ContactMaker> makers_;
 };
 
+/// Of each two rows, with a look at all classes that stand for them.
+void make_pairs(const Scenario& scenario, const Makers& makers, SceneOutline& outline,
+                std::vector<std::optional<SoftContact>>& soft) {
+  const std::size_t size = outline.rows.size();
+  soft.resize(size * size);
+  for (std::size_t a = 0; a < size; ++a)
+    for (std::size_t b = a; b < size; ++b) {
+      const auto class_at = [&](std::size_t row, std::size_t k) -> const BodyClass& {
+        return outline.classes[outline.rows[row][k]];
+      };
+      const ContactMaker* maker = makers.find(class_at(a, 0).material, class_at(b, 0).material);
+      if (!maker) continue;
+      for (std::size_t k = outline.rows[a].size(); k-- > 0;)
+        for (std::size_t n = outline.rows[b].size(); n-- > 0;) {
+          const MadeContact contact =
+              make_contact(*maker, class_pair(scenario, class_at(a, k), class_at(b, n)));
+          for (const std::size_t at : {a * size + b, b * size + a}) {
+            outline.scene.pairs[at] = contact.hard;
+            soft[at] = contact.soft;
+          }
+        }
+    }
+}
+
 /// Of one surface of the box with each class.
 void make_surface(const Scenario& scenario, const std::vector<BodyClass>& classes,
-                  const std::string& surface, Makers& makers, std::vector<PairContact>& hard,
+                  const std::string& surface, const Makers& makers, std::vector<PairContact>& hard,
                   std::vector<std::optional<SoftContact>>& soft) {
   soft.resize(classes.size());
   for (std::size_t i = 0; i < classes.size(); ++i) {
-    ContactMaker* maker = makers.find(classes[i].material, surface);
+    const ContactMaker* maker = makers.find(classes[i].material, surface);
     if (!maker) continue;
     MadeContact made = make_contact(*maker, surface_pair(scenario, classes[i]));
     hard[i] = std::move(made.hard);
@@ -76,7 +102,7 @@ void make_surface(const Scenario& scenario, const std::vector<BodyClass>& classe
 }
 
 /// Of every class with every surface beside the substrate.
-void make_surfaces(const Scenario& scenario, const SceneOutline& outline, Makers& makers,
+void make_surfaces(const Scenario& scenario, const SceneOutline& outline, const Makers& makers,
                    Scene& scene, std::vector<std::optional<SoftContact>>& soft) {
   for (const BodyClass& body : outline.classes)
     for (const NamedSurface& surface : scenario.surfaces) {
@@ -91,7 +117,7 @@ void make_surfaces(const Scenario& scenario, const SceneOutline& outline, Makers
         contact = surface_contact(
             *on, material == scenario.materials.end() ? Material{} : material->second, body.sphere,
             scene.gravity);
-      } else if (ContactMaker* maker = makers.find(body.material, surface.material)) {
+      } else if (const ContactMaker* maker = makers.find(body.material, surface.material)) {
         MadeContact made = make_contact(*maker, surface_pair(scenario, body));
         contact = surface_contact(made.hard);
         lasting = std::move(made.soft);
@@ -122,29 +148,23 @@ void warn_of_hidden(const Scenario& scenario, bool has_substrate,
 
 }  // namespace
 
-ContactScene make_contact_scene(const Scenario& scenario) {
-  Makers makers(scenario);
+std::optional<SoftContact> ContactScene::contact_of(std::size_t i, std::size_t j) const {
+  if (!own) return between(i, j);
+  if (hard.material[j] < hard.material[i]) std::swap(i, j);
+  return own->of(hard.row_of(i), hard.bodies[i], hard.row_of(j), hard.bodies[j]);
+}
+
+ContactScene make_contact_scene(const Scenario& scenario, std::size_t most_in_table) {
+  const Makers makers(scenario);
   Obstacles obstacles(scenario);
   for (const ContactMaker& maker : makers.all()) look_at(scenario, maker, obstacles);
   obstacles.throw_any();
 
-  SceneOutline outline = make_outline(scenario);
-  const std::size_t size = outline.classes.size();
+  SceneOutline outline = make_outline(scenario, most_in_table);
   ContactScene made;
-  made.soft.resize(size * size);
-  for (std::size_t a = 0; a < size; ++a) {
-    for (std::size_t b = a; b < size; ++b) {
-      const BodyClass& first = outline.classes[a];
-      const BodyClass& second = outline.classes[b];
-      ContactMaker* maker = makers.find(first.material, second.material);
-      if (!maker) continue;
-      const MadeContact contact = make_contact(*maker, class_pair(scenario, first, second));
-      for (const std::size_t at : {a * size + b, b * size + a}) {
-        outline.scene.pairs[at] = contact.hard;
-        made.soft[at] = contact.soft;
-      }
-    }
-  }
+  make_pairs(scenario, makers, outline, made.soft);
+  if (!outline.scene.rows.of.empty())
+    made.own = std::make_shared<const OwnContacts>(scenario, outline);
   if (outline.scene.box) {
     Box& box = *outline.scene.box;
     const auto make = [&](const char* surface, auto& hard, auto& soft) {
@@ -156,7 +176,7 @@ ContactScene make_contact_scene(const Scenario& scenario) {
   }
   make_surfaces(scenario, outline, makers, outline.scene, made.soft_surfaces);
   warn_of_hidden(scenario, outline.scene.has_substrate, made.warnings);
-  for (ContactMaker& maker : makers.all()) {
+  for (const ContactMaker& maker : makers.all()) {
     for (std::string& warning : contact_warnings(scenario, outline, maker))
       made.warnings.push_back(std::move(warning));
   }

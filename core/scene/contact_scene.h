@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,7 +15,11 @@
 
 namespace slipcheck {
 
+class OwnContacts;
 struct Scenario;
+
+/// Up to so many classes of bodies a contact that depends on the two is kept for each two of them.
+inline constexpr std::size_t kMostInTable = 300;
 
 /// A contact of two bodies that lasts: forces over overlap and slip.
 struct SoftContact {
@@ -43,8 +48,11 @@ struct ContactScene {
   /// The bodies and the substrate; for a soft pair also the hard contact that comes closest to it,
   /// which is what engines are given.
   Scene hard;
-  /// By material × material of `hard`, symmetric; none: that pair's contact is hard.
+  /// By row × row of `hard`, symmetric; none: that pair's contact is hard.
   std::vector<std::optional<SoftContact>> soft;
+  /// Where each two bodies have a contact of their own; `hard.pairs` and `soft` are then those of
+  /// two bodies that stand for all of theirs.
+  std::shared_ptr<const OwnContacts> own;
   /// Overlaps at the start up to this part of the sum of two radii are none: such a pair is only
   /// in contact where it is pushed together.
   double touching = 0;
@@ -53,9 +61,12 @@ struct ContactScene {
   SoftBox soft_box;                   ///< sized by material where `hard` has a box, else empty
   std::vector<std::string> warnings;  ///< where a law leaves the range in which it holds
 
+  /// That of the table.
   const std::optional<SoftContact>& between(std::size_t i, std::size_t j) const {
-    return soft[hard.material[i] * hard.substrate.size() + hard.material[j]];
+    return soft[hard.row_of(i) * hard.row_count() + hard.row_of(j)];
   }
+  /// A copy, of those that are their own too.
+  std::optional<SoftContact> contact_of(std::size_t i, std::size_t j) const;
   const std::optional<SoftContact>& on_surface(std::size_t body, std::size_t surface) const {
     return soft_surfaces[hard.material[body] * hard.surfaces.size() + surface];
   }
@@ -83,7 +94,8 @@ inline ContactScene with_hard_contacts(Scene scene) {
 }
 
 /// Throws Unsupported, naming place and model, for what no solver knows, and BadScenario for a
-/// restitution that a law cannot reach.
-ContactScene make_contact_scene(const Scenario& scenario);
+/// restitution that a law cannot reach. most_in_table: classes of bodies, beyond which each two
+/// have a soft contact of their own where it depends on them.
+ContactScene make_contact_scene(const Scenario& scenario, std::size_t most_in_table = kMostInTable);
 
 }  // namespace slipcheck

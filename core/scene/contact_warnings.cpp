@@ -18,16 +18,16 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The velocities at which bodies of one class start, or those of a surface, as a box.
+/// The velocities at which bodies of one row start, or those of a surface, as a box.
 struct Velocities {
   Vector3 least = Vector3::Constant(kInfinity);
   Vector3 most = Vector3::Constant(-kInfinity);
 };
 
 std::vector<Velocities> velocities_of(const SceneOutline& outline) {
-  std::vector<Velocities> velocities(outline.classes.size());
+  std::vector<Velocities> velocities(outline.rows.size());
   for (std::size_t i = 0; i < outline.scene.bodies.size(); ++i) {
-    Velocities& each = velocities[outline.scene.material[i]];
+    Velocities& each = velocities[outline.scene.row_of(i)];
     each.least = each.least.cwiseMin(outline.scene.initial[i].velocity);
     each.most = each.most.cwiseMax(outline.scene.initial[i].velocity);
   }
@@ -118,7 +118,7 @@ void look_at_asperities(const ClassPair& pair, const SoftContact& soft,
 }  // namespace
 
 std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneOutline& outline,
-                                          ContactMaker& maker) {
+                                          const ContactMaker& maker) {
   const BodyContact& contact = maker.contact();
   const std::vector<Velocities> velocities = velocities_of(outline);
   Worst worst;
@@ -135,18 +135,24 @@ std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneO
       look_at_depth(pair, soft.normal, speed, worst);
     }
   };
-  for (std::size_t a = 0; a < outline.classes.size(); ++a) {
-    const BodyClass& first = outline.classes[a];
-    for (std::size_t b = a; b < outline.classes.size(); ++b) {
-      const BodyClass& second = outline.classes[b];
-      if (find_contact(scenario, first.material, second.material) == &contact)
-        look(class_pair(scenario, first, second), relative_speed(velocities[a], velocities[b]));
+  const auto has = [&](const std::string& first, const std::string& second) {
+    return find_contact(scenario, first, second) == &contact;
+  };
+  for (std::size_t a = 0; a < outline.rows.size(); ++a) {
+    const std::string& material = outline.classes[outline.rows[a].front()].material;
+    for (std::size_t b = a; b < outline.rows.size(); ++b) {
+      if (!has(material, outline.classes[outline.rows[b].front()].material)) continue;
+      for (const std::size_t k : outline.rows[a])
+        for (const std::size_t n : outline.rows[b])
+          look(class_pair(scenario, outline.classes[k], outline.classes[n]),
+               relative_speed(velocities[a], velocities[b]));
     }
     if (!outline.scene.box) continue;
     for (const char* surface : {"floor", "wall", "lid"}) {
-      if (find_contact(scenario, first.material, surface) != &contact) continue;
-      look(surface_pair(scenario, first),
-           relative_speed(velocities[a], velocities_of(*outline.scene.box, surface)));
+      if (!has(material, surface)) continue;
+      for (const std::size_t k : outline.rows[a])
+        look(surface_pair(scenario, outline.classes[k]),
+             relative_speed(velocities[a], velocities_of(*outline.scene.box, surface)));
     }
   }
 

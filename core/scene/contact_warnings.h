@@ -12,6 +12,6 @@ namespace slipcheck {
 /// (11), (12) by the speeds at which bodies and floor start, and the printed asperities that can
 /// create energy.
 std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneOutline& outline,
-                                          ContactMaker& maker);
+                                          const ContactMaker& maker);
 
 }  // namespace slipcheck

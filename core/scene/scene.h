@@ -51,6 +51,13 @@ struct SurfaceContact {
   PairContact impact;        ///< restitution, friction and β0 of an impact
 };
 
+/// Where materials are too many for a table of all pairs of them, and each two bodies have a
+/// contact of their own (own_contacts.h): which of them share a row of it.
+struct SharedRows {
+  std::vector<std::size_t> of;  ///< by material; empty: each has its own
+  std::size_t count = 0;
+};
+
 /// A scene in numbers alone, with every contact hard: what the event-driven reference solves and
 /// what engines are given. Spheres on a plane z = 0 or in a box; all values SI.
 struct Scene {
@@ -60,7 +67,8 @@ struct Scene {
   /// apart by their size count as several (scene_outline.h).
   std::vector<std::size_t> material;
   std::vector<SubstrateContact> substrate;  ///< by material
-  std::vector<PairContact> pairs;           ///< by material × material, symmetric
+  std::vector<PairContact> pairs;           ///< by row × row, symmetric
+  SharedRows rows;                          ///< of `pairs`: by material
   /// The same, or empty: what those pairs exchange instead that have one.
   std::vector<std::shared_ptr<const CollisionLaw>> laws;
   double gravity = 0;                  ///< along −z, normal to the plane [m/s²], >= 0
@@ -79,6 +87,10 @@ struct Scene {
   std::vector<SurfaceContact> on_surfaces;  ///< by material × surface
   CollapseRule collapse;
 
+  std::size_t row_of(std::size_t body) const {
+    return rows.of.empty() ? material[body] : rows.of[material[body]];
+  }
+  std::size_t row_count() const { return rows.of.empty() ? substrate.size() : rows.count; }
   const SubstrateContact& on_substrate(std::size_t body) const { return substrate[material[body]]; }
   const PairContact& between(std::size_t i, std::size_t j) const { return pairs[place_of(i, j)]; }
   const SurfaceContact& on_surface(std::size_t body, std::size_t surface) const {
@@ -104,7 +116,7 @@ struct Scene {
 
  private:
   std::size_t place_of(std::size_t i, std::size_t j) const {
-    return material[i] * substrate.size() + material[j];
+    return row_of(i) * row_count() + row_of(j);
   }
 };
 

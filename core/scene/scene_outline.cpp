@@ -1,5 +1,7 @@
 #include "scene/scene_outline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,6 +12,7 @@
 
 #include "scenario/contact_models.h"
 #include "scenario/surfaces.h"
+#include "scene/obstacles.h"
 
 namespace slipcheck {
 namespace {
@@ -87,6 +90,17 @@ CollapseRule collapse_rule(const CollapseModel& model) {
   return {};
 }
 
+/// Contacts between bodies that depend on the two, and are all soft.
+bool soft_ones_divide(const Scenario& scenario) {
+  bool any = false;
+  for (const BodyContact& contact : scenario.contacts) {
+    if (!depends_on_bodies(contact)) continue;
+    if (std::holds_alternative<HardNormal>(contact.normal)) return false;
+    any = true;
+  }
+  return any;
+}
+
 /// Materials of which each size, mass and shape is a class by itself.
 std::set<std::string> divided_materials(const Scenario& scenario) {
   std::set<std::string> divided;
@@ -100,6 +114,56 @@ std::set<std::string> divided_materials(const Scenario& scenario) {
     if (depends_on_bodies(contact)) divided.insert({contact.first, contact.second});
   }
   return divided;
+}
+
+/// Material, radius, mass and shape, these 0 where nothing tells them apart.
+using ClassKey = std::tuple<std::string, double, double, double>;
+
+ClassKey class_of(const Body& body, const std::set<std::string>& divided) {
+  if (!divided.contains(body.material)) return {body.material, 0, 0, 0};
+  return {body.material, body.sphere.radius, body.sphere.mass, body.sphere.shape_factor};
+}
+
+/// What of a hard contact depends on the bodies is kept for each two classes.
+constexpr std::size_t kMostHardClasses = 2000;
+
+void refuse(const Scenario& scenario, std::size_t classes) {
+  const auto dividing = std::ranges::find_if(scenario.contacts, depends_on_bodies);
+  Obstacles obstacles(scenario);
+  obstacles.add(dividing == scenario.contacts.end() ? "contacts" : dividing->path,
+                fmt::format("can only be solved with bodies of at most {} sizes, masses and shapes "
+                            "where contacts tell them apart and are not all soft",
+                            kMostHardClasses),
+                fmt::format("{} of them", classes));
+  obstacles.throw_any();
+}
+
+/// Puts the classes into rows: each into one of its own, or all of a material into one where they
+/// are too many and soft contacts tell them apart.
+void put_into_rows(const Scenario& scenario, std::size_t most_in_table, SceneOutline& outline) {
+  const std::vector<BodyClass>& classes = outline.classes;
+  SharedRows& rows = outline.scene.rows;
+  if (classes.size() <= most_in_table || !soft_ones_divide(scenario)) {
+    if (classes.size() > kMostHardClasses) refuse(scenario, classes.size());
+    for (std::size_t k = 0; k < classes.size(); ++k) outline.rows.push_back({k});
+    return;
+  }
+  std::map<std::string, std::size_t> row_of;
+  for (const BodyClass& each : classes)
+    rows.of.push_back(row_of.try_emplace(each.material, row_of.size()).first->second);
+  rows.count = row_of.size();
+  outline.rows.resize(rows.count);
+  for (std::size_t row = 0; row < rows.count; ++row) {
+    std::vector<std::size_t> all;
+    for (std::size_t k = 0; k < classes.size(); ++k)
+      if (rows.of[k] == row) all.push_back(k);
+    const auto [small, large] =
+        std::ranges::minmax(all, {}, [&](std::size_t k) { return classes[k].sphere.radius; });
+    const auto [light, heavy] =
+        std::ranges::minmax(all, {}, [&](std::size_t k) { return classes[k].sphere.mass; });
+    for (const std::size_t k : std::set{all.front(), small, large, light, heavy})
+      outline.rows[row].push_back(k);
+  }
 }
 
 }  // namespace
@@ -134,7 +198,7 @@ PairContact hard_pair(const BodyContact& contact) {
   return pair;
 }
 
-SceneOutline make_outline(const Scenario& scenario) {
+SceneOutline make_outline(const Scenario& scenario, std::size_t most_in_table) {
   SceneOutline outline;
   Scene& scene = outline.scene;
   scene.gravity = -scenario.gravity.z();
@@ -157,17 +221,13 @@ SceneOutline make_outline(const Scenario& scenario) {
     on_substrate.emplace(contact.material, &contact);
   }
   const std::set<std::string> divided = divided_materials(scenario);
-  std::map<std::tuple<std::string, double, double, double>, std::size_t> index;
+  std::map<ClassKey, std::size_t> index;
   scene.bodies.reserve(scenario.bodies.size());
   scene.initial.reserve(scenario.bodies.size());
   scene.material.reserve(scenario.bodies.size());
   for (const Body& body : scenario.bodies) {
     const Sphere& sphere = body.sphere;
-    const bool alone = divided.contains(body.material);
-    const auto [entry, is_new] =
-        index.try_emplace({body.material, alone ? sphere.radius : 0, alone ? sphere.mass : 0,
-                           alone ? sphere.shape_factor : 0},
-                          outline.classes.size());
+    const auto [entry, is_new] = index.try_emplace(class_of(body, divided), outline.classes.size());
     if (is_new) {
       outline.classes.push_back({body.material, sphere});
       const auto contact = on_substrate.find(body.material);
@@ -186,12 +246,24 @@ SceneOutline make_outline(const Scenario& scenario) {
     scene.material.push_back(entry->second);
   }
   if (!scene.extents.empty()) scene.extents.resize(scene.bodies.size());
-  scene.pairs.resize(outline.classes.size() * outline.classes.size());
+  put_into_rows(scenario, most_in_table, outline);
+  scene.pairs.resize(outline.rows.size() * outline.rows.size());
   if (scene.box) {
     for (auto* contacts : {&scene.box->on_floor, &scene.box->on_wall, &scene.box->on_lid})
       contacts->resize(outline.classes.size());
   }
   return outline;
+}
+
+bool has_own_contacts(const Scenario& scenario) {
+  if (scenario.bodies.size() <= kMostInTable || !soft_ones_divide(scenario)) return false;
+  const std::set<std::string> divided = divided_materials(scenario);
+  std::set<ClassKey> classes;
+  for (const Body& body : scenario.bodies) {
+    classes.insert(class_of(body, divided));
+    if (classes.size() > kMostInTable) return true;
+  }
+  return false;
 }
 
 }  // namespace slipcheck

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scenario/scenario.h"
-#include "scene/scene.h"
+#include "scene/contact_scene.h"
 
 namespace slipcheck {
 
@@ -21,9 +21,17 @@ struct SceneOutline {
   /// substrate's contacts are too, one for each class.
   Scene scene;
   std::vector<BodyClass> classes;  ///< by class
+  /// By row of `scene.pairs`, the classes that stand for all of it: its only one or, of many, the
+  /// first and those of the least and the largest radius and mass.
+  std::vector<std::vector<std::size_t>> rows;
 };
 
-SceneOutline make_outline(const Scenario& scenario);
+/// most_in_table: as of make_contact_scene(). Throws Unsupported where hard contacts depend on the
+/// bodies and those fall into too many classes.
+SceneOutline make_outline(const Scenario& scenario, std::size_t most_in_table = kMostInTable);
+
+/// Whether each two bodies have a soft contact of their own, in more classes than a table holds.
+bool has_own_contacts(const Scenario& scenario);
 
 /// Of a class on a surface, from a contact of the substrate's form and from one of a pair's.
 SurfaceContact surface_contact(const MaterialOnSubstrate& from, const Material& material,

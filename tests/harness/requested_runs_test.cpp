@@ -208,6 +208,26 @@ TEST_F(RequestedRunsTest, MoreBodiesThanAMessageHoldsAreRefused) {
   EXPECT_EQ(test::refusal_of<BadScenario>([&] { requested_runs({scenario}); }),
             "s.yaml:7:12: compare.engines: must be [] with more than 400000 bodies, the "
             "reference alone: no message to an engine holds more, got 400001 bodies");
+
+  // Of 400 sizes, whose springs depend on the mass.
+  scenario.bodies.resize(400);
+  for (std::size_t i = 0; i < 400; ++i) {
+    scenario.bodies[i].material = "steel";
+    scenario.bodies[i].sphere.radius = 1e-3 + 1e-6 * static_cast<double>(i);
+  }
+  scenario.contacts.resize(1);
+  scenario.contacts[0].first = scenario.contacts[0].second = "steel";
+  EXPECT_NO_THROW(requested_runs({scenario}));
+  LinearNormal linear;
+  linear.restitution = 0.9;
+  linear.collision_time = 1e-3;
+  scenario.contacts[0].normal = linear;
+  EXPECT_EQ(test::refusal_of<BadScenario>([&] { requested_runs({scenario}); }),
+            "s.yaml:7:12: compare.engines: must be [] with more than 300 sizes of bodies whose "
+            "contacts depend on them, the reference alone: engines are told of each two of them, "
+            "got 400 bodies");
+  scenario.compare.engines.clear();
+  EXPECT_NO_THROW(requested_runs({scenario}));
 }
 
 }  // namespace

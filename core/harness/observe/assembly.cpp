@@ -138,8 +138,9 @@ AssemblyState assembly_state(const ContactScene& scene, std::span<const BodyStat
     const Vector3 apart = hard.to_nearest_image(states[i].position - states[j].position);
     const double distance = apart.norm();
     const double overlap = hard.bodies[i].radius + hard.bodies[j].radius - distance;
-    const std::optional<SoftContact>& contact = scene.between(i, j);
-    if (!(overlap > 0) || !contact) continue;
+    if (!(overlap > 0)) continue;
+    const std::optional<SoftContact> contact = scene.contact_of(i, j);
+    if (!contact) continue;
     touching.push_back(pair);
     ++own[i];
     ++own[j];

@@ -18,6 +18,7 @@
 #include "scenario/fault.h"
 #include "scenario/file_text.h"
 #include "scenario/rules/rules.h"
+#include "scene/scene_outline.h"
 
 namespace slipcheck {
 namespace {
@@ -75,15 +76,18 @@ class Profiles {
   /// Notes a scene that no engine can be told of.
   void check_size(const Scenario& scenario) {
     const std::size_t bodies = scenario.bodies.size();
-    if ((scenario.compare.engines.empty() && !scenario.compare.all_engines) ||
-        bodies <= kMostBodies)
-      return;
-    note(
-        fault_at(scenario, "compare.engines",
-                 fmt::format("must be [] with more than {} bodies, the reference alone: no message "
-                             "to an engine holds more",
-                             kMostBodies),
-                 fmt::format("{} bodies", bodies)));
+    if (scenario.compare.engines.empty() && !scenario.compare.all_engines) return;
+    const auto refuse = [&](std::size_t most, const char* what, const char* why) {
+      note(fault_at(
+          scenario, "compare.engines",
+          fmt::format("must be [] with more than {} {}, the reference alone: {}", most, what, why),
+          fmt::format("{} bodies", bodies)));
+    };
+    if (bodies > kMostBodies)
+      refuse(kMostBodies, "bodies", "no message to an engine holds more");
+    else if (has_own_contacts(scenario))
+      refuse(kMostInTable, "sizes of bodies whose contacts depend on them",
+             "engines are told of each two of them");
   }
 
   /// Notes the profiles that no engine of a grid has.

@@ -6,6 +6,7 @@
 #include "physics/contact/linear_contact.h"
 #include "physics/numbers.h"
 #include "reference/initial_contacts.h"
+#include "reference/steps/step_length.h"
 #include "scene/impact.h"
 
 namespace slipcheck {
@@ -39,16 +40,21 @@ PileLaws::PileLaws(const ContactScene& scene, double collision_time)
   if (of.confined)
     throw Unsupported("contacts with memory have no plane that bodies never leave (confined)");
   const std::size_t materials = of.substrate.size(), surfaces = of.surfaces.size();
-  pairs_.resize(materials * materials);
+  const std::size_t rows = of.row_count();
+  pairs_.resize(rows * rows);
   on_substrate_.resize(materials);
   on_surfaces_.resize(materials * surfaces);
-  std::vector<std::size_t> count(materials);
-  for (const std::size_t m : of.material) ++count[m];
+  std::vector<std::size_t> count(materials), in_row(rows);
+  for (std::size_t i = 0; i < of.bodies.size(); ++i) {
+    ++count[of.material[i]];
+    ++in_row[of.row_of(i)];
+  }
+  for (std::size_t m = 0; m < rows; ++m)
+    for (std::size_t n = 0; n < rows; ++n)
+      if (in_row[m] > 0 && in_row[n] > (m == n ? 1u : 0u) && !scene.soft[m * rows + n])
+        pairs_[m * rows + n] = hard(of.pairs[m * rows + n]);
   for (std::size_t m = 0; m < materials; ++m) {
     if (count[m] == 0) continue;
-    for (std::size_t n = 0; n < materials; ++n)
-      if (count[n] > (m == n ? 1u : 0u) && !scene.soft[m * materials + n])
-        pairs_[m * materials + n] = hard(of.pairs[m * materials + n]);
     if (of.has_substrate) on_substrate_[m] = hard(as_pair(of.substrate[m]));
     for (std::size_t s = 0; s < surfaces; ++s) {
       const std::size_t at = m * surfaces + s;
@@ -144,16 +150,17 @@ void PileLaws::resist(const SubstrateContact& contact, const Sphere& sphere, Pil
 
 PileLaw PileLaws::of(std::size_t body, int second) const {
   const Scene& scene = scene_->hard;
-  const std::size_t materials = scene.substrate.size(), m = scene.material[body];
+  const std::size_t m = scene.material[body];
   const Sphere& sphere = scene.bodies[body];
   if (second >= 0) {
     const auto other = static_cast<std::size_t>(second);
     const Sphere& partner = scene.bodies[other];
-    const std::optional<SoftContact>& soft = scene_->between(body, other);
+    const std::optional<SoftContact> soft = scene_->contact_of(body, other);
     PileLaw law =
         soft ? of_soft(*soft)
-             : of_hard(*pairs_[m * materials + scene.material[other]], scene.between(body, other),
-                       effective_mass(sphere, partner), tangential_mass_ratio(sphere, partner));
+             : of_hard(*pairs_[scene.row_of(body) * scene.row_count() + scene.row_of(other)],
+                       scene.between(body, other), effective_mass(sphere, partner),
+                       tangential_mass_ratio(sphere, partner));
     law.deepest = soft ? 1 : kDeepest;
     law.most_overlap = law.deepest * std::min(sphere.radius, partner.radius);
     return law;
@@ -208,18 +215,14 @@ double PileLaws::shortest_contact() const {
     if (law.sliding.damping > 0)
       shortest = std::min(shortest, M_PI * kappa * mass / law.sliding.damping);
   };
-  // Of each material the lightest two bodies oscillate fastest.
-  std::vector<std::vector<std::size_t>> lightest(scene.substrate.size());
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    auto& of_material = lightest[scene.material[i]];
-    of_material.push_back(i);
-    std::ranges::sort(of_material, {}, [&](std::size_t k) { return scene.bodies[k].mass; });
-    if (of_material.size() > 2) of_material.pop_back();
-    const Sphere& sphere = scene.bodies[i];
+  const auto lightest = lightest_two(scene);
+  for (const std::vector<std::size_t>& of_row : lightest) {
+    if (of_row.empty()) continue;
+    const Sphere& sphere = scene.bodies[of_row.front()];
     const auto alone = [&](int second) {
-      look(of(i, second), sphere.mass, kappa_on_surface(sphere), sphere.moment_of_inertia());
+      look(of(of_row.front(), second), sphere.mass, kappa_on_surface(sphere),
+           sphere.moment_of_inertia());
     };
-    if (of_material.front() != i) continue;  // of no lighter one before it
     if (scene.has_substrate) alone(kSubstrate);
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s) alone(surface_touch(s));
   }

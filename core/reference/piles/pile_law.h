@@ -73,7 +73,7 @@ class PileLaws {
 
   const ContactScene* scene_;
   double collision_time_;
-  std::vector<std::optional<Hard>> pairs_;        ///< by material × material
+  std::vector<std::optional<Hard>> pairs_;        ///< by row × row of the scene's
   std::vector<Hard> on_substrate_;                ///< by material
   std::vector<std::optional<Hard>> on_surfaces_;  ///< by material × surface
   bool has_hard_ = false, linear_ = true, turns_ = false, plain_ = true;

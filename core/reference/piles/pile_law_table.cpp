@@ -35,9 +35,9 @@ bool PileLawTable::renew(std::size_t needed) {
 std::uint32_t PileLawTable::number(std::size_t body, int second) {
   if (second >= 0) {
     const auto other = static_cast<std::size_t>(second);
-    if (scene_->between(body, other)) {
-      const std::vector<std::size_t>& material = scene_->hard.material;
-      std::uint32_t& soft = soft_[material[body] * scene_->hard.substrate.size() + material[other]];
+    if (!scene_->own && scene_->between(body, other)) {
+      const Scene& hard = scene_->hard;
+      std::uint32_t& soft = soft_[hard.row_of(body) * hard.row_count() + hard.row_of(other)];
       if (soft == kNone) soft = add(body, second);
       return soft;
     }

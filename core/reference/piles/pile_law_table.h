@@ -11,7 +11,7 @@
 namespace slipcheck {
 
 /// The laws of those that are near each other, each once: a soft one for each two materials, a hard
-/// one, which depends on the masses, for each two kinds of body.
+/// one, and where each two bodies have their own, for each two kinds of body.
 class PileLawTable {
  public:
   /// Both must outlive the table.
@@ -31,7 +31,7 @@ class PileLawTable {
   const PileLaws* laws_;
   const ContactScene* scene_;
   std::vector<std::uint32_t> kind_;  ///< of each body: material, radius, mass and shape
-  std::vector<std::uint32_t> soft_;  ///< by material × material
+  std::vector<std::uint32_t> soft_;  ///< by row × row of the scene's table
   std::unordered_map<std::uint64_t, std::uint32_t> numbers_;  ///< of the others
   std::deque<PileLaw> table_;
 };

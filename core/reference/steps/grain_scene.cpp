@@ -86,6 +86,7 @@ GrainFeatures grain_features(const ContactScene& scene, std::span<const BodyStat
 std::string grain_refusal(const ContactScene& scene, std::span<const BodyState> initial) {
   const Scene& hard = scene.hard;
   if (hard.box) return "the scene is a box";
+  if (scene.own) return "each two bodies have a contact of their own";
   if (!hard.motion.is_still() || !hard.downhill.isZero(0))
     return "the substrate moves or is tilted";
   for (const SubstrateContact& c : hard.substrate)

@@ -9,6 +9,7 @@
 #include "reference/steps/grain_loop.h"
 #include "reference/steps/grain_scene.h"
 #include "reference/steps/step_kernel.h"
+#include "reference/steps/step_laws.h"
 #include "reference/steps/step_loop.h"
 #include "reference/steps/step_solver.h"
 
@@ -33,15 +34,19 @@ Tangential tangential_of(const SoftContact& contact) {
       contact.tangential);
 }
 
-/// Whether there are two bodies of these materials, which could meet.
-bool can_meet(const Scene& scene, std::size_t m, std::size_t n) {
-  std::size_t in_m = 0, in_n = 0;
-  for (std::size_t material : scene.material) {
-    in_m += material == m;
-    in_n += material == n;
+/// Whether there are two bodies of two rows, which could meet.
+class CanMeet {
+ public:
+  explicit CanMeet(const Scene& scene) : in_(scene.row_count()) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) ++in_[scene.row_of(i)];
   }
-  return m == n ? in_m > 1 : in_m > 0 && in_n > 0;
-}
+  bool operator()(std::size_t m, std::size_t n) const {
+    return in_[m] > 0 && in_[n] > (m == n ? 1u : 0u);
+  }
+
+ private:
+  std::vector<std::size_t> in_;
+};
 
 bool is_plain(const Scene& scene) {
   if (!scene.motion.is_still() || !scene.downhill.isZero(0)) return false;
@@ -84,19 +89,19 @@ std::size_t threads_for(const Scene& scene, const StepSettings& settings) {
 }
 
 template <class Normal, class Tangential_>
-std::unique_ptr<StepKernel> make(std::vector<StepLaw<Normal, Tangential_>> laws,
-                                 const ContactScene& contacts, std::span<const BodyState> initial,
-                                 const StepSettings& settings, std::vector<std::string> features) {
+std::unique_ptr<StepKernel> make(StepLaws<Normal, Tangential_> laws, const ContactScene& contacts,
+                                 std::span<const BodyState> initial, const StepSettings& settings,
+                                 std::vector<std::string> features) {
   const Scene& scene = contacts.hard;
   std::unique_ptr<StepNeighbours> neighbours;
-  if (scene.bodies.size() > settings.most_in_all_pairs || !scene.periodic.isZero(0))
+  if (scene.bodies.size() > settings.most_in_all_pairs || contacts.own || !scene.periodic.isZero(0))
     neighbours = std::make_unique<StepNeighbours>(scene.periodic, threads_for(scene, settings));
   const auto loop = [&](auto substrate, const char* name) -> std::unique_ptr<StepKernel> {
     features.emplace_back(name);
     if (neighbours) features.emplace_back("many bodies: neighbours in cells by radius");
+    if (contacts.own) features.emplace_back("each two bodies have a contact of their own");
     return std::make_unique<StepLoop<Normal, Tangential_, decltype(substrate)>>(
-        std::move(laws), scene.material, scene.substrate.size(), std::move(neighbours),
-        std::move(features));
+        std::move(laws), scene.bodies.size(), std::move(neighbours), std::move(features));
   };
   if (settings.general) return loop(FullSubstrate{}, "any substrate");
   if (is_bare(contacts, initial))
@@ -113,13 +118,14 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
                                              const StepSettings& settings) {
   const Scene& hard = scene.hard;
   const bool general = settings.general;
-  const std::size_t materials = hard.substrate.size();
+  const std::size_t rows = hard.row_count();
+  const CanMeet can_meet(hard);
   const SoftContact* some = nullptr;
   bool mixed = false;
-  for (std::size_t m = 0; m < materials; ++m)
+  for (std::size_t m = 0; m < rows; ++m)
     for (std::size_t n = 0; n <= m; ++n) {
-      if (!can_meet(hard, m, n)) continue;
-      const std::optional<SoftContact>& contact = scene.soft[m * materials + n];
+      if (!can_meet(m, n)) continue;
+      const std::optional<SoftContact>& contact = scene.soft[m * rows + n];
       if (!contact)
         throw Unsupported(
             "steps of fixed length need soft contacts between all bodies that can "
@@ -144,22 +150,13 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
   const SoftContact none{LinearForce{}, ContactEnd::zero_overlap, NoTangentialForce{}};
   if (!some) some = &none;
 
-  const auto laws = [&](auto example, const auto& law_of) {
-    std::vector<decltype(example)> table(materials * materials, example);
-    for (std::size_t k = 0; k < table.size() && k < scene.soft.size(); ++k)
-      if (const std::optional<SoftContact>& contact = scene.soft[k];
-          contact && can_meet(hard, k / materials, k % materials)) {
-        table[k] = law_of(*contact);
-        table[k].clamped = contact->end == ContactEnd::zero_force;
-      }
-    return table;
-  };
   if (mixed || general) {
     using Law = StepLaw<AnyNormalForce, AnyPair>;
-    return make(laws(Law{},
-                     [](const SoftContact& contact) {
-                       return Law{{contact.normal}, {tangential_of(contact)}, false};
-                     }),
+    return make(StepLaws<AnyNormalForce, AnyPair>(
+                    scene, Law{}, can_meet,
+                    [](const SoftContact& contact) {
+                      return Law{{contact.normal}, {tangential_of(contact)}, false};
+                    }),
                 scene, initial, settings, {"any normal force", "any tangential force"});
   }
   return std::visit(
@@ -167,13 +164,14 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
         using Normal = std::decay_t<decltype(normal)>;
         using Rubbing = std::decay_t<decltype(tangential)>;
         using Law = StepLaw<Normal, Rubbing>;
-        return make(laws(Law{normal, tangential, false},
-                         [](const SoftContact& contact) {
-                           return Law{std::get<Normal>(contact.normal),
-                                      std::get<Rubbing>(tangential_of(contact)), false};
-                         }),
-                    scene, initial, settings,
-                    {name_of(some->normal), name_of(tangential_of(*some))});
+        return make(
+            StepLaws<Normal, Rubbing>(scene, Law{normal, tangential, false}, can_meet,
+                                      [](const SoftContact& contact) {
+                                        return Law{std::get<Normal>(contact.normal),
+                                                   std::get<Rubbing>(tangential_of(contact)),
+                                                   false};
+                                      }),
+            scene, initial, settings, {name_of(some->normal), name_of(tangential_of(*some))});
       },
       some->normal, tangential_of(*some));
 }

@@ -2,39 +2,38 @@
 
 #include <algorithm>
 
+#include "physics/contact/elastic_pair.h"
 #include "physics/numbers.h"
 #include "reference/forces/contact_solver.h"
 #include "reference/initial_contacts.h"
 #include "scene/impact.h"
 
 namespace slipcheck {
-namespace {
 
-/// The two lightest bodies of each material, which collide fastest.
-std::vector<std::vector<double>> lightest(const Scene& scene) {
-  std::vector<std::vector<double>> masses(scene.substrate.size());
+std::vector<std::vector<std::size_t>> lightest_two(const Scene& scene) {
+  std::vector<std::vector<std::size_t>> of_row(scene.row_count());
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    std::vector<double>& least = masses[scene.material[i]];
-    least.push_back(scene.bodies[i].mass);
-    std::ranges::sort(least);
+    std::vector<std::size_t>& least = of_row[scene.row_of(i)];
+    const auto heavier = std::ranges::upper_bound(
+        least, scene.bodies[i].mass, {}, [&](std::size_t k) { return scene.bodies[k].mass; });
+    least.insert(heavier, i);
     if (least.size() > 2) least.pop_back();
   }
-  return masses;
+  return of_row;
 }
-
-}  // namespace
 
 double shortest_collision(const ContactScene& scene) {
   const double speed = speed_scale(scene);
   double shortest = kNever;
   if (!(speed > 0)) return shortest;
-  const auto masses = lightest(scene.hard);
-  for (std::size_t m = 0; m < masses.size(); ++m)
+  const auto lightest = lightest_two(scene.hard);
+  for (std::size_t m = 0; m < lightest.size(); ++m)
     for (std::size_t n = 0; n <= m; ++n) {
-      const auto& soft = scene.soft[m * masses.size() + n];
-      if (!soft || masses[n].empty() || masses[m].size() < (m == n ? 2u : 1u)) continue;
-      const double first = masses[m][0], second = m == n ? masses[n][1] : masses[n][0];
-      const double reduced = first * second / (first + second);
+      if (lightest[n].empty() || lightest[m].size() < (m == n ? 2u : 1u)) continue;
+      const std::size_t i = lightest[m][0], j = lightest[n][m == n ? 1 : 0];
+      const std::optional<SoftContact> soft = scene.contact_of(i, j);
+      if (!soft) continue;
+      const double reduced = effective_mass(scene.hard.bodies[i], scene.hard.bodies[j]);
       shortest = std::min(shortest, impact(soft->normal, reduced, speed, soft->end, 1e-6).duration);
     }
   return shortest;

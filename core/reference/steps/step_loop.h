@@ -14,6 +14,7 @@
 #include "base/stop_scope.h"
 #include "physics/numbers.h"
 #include "reference/steps/step_contact.h"
+#include "reference/steps/step_laws.h"
 #include "reference/steps/step_neighbours.h"
 #include "reference/steps/step_shares.h"
 
@@ -34,15 +35,15 @@ class StepLoop final : public StepKernel {
   using Push = typename Pair::Push;
   using Share = StepShare<Push>;
 
-  /// laws: by material × material; material: of each body; neighbours: null: all pairs.
-  StepLoop(std::vector<Law> laws, std::vector<std::size_t> material, std::size_t materials,
+  /// neighbours: null: all pairs.
+  StepLoop(StepLaws<Normal, Tangential> laws, std::size_t bodies,
            std::unique_ptr<StepNeighbours> neighbours, std::vector<std::string> features)
       : features_(std::move(features)),
         laws_(std::move(laws)),
-        material_(std::move(material)),
-        materials_(materials),
         neighbours_(std::move(neighbours)),
-        pairs_(neighbours_ ? 0 : material_.size() * (material_.size() - 1) / 2) {}
+        pairs_(neighbours_ ? 0 : bodies * (bodies - 1) / 2) {
+    if (!neighbours_) laws_.find_for_all_pairs();
+  }
 
   void find_forces(StepWorld& world) override {
     if (!world.forces_known) neighbours_ ? forces_by_neighbours(world) : forces(world);
@@ -70,7 +71,7 @@ class StepLoop final : public StepKernel {
     archive(world, pairs_);
     if (!neighbours_) return;
     archive(*neighbours_);
-    if (archive.reads()) shares_.divide(*neighbours_, world.bodies.size());
+    if (archive.reads()) take_neighbours(world);
   }
 
   void show(const StepWorld& world, Frame& frame) override {
@@ -159,10 +160,15 @@ class StepLoop final : public StepKernel {
       impulses_[i] = 2 * half;
     }
   }
+  void take_neighbours(const StepWorld& world) {
+    laws_.find(*neighbours_, world);
+    shares_.divide(*neighbours_, world.bodies.size());
+  }
+
   void forces_by_neighbours(StepWorld& world) {
     if (!neighbours_->cover()) {
       neighbours_->find(world, pairs_, [](const Pair& pair) { return pair.touching(); });
-      shares_.divide(*neighbours_, world.bodies.size());
+      take_neighbours(world);
     }
     shares_.run(neighbours_->team(), [&](Share& share, std::size_t begin, std::size_t end) {
       meet_neighbours(world, share, begin, end);
@@ -193,21 +199,13 @@ class StepLoop final : public StepKernel {
       Vector3 between = a.position - b.position;
       between.head<2>() -= near.shift;
       pairs_[k].step(
-          world, a, b, between,
-          [&]() -> const Law& {
-            return law_of(world.number_of(near.first), world.number_of(near.second));
-          },
-          tally,
+          world, a, b, between, [&]() -> const Law& { return laws_[k]; }, tally,
           [&](const Push& push) {
             push_one(push, near.first, false);
             push_one(push, near.second, true);
           });
     }
     share.tally = tally;
-  }
-
-  const Law& law_of(std::size_t i, std::size_t j) const {
-    return laws_[material_[i] * materials_ + material_[j]];
   }
 
   /// Flat, but for what begins and ends, as move() is: in a large unit the compiler leaves calls
@@ -222,8 +220,7 @@ class StepLoop final : public StepKernel {
       for (std::size_t i = 0; i < j; ++i, ++k) {
         StepBody& a = world.bodies[i];
         pairs_[k].step(
-            world, a, b, a.position - b.position, [&]() -> const Law& { return law_of(i, j); },
-            tally,
+            world, a, b, a.position - b.position, [&]() -> const Law& { return laws_[k]; }, tally,
             [&](const Push& push) {
               push.on(a, false);
               push.on(b, true);
@@ -284,9 +281,7 @@ class StepLoop final : public StepKernel {
   }
 
   std::vector<std::string> features_;
-  std::vector<Law> laws_;
-  std::vector<std::size_t> material_;  ///< in the scene's order
-  std::size_t materials_;
+  StepLaws<Normal, Tangential> laws_;
   std::unique_ptr<StepNeighbours> neighbours_;  ///< null: a few bodies, all pairs
   std::vector<Pair> pairs_;                     ///< by neighbours, or by (j, i) with i < j
   StepShares<Push> shares_;                     ///< of neighbours

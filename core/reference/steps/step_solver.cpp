@@ -156,8 +156,8 @@ class StepSolver::Impl {
     for (const auto& [i, j] : near_pairs(spheres, 0, hard.periodic)) {
       const double apart = hard.to_nearest_image(all[i].position - all[j].position).norm();
       const double overlap = hard.bodies[i].radius + hard.bodies[j].radius - apart;
-      const std::optional<SoftContact>& contact = scene_->between(i, j);
-      if (overlap > 0 && contact)
+      if (!(overlap > 0)) continue;
+      if (const std::optional<SoftContact> contact = scene_->contact_of(i, j))
         energy += std::visit([&](const auto& law) { return law.energy(overlap); }, contact->normal);
     }
     return energy;

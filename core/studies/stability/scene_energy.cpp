@@ -35,7 +35,7 @@ double elastic_energy(const ContactScene& scene, std::span<const BodyState> stat
       const double reach = scene.hard.bodies[i].radius + scene.hard.bodies[j].radius;
       const double overlap = reach - (states[i].position - states[j].position).norm();
       if (!(overlap > 0)) continue;
-      if (const auto& contact = scene.between(i, j))
+      if (const auto contact = scene.contact_of(i, j))
         energy += std::visit([&](const auto& law) { return law.energy(overlap); }, contact->normal);
     }
   return energy;
