@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "scenario/contact_models.h"
@@ -128,6 +129,10 @@ double ClassPair::dissipation(double first_time, double second_time) const {
 }
 
 ClassPair class_pair(const Scenario& scenario, const BodyClass& first, const BodyClass& second) {
+  const auto order = [](const BodyClass& of) {
+    return std::tie(of.material, of.sphere.radius, of.sphere.mass, of.sphere.shape_factor);
+  };
+  if (order(second) < order(first)) return class_pair(scenario, second, first);
   return {first.sphere, second.sphere, scenario.materials.at(first.material),
           scenario.materials.at(second.material)};
 }

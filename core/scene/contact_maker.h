@@ -27,6 +27,7 @@ struct ClassPair {
   double dissipation(double first_time, double second_time) const;
 };
 
+/// The same bits in whichever order, by material and size.
 ClassPair class_pair(const Scenario& scenario, const BodyClass& first, const BodyClass& second);
 
 /// A class and a flat floor, wall or lid that does not give way, as the limit of a second sphere

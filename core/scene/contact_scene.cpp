@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <list>
 #include <set>
-#include <utility>
 
 #include "scenario/contact_models.h"
 #include "scenario/surfaces.h"
@@ -63,22 +62,20 @@ class Makers {
   std::list<ContactMaker> makers_;
 };
 
-/// Of each two rows, with a look at all classes that stand for them.
+/// Of each two rows that of their first bodies, with a look at all that stand for them.
 void make_pairs(const Scenario& scenario, const Makers& makers, SceneOutline& outline,
                 std::vector<std::optional<SoftContact>>& soft) {
   const std::size_t size = outline.rows.size();
   soft.resize(size * size);
   for (std::size_t a = 0; a < size; ++a)
     for (std::size_t b = a; b < size; ++b) {
-      const auto class_at = [&](std::size_t row, std::size_t k) -> const BodyClass& {
-        return outline.classes[outline.rows[row][k]];
-      };
-      const ContactMaker* maker = makers.find(class_at(a, 0).material, class_at(b, 0).material);
+      const std::vector<BodyClass>&first = outline.rows[a], &second = outline.rows[b];
+      const ContactMaker* maker = makers.find(first[0].material, second[0].material);
       if (!maker) continue;
-      for (std::size_t k = outline.rows[a].size(); k-- > 0;)
-        for (std::size_t n = outline.rows[b].size(); n-- > 0;) {
+      for (std::size_t k = first.size(); k-- > 0;)
+        for (std::size_t n = second.size(); n-- > 0;) {
           const MadeContact contact =
-              make_contact(*maker, class_pair(scenario, class_at(a, k), class_at(b, n)));
+              make_contact(*maker, class_pair(scenario, first[k], second[n]));
           for (const std::size_t at : {a * size + b, b * size + a}) {
             outline.scene.pairs[at] = contact.hard;
             soft[at] = contact.soft;
@@ -150,7 +147,6 @@ void warn_of_hidden(const Scenario& scenario, bool has_substrate,
 
 std::optional<SoftContact> ContactScene::contact_of(std::size_t i, std::size_t j) const {
   if (!own) return between(i, j);
-  if (hard.material[j] < hard.material[i]) std::swap(i, j);
   return own->of(hard.row_of(i), hard.bodies[i], hard.row_of(j), hard.bodies[j]);
 }
 
@@ -164,7 +160,7 @@ ContactScene make_contact_scene(const Scenario& scenario, std::size_t most_in_ta
   ContactScene made;
   make_pairs(scenario, makers, outline, made.soft);
   if (!outline.scene.rows.of.empty())
-    made.own = std::make_shared<const OwnContacts>(scenario, outline);
+    made.own = std::make_shared<const OwnContacts>(scenario, outline.rows);
   if (outline.scene.box) {
     Box& box = *outline.scene.box;
     const auto make = [&](const char* surface, auto& hard, auto& soft) {

@@ -139,19 +139,18 @@ std::vector<std::string> contact_warnings(const Scenario& scenario, const SceneO
     return find_contact(scenario, first, second) == &contact;
   };
   for (std::size_t a = 0; a < outline.rows.size(); ++a) {
-    const std::string& material = outline.classes[outline.rows[a].front()].material;
+    const std::string& material = outline.rows[a].front().material;
     for (std::size_t b = a; b < outline.rows.size(); ++b) {
-      if (!has(material, outline.classes[outline.rows[b].front()].material)) continue;
-      for (const std::size_t k : outline.rows[a])
-        for (const std::size_t n : outline.rows[b])
-          look(class_pair(scenario, outline.classes[k], outline.classes[n]),
-               relative_speed(velocities[a], velocities[b]));
+      if (!has(material, outline.rows[b].front().material)) continue;
+      for (const BodyClass& first : outline.rows[a])
+        for (const BodyClass& second : outline.rows[b])
+          look(class_pair(scenario, first, second), relative_speed(velocities[a], velocities[b]));
     }
     if (!outline.scene.box) continue;
     for (const char* surface : {"floor", "wall", "lid"}) {
       if (!has(material, surface)) continue;
-      for (const std::size_t k : outline.rows[a])
-        look(surface_pair(scenario, outline.classes[k]),
+      for (const BodyClass& each : outline.rows[a])
+        look(surface_pair(scenario, each),
              relative_speed(velocities[a], velocities_of(*outline.scene.box, surface)));
     }
   }

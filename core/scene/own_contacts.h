@@ -18,14 +18,12 @@ namespace slipcheck {
 /// several threads.
 class OwnContacts {
  public:
-  /// An outline whose classes share rows. Both are needed no longer. Throws BadScenario for what a
-  /// law cannot reach between two bodies that stand for a row.
-  OwnContacts(const Scenario& scenario, const SceneOutline& outline);
+  /// By row of the scene's table, bodies that stand for it, of which none is out of a law's reach.
+  OwnContacts(const Scenario& scenario, const std::vector<std::vector<BodyClass>>& rows);
   OwnContacts(const OwnContacts&) = delete;
   OwnContacts& operator=(const OwnContacts&) = delete;
 
-  /// Of bodies of these rows, the first that of the lower class: what is alike in exact arithmetic
-  /// need not be to the last bit. None where it is hard.
+  /// Of bodies of these rows, the same bits in whichever order; none where it is hard.
   std::optional<SoftContact> of(std::size_t row, const Sphere& sphere, std::size_t other_row,
                                 const Sphere& other) const;
 

@@ -101,8 +101,15 @@ bool soft_ones_divide(const Scenario& scenario) {
   return any;
 }
 
-/// Materials of which each size, mass and shape is a class by itself.
-std::set<std::string> divided_materials(const Scenario& scenario) {
+bool is_of_surface(const Scenario& scenario, const std::string& name) {
+  return name == "floor" || name == "wall" || name == "lid" ||
+         std::ranges::find(scenario.surfaces, name, &NamedSurface::material) !=
+             scenario.surfaces.end();
+}
+
+/// Materials of which each size, mass and shape is a class by itself. own: contacts between bodies
+/// make none so, as each two have their own.
+std::set<std::string> divided_materials(const Scenario& scenario, bool own) {
   std::set<std::string> divided;
   for (const MaterialOnSubstrate& contact : scenario.substrate_contacts) {
     if (is_hertzian(contact.drilling)) divided.insert(contact.material);
@@ -111,7 +118,9 @@ std::set<std::string> divided_materials(const Scenario& scenario) {
     if (is_hertzian(contact.drilling)) divided.insert(contact.material);
   }
   for (const BodyContact& contact : scenario.contacts) {
-    if (depends_on_bodies(contact)) divided.insert({contact.first, contact.second});
+    if (!depends_on_bodies(contact)) continue;
+    if (!own || is_of_surface(scenario, contact.first) || is_of_surface(scenario, contact.second))
+      divided.insert({contact.first, contact.second});
   }
   return divided;
 }
@@ -138,31 +147,23 @@ void refuse(const Scenario& scenario, std::size_t classes) {
   obstacles.throw_any();
 }
 
-/// Puts the classes into rows: each into one of its own, or all of a material into one where they
-/// are too many and soft contacts tell them apart.
-void put_into_rows(const Scenario& scenario, std::size_t most_in_table, SceneOutline& outline) {
-  const std::vector<BodyClass>& classes = outline.classes;
-  SharedRows& rows = outline.scene.rows;
-  if (classes.size() <= most_in_table || !soft_ones_divide(scenario)) {
-    if (classes.size() > kMostHardClasses) refuse(scenario, classes.size());
-    for (std::size_t k = 0; k < classes.size(); ++k) outline.rows.push_back({k});
-    return;
-  }
+/// The contacts of all bodies of a material are in one row.
+void share_rows(const Scenario& scenario, SceneOutline& outline) {
   std::map<std::string, std::size_t> row_of;
-  for (const BodyClass& each : classes)
-    rows.of.push_back(row_of.try_emplace(each.material, row_of.size()).first->second);
-  rows.count = row_of.size();
-  outline.rows.resize(rows.count);
-  for (std::size_t row = 0; row < rows.count; ++row) {
-    std::vector<std::size_t> all;
-    for (std::size_t k = 0; k < classes.size(); ++k)
-      if (rows.of[k] == row) all.push_back(k);
+  for (const BodyClass& each : outline.classes)
+    outline.scene.rows.of.push_back(row_of.try_emplace(each.material, row_of.size()).first->second);
+  outline.scene.rows.count = row_of.size();
+  for (std::size_t row = 0; row < row_of.size(); ++row) {
+    std::vector<const Body*> all;
+    for (std::size_t i = 0; i < scenario.bodies.size(); ++i)
+      if (outline.scene.row_of(i) == row) all.push_back(&scenario.bodies[i]);
     const auto [small, large] =
-        std::ranges::minmax(all, {}, [&](std::size_t k) { return classes[k].sphere.radius; });
+        std::ranges::minmax(all, {}, [](const Body* b) { return b->sphere.radius; });
     const auto [light, heavy] =
-        std::ranges::minmax(all, {}, [&](std::size_t k) { return classes[k].sphere.mass; });
-    for (const std::size_t k : std::set{all.front(), small, large, light, heavy})
-      outline.rows[row].push_back(k);
+        std::ranges::minmax(all, {}, [](const Body* b) { return b->sphere.mass; });
+    std::vector<BodyClass>& standing = outline.rows.emplace_back();
+    for (const Body* body : {all.front(), small, large, light, heavy})
+      standing.push_back({body->material, body->sphere});
   }
 }
 
@@ -220,7 +221,8 @@ SceneOutline make_outline(const Scenario& scenario, std::size_t most_in_table) {
   for (const MaterialOnSubstrate& contact : scenario.substrate_contacts) {
     on_substrate.emplace(contact.material, &contact);
   }
-  const std::set<std::string> divided = divided_materials(scenario);
+  const bool own = has_own_contacts(scenario, most_in_table);
+  const std::set<std::string> divided = divided_materials(scenario, own);
   std::map<ClassKey, std::size_t> index;
   scene.bodies.reserve(scenario.bodies.size());
   scene.initial.reserve(scenario.bodies.size());
@@ -246,7 +248,11 @@ SceneOutline make_outline(const Scenario& scenario, std::size_t most_in_table) {
     scene.material.push_back(entry->second);
   }
   if (!scene.extents.empty()) scene.extents.resize(scene.bodies.size());
-  put_into_rows(scenario, most_in_table, outline);
+  if (own)
+    share_rows(scenario, outline);
+  else
+    for (const BodyClass& each : outline.classes) outline.rows.push_back({each});
+  if (outline.rows.size() > kMostHardClasses) refuse(scenario, outline.rows.size());
   scene.pairs.resize(outline.rows.size() * outline.rows.size());
   if (scene.box) {
     for (auto* contacts : {&scene.box->on_floor, &scene.box->on_wall, &scene.box->on_lid})
@@ -255,13 +261,13 @@ SceneOutline make_outline(const Scenario& scenario, std::size_t most_in_table) {
   return outline;
 }
 
-bool has_own_contacts(const Scenario& scenario) {
-  if (scenario.bodies.size() <= kMostInTable || !soft_ones_divide(scenario)) return false;
-  const std::set<std::string> divided = divided_materials(scenario);
+bool has_own_contacts(const Scenario& scenario, std::size_t most_in_table) {
+  if (scenario.bodies.size() <= most_in_table || !soft_ones_divide(scenario)) return false;
+  const std::set<std::string> divided = divided_materials(scenario, false);
   std::set<ClassKey> classes;
   for (const Body& body : scenario.bodies) {
     classes.insert(class_of(body, divided));
-    if (classes.size() > kMostInTable) return true;
+    if (classes.size() > most_in_table) return true;
   }
   return false;
 }

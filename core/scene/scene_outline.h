@@ -21,9 +21,9 @@ struct SceneOutline {
   /// substrate's contacts are too, one for each class.
   Scene scene;
   std::vector<BodyClass> classes;  ///< by class
-  /// By row of `scene.pairs`, the classes that stand for all of it: its only one or, of many, the
-  /// first and those of the least and the largest radius and mass.
-  std::vector<std::vector<std::size_t>> rows;
+  /// By row of `scene.pairs`, bodies that stand for all of it: its class or, where each two bodies
+  /// have a contact of their own, the first and those of the least and the largest radius and mass.
+  std::vector<std::vector<BodyClass>> rows;
 };
 
 /// most_in_table: as of make_contact_scene(). Throws Unsupported where hard contacts depend on the
@@ -31,7 +31,7 @@ struct SceneOutline {
 SceneOutline make_outline(const Scenario& scenario, std::size_t most_in_table = kMostInTable);
 
 /// Whether each two bodies have a soft contact of their own, in more classes than a table holds.
-bool has_own_contacts(const Scenario& scenario);
+bool has_own_contacts(const Scenario& scenario, std::size_t most_in_table = kMostInTable);
 
 /// Of a class on a surface, from a contact of the substrate's form and from one of a pair's.
 SurfaceContact surface_contact(const MaterialOnSubstrate& from, const Material& material,

@@ -18,6 +18,24 @@ constexpr std::size_t kOrderedFrom = 1000;
 /// In which none comes far.
 constexpr std::size_t kSearchesInAnOrder = 32;
 
+/// Kinds as their bodies will be stored, taken `from` these places: where each has its own they are
+/// read one after the other.
+void put_kinds_in_order(StepWorld& world, const std::vector<std::uint32_t>& from) {
+  if (world.kinds.size() < world.bodies.size() / 8) return;  // a few, which stay in the caches
+  std::vector<StepKind> kinds;
+  kinds.reserve(world.kinds.size());
+  std::vector<const StepKind*> to(world.kinds.size(), nullptr);
+  for (const std::uint32_t k : from) {
+    const StepKind*& of = to[static_cast<std::size_t>(world.bodies[k].kind - world.kinds.data())];
+    if (!of) {
+      kinds.push_back(*world.bodies[k].kind);
+      of = &kinds.back();
+    }
+    world.bodies[k].kind = of;
+  }
+  world.kinds = std::move(kinds);
+}
+
 /// Those that are near each other near each other.
 void put_in_order(StepWorld& world, const Vector2& periodic) {
   const std::size_t bodies = world.bodies.size();
@@ -34,6 +52,7 @@ void put_in_order(StepWorld& world, const Vector2& periodic) {
   world.place.resize(bodies);
   for (std::size_t k = 0; k < bodies; ++k)
     world.place[world.number[k]] = static_cast<std::uint32_t>(k);
+  put_kinds_in_order(world, from);
   // Round by round of the permutation, without a second array of bodies.
   for (std::uint32_t k = 0; k < bodies; ++k) {
     if (from[k] == k) continue;
