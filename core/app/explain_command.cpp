@@ -90,7 +90,8 @@ void explain(const Scenario& scenario, const std::vector<EngineRecord>& runs, bo
     const Explanation explanation = explain_scene(scenario, scene, general);
     fmt::print("  solver: {}\n", explanation.solver);
     print(explanation.sections, all);
-    print(explain_engines(scenario, EngineScene(scene), runs, &interrupted()), all);
+    if (!runs.empty())
+      print(explain_engines(scenario, EngineScene(scene), runs, &interrupted()), all);
   } catch (const Unsupported& unsupported) {
     fmt::print("\n  No solver for this scene:\n{}\n", unsupported.what());
   }

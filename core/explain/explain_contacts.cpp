@@ -20,8 +20,8 @@ struct Partners {
   double mass = 0;    ///< effective [kg]
   double speed = 1;   ///< [m/s]
   double slip = 0;    ///< of their surfaces as they meet [m/s]
-  const PairContact* hard = nullptr;
-  const std::optional<SoftContact>* soft = nullptr;
+  PairContact hard = {};
+  std::optional<SoftContact> soft = {};
 };
 
 Partners bodies(const Scenario& scenario, const ContactScene& scene, std::size_t i, std::size_t j,
@@ -30,8 +30,8 @@ Partners bodies(const Scenario& scenario, const ContactScene& scene, std::size_t
           effective_mass(scene.hard.bodies[i], scene.hard.bodies[j]),
           speed,
           slip,
-          &scene.hard.between(i, j),
-          &scene.between(i, j)};
+          scene.hard.between(i, j),
+          scene.contact_of(i, j)};
 }
 
 /// The first body that meets the floor, walls or lid by this contact.
@@ -47,7 +47,7 @@ std::optional<Partners> at_surface(const Scenario& scenario, const ContactScene&
     if (scenario.bodies[i].material != contact.first) continue;
     const std::size_t material = scene.hard.material[i];
     return Partners{scenario.bodies[i].name, scene.hard.bodies[i].mass, speed, 0,
-                    &hard_ones[material],    &soft_ones[material]};
+                    hard_ones[material],     soft_ones[material]};
   }
   return std::nullopt;
 }
@@ -220,7 +220,7 @@ const char* end_name(ContactEnd end) {
 
 std::optional<LinearContact> linear_contact_between(const ContactScene& scene, std::size_t i,
                                                     std::size_t j) {
-  const auto& soft = scene.between(i, j);
+  const std::optional<SoftContact> soft = scene.contact_of(i, j);
   if (!soft) return std::nullopt;
   const auto* linear = std::get_if<LinearForce>(&soft->normal);
   if (!linear) return std::nullopt;
@@ -243,10 +243,10 @@ ExplainSections explain_contacts(const Scenario& scenario, const ContactScene& s
     ExplainSection& section = sections.emplace_back();
     section.title =
         fmt::format("Contact {} on {} ({}): ", contact.first, contact.second, found->names);
-    const std::optional<SoftContact>& soft = *found->soft;
+    const std::optional<SoftContact>& soft = found->soft;
     if (!soft) {
       section.title += "hard";
-      add_hard(section, *found->hard, speed, found->slip);
+      add_hard(section, found->hard, speed, found->slip);
       continue;
     }
     section.title +=

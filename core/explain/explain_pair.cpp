@@ -49,7 +49,7 @@ RollingPair rolling_pair(const ContactScene& scene, const Meeting& meeting, doub
   pair.spheres = {rolling(meeting.first, meeting.a), rolling(meeting.second, meeting.b)};
   pair.gravity = scene.hard.gravity;
   pair.confined = scene.hard.confined;
-  const auto& soft = scene.between(meeting.first, meeting.second);
+  const std::optional<SoftContact> soft = scene.contact_of(meeting.first, meeting.second);
   if (const auto* viscous = std::get_if<ViscousForce>(&soft->tangential)) {
     pair.rubbing_rate = viscous->damping / reduced_mass;
     pair.rubbing_friction = viscous->friction;

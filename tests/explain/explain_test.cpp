@@ -250,6 +250,29 @@ TEST(Explain, ABlockHoldsUpToStaticFriction) {
   EXPECT_EQ(block.value("a_roll"), "no row");
 }
 
+TEST(Explain, TellsOfTheTwoThatMeetAmongManySizes) {
+  Scenario scenario = bundled("symmetric-30cms");
+  LinearNormal linear;
+  linear.restitution = 0.9;
+  linear.collision_time = 2.55e-5;
+  scenario.contacts[0].normal = linear;
+  // Others far away, ever larger: of each two the spring is another.
+  for (int k = 1; k <= 301; ++k) {
+    Body& body = scenario.bodies.emplace_back(scenario.bodies[0]);
+    body.name = "far" + std::to_string(k);
+    body.sphere.radius *= 1 + 1e-3 * k;
+    body.sphere.mass *= std::pow(1 + 1e-3 * k, 3);
+    body.initial = {};
+    body.initial.position = {0, 1.0 * k, body.sphere.radius};
+  }
+  const Explained seen(scenario);
+  EXPECT_TRUE(seen.section("Contact steel on steel (i and j)"));
+  expect_told(seen, "e_n", 0.9);
+  const double omega0 = std::hypot(M_PI, std::log(0.9)) / 2.55e-5;
+  expect_told(seen, "ω0", omega0);
+  expect_told(seen, "k", scenario.bodies[0].sphere.mass / 2 * omega0 * omega0);
+}
+
 TEST(Explain, AsksTheEnginesWhatTheyWouldMakeOfIt) {
   test::use_test_engines();
   const Scenario scenario = bundled("symmetric-30cms");
