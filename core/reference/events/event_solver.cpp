@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -15,6 +16,7 @@
 #include "reference/events/substrate_world.h"
 #include "reference/events/surface_world.h"
 #include "reference/lasting_contacts.h"
+#include "reference/meeting_tree.h"
 #include "scene/ode.h"
 
 namespace slipcheck {
@@ -103,6 +105,10 @@ class EventSolver::EngineOf final : public Engine {
         limit, [&](const World& world) { return world.collisions() + world.landings() != so_far; });
   }
   double next_collision(double limit, double slowest) override {
+    if constexpr (kHasStraightPaths) {
+      if (slowest == 0 && scene_->periodic == Vector2::Zero() && !world_.is_any_slipping())
+        return first_of_pairs(limit);
+    }
     return time_of_hard(limit, slowest, [](const World& world) { return world.collisions(); });
   }
   double next_impact(double limit, double slowest) override {
@@ -159,6 +165,10 @@ class EventSolver::EngineOf final : public Engine {
   }
 
  private:
+  /// Of many bodies, on a level, still plane: what rolls there goes straight on.
+  static constexpr bool kHasStraightPaths =
+      std::is_same_v<World, SubstrateWorld<SubstratePhase, PlaneCells>>;
+
   /// When a copy that runs ahead comes to what `has_come` tells, or infinity where it does not
   /// before `limit` [s].
   template <class HasCome>
@@ -211,9 +221,38 @@ class EventSolver::EngineOf final : public Engine {
     return false;
   }
 
-  /// On an unbounded plane bodies that fly apart would cross cells for ever; all pairs do not.
+  /// When the first two bodies meet, none of which slides or flies on a level, still plane. (In
+  /// cells, bodies that fly apart would cross them for ever.)
+  double first_of_pairs(double limit) const {
+    using Pairs = SubstrateWorld<SubstratePhase, AllPairs>;
+    const std::vector<BodyState> all = states();
+    std::vector<StraightSphere> spheres;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      spheres.push_back({all[i].position, all[i].velocity, scene_->bodies[i].radius});
+    const bool may_stop = std::ranges::any_of(
+        scene_->substrate, [](const auto& contact) { return !contact.rolling.is_zero(); });
+    Scene two = *scene_;
+    two.bodies.resize(2);
+    two.material.resize(2);
+    if (!two.extents.empty()) two.extents.resize(2);
+    const double time = MeetingTree(spheres, may_stop)
+                            .first(limit - now_, [&](std::size_t i, std::size_t j, double horizon) {
+                              for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+                                const std::size_t from = k == 0 ? i : j;
+                                two.bodies[k] = scene_->bodies[from];
+                                two.material[k] = scene_->material[from];
+                                if (!two.extents.empty()) two.extents[k] = scene_->extents[from];
+                              }
+                              const std::array<BodyState, 2> pair = {all[i], all[j]};
+                              EngineOf<Pairs, ScanQueue> ahead(two, pair, settings_, least_, 0);
+                              return ahead.next_collision(horizon, 0);
+                            });
+    return now_ + time;
+  }
+
+  /// The same on any plane; where bodies are driven, by all pairs.
   double time_of_next(double limit) {
-    if constexpr (World::kHasCells) {
+    if constexpr (World::kHasCells && !kHasStraightPaths) {
       if (scene_->periodic == Vector2::Zero()) {
         using Pairs = SubstrateWorld<typename World::PhaseType, AllPairs>;
         EngineOf<Pairs, HeapQueue> ahead(*scene_, states(), settings_, least_, now_);

@@ -8,6 +8,7 @@
 #include "physics/numbers.h"
 #include "reference/events/event_solver.h"
 #include "reference/events/path_collision.h"
+#include "reference/meeting_tree.h"
 #include "reference/near_pairs.h"
 #include "reference/steps/step_kernel.h"
 
@@ -126,9 +127,9 @@ class StepSolver::Impl {
 
   void exchange(StateArchive& archive) {
     archive(quiet_from_);
-    std::vector<const StepKind*> kinds;  // as they were made, in the scene's order
-    if (archive.reads())
-      for (const StepBody& body : world_.bodies) kinds.push_back(body.kind);
+    std::vector<const StepKind*> kinds(world_.bodies.size());  // in the scene's order
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+      kinds[world_.number_of(k)] = world_.bodies[k].kind;
     kernel_->exchange(archive, world_);
     goes_on_ = archive.reads();
     for (std::size_t k = 0; k < kinds.size(); ++k)
@@ -211,27 +212,36 @@ class StepSolver::Impl {
       EventSolver ahead(hard, all);
       return ahead.next_collision(limit, 0);
     }
-    double first = kNever;
-    for (std::size_t j = 1; j < all.size(); ++j)
-      for (std::size_t i = 0; i < j; ++i) {
-        const Vector3 dx = hard.to_nearest_image(all[i].position - all[j].position);
-        const Vector3 dv = all[i].velocity - all[j].velocity;
-        const double reach = hard.bodies[i].radius + hard.bodies[j].radius;
-        const double t = std::min(time_to_touch(dx, dv, Vector3::Zero(), reach, limit),
-                                  time_to_other_image(dx, dv));
-        if (t <= limit) first = std::min(first, 0.5 * t);
-      }
-    return first;
+    const auto touch = [&](std::size_t i, std::size_t j, double horizon) {
+      return time_to_touch(hard.to_nearest_image(all[i].position - all[j].position),
+                           all[i].velocity - all[j].velocity, Vector3::Zero(),
+                           hard.bodies[i].radius + hard.bodies[j].radius, horizon);
+    };
+    if (!hard.periodic.isZero(0)) return 0.5 * first_in_period(all, limit, touch);
+    std::vector<StraightSphere> spheres;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      spheres.push_back({all[i].position, all[i].velocity, hard.bodies[i].radius});
+    return 0.5 * MeetingTree(spheres, false).first(limit, touch);
   }
 
-  /// In what time another image than the nearest may be reached, on a periodic plane.
-  double time_to_other_image(const Vector3& dx, const Vector3& dv) const {
-    double first = kNever;
-    for (int k = 0; k < 2; ++k) {
-      const double period = scene_->hard.periodic[k], speed = std::abs(dv[k]);
-      if (period > 0 && speed > 0)
-        first = std::min(first, std::max(0.0, 0.5 * period - std::abs(dx[k])) / speed);
+  /// The same on a periodic plane, or a time in which none comes far: of images there is no end.
+  template <class Touch>
+  double first_in_period(const std::vector<BodyState>& all, double limit,
+                         const Touch& touch) const {
+    Vector3 mean = Vector3::Zero();
+    for (const BodyState& state : all) mean += state.velocity / static_cast<double>(all.size());
+    double fastest = 0, largest = 0;
+    std::vector<NearSphere> spheres;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      fastest = std::max(fastest, (all[i].velocity - mean).norm());
+      spheres.push_back({all[i].position, scene_->hard.bodies[i].radius});
+      largest = std::max(largest, spheres.back().radius);
     }
+    if (fastest == 0) return kNever;
+    const double horizon = std::min(limit, largest / fastest);
+    double first = horizon < limit ? horizon : kNever;
+    for (const auto& [i, j] : near_pairs(spheres, 2 * fastest * horizon, scene_->hard.periodic))
+      first = std::min(first, touch(i, j, horizon));
     return first;
   }
 
