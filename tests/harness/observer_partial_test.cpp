@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <string>
+#include <type_traits>
+#include <vector>
 
 #include "../reference/planar_scenes.h"
 #include "harness/observe/observer.h"
@@ -84,6 +88,82 @@ TEST(Observer, SeesInPartialFramesThatBodiesStop) {
   EXPECT_NEAR(partial.bodies[2].final_position.x(), 7 + (end - 4), 1e-14);
   EXPECT_EQ(partial.bodies[0].stopping_time, 0);
   EXPECT_EQ(partial.bodies[1].stopping_distance, 0);
+}
+
+/// Counts the frames that had all bodies.
+struct Counting final : FrameSink {
+  explicit Counting(Observer& to) : observer(to) {}
+  void take(double time, const Frame& frame) override {
+    ++whole;
+    observer.take(time, frame);
+  }
+  bool take_partial(double time, const PartialFrame& frame) override {
+    ++partial;
+    return observer.take_partial(time, frame);
+  }
+  Observer& observer;
+  std::size_t whole = 0, partial = 0;
+};
+
+/// Unlike balls that slide, roll, spin and, where their rubbing throws them up, fly; most come to
+/// rest where rolling friction stops them.
+Scene on_a_table(const RollingFriction& rolling, bool periodic) {
+  std::mt19937 dice(9);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  Scene scene = test::of_one_material(40, 0.01, {0.8, 0.3, 0.2});
+  scene.gravity = 9.81;
+  if (periodic) scene.periodic = {0.3, 0.3};
+  SubstrateContact& contact = scene.substrate[0];
+  contact.static_friction = contact.kinetic_friction = 0.2;
+  contact.rolling = rolling;
+  contact.drilling_length = 1e-3;
+  contact.restitution = 0.5;
+  for (int k = 0; k < 40; ++k) {
+    const double part = 1 + 0.3 * unit(dice);
+    Sphere& sphere = scene.bodies[static_cast<std::size_t>(k)];
+    sphere.radius *= part;
+    sphere.mass *= part * part * part;
+    BodyState state;
+    state.position = {0.042 * (k % 7), 0.042 * (k / 7), sphere.radius};
+    state.velocity = 0.4 * Vector3(unit(dice), unit(dice), 0);
+    state.angular_velocity = 20 * Vector3(unit(dice), unit(dice), unit(dice));
+    scene.initial.push_back(state);
+  }
+  return scene;
+}
+
+TEST(Observer, SeesInPartialFramesWhatASubstrateDoes) {
+  const RollingFriction none, constant(0.01), table({{0, 0.005}, {1, 0.02}});
+  std::size_t jumps = 0, stops = 0, effective = 0;
+  for (const RollingFriction& rolling : {none, constant, table})
+    for (const bool periodic : {false, true}) {
+      const Scene scene = on_a_table(rolling, periodic);
+      const RunEnd end =
+          rolling.is_zero() ? RunEnd{Run::Until::rolling, 0, 2} : RunEnd{Run::Until::rest, 0, 30};
+      const auto solve = [&](auto make_sink) {
+        Observer observer(scene, 0, speed_scale(scene, scene.initial));
+        auto sink = make_sink(observer);
+        const SolvedRun run = EventSolver(scene, scene.initial).run(end, &sink);
+        if constexpr (std::is_same_v<decltype(sink), Counting>) {
+          EXPECT_GT(sink.partial, 2 * run.collisions);
+          EXPECT_EQ(sink.whole, 2u);  // the first and the last
+        }
+        EXPECT_GT(run.collisions, 20u);
+        return observer.finish(run.end_time);
+      };
+      const Observables partial = solve([](Observer& observer) { return Counting(observer); });
+      const Observables whole = solve([](Observer& observer) { return WholeAlone(observer); });
+      expect_alike(partial, whole, 1e-12);
+      for (const BodyObservables& body : partial.bodies) {
+        jumps += !std::isnan(body.jump_height);
+        stops += !std::isnan(body.stopping_distance);
+      }
+      for (const PairObservables& pair : partial.pairs)
+        effective += !std::isnan(pair.effective_restitution);
+    }
+  EXPECT_GT(jumps, 10u);
+  EXPECT_GT(stops, 100u);
+  EXPECT_GT(effective, 50u);
 }
 
 }  // namespace

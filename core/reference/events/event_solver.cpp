@@ -131,6 +131,7 @@ class EventSolver::EngineOf final : public Engine {
     world_.show(now_);
     while (true) {
       if (has_ended(end)) {
+        world_.show_the_rest(now_);
         run.reached = true;
         break;
       }

@@ -41,8 +41,8 @@ struct EventSettings {
 /// and between them the phases of sliding, rolling, drilling, flight and rest, exact on a still,
 /// level plane (SubstratePhase), and to the bound that DrivenPhase states on a tilted or moving
 /// one. Nothing is stepped; on a still, level plane the only errors are of rounding. The cost of an
-/// event does not grow with the number of bodies (SubstrateWorld, EventScheduler), but that of
-/// showing the frames around it does.
+/// event does not grow with the number of bodies (SubstrateWorld, EventScheduler), nor, on a still,
+/// level plane, that of showing it to a sink that takes partial frames.
 ///
 /// On a plane that repeats itself states are unfolded: they go on across the border.
 class EventSolver final : public LookingSolver {

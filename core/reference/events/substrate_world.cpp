@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "physics/contact/collision.h"
 #include "physics/numbers.h"
@@ -29,6 +30,10 @@ SubstrateWorld<Phase, Near>::SubstrateWorld(const Scene& scene, std::span<const 
       near_(scene, initial),
       bodies_(initial.size()),
       phases_(initial.size()) {
+  if constexpr (kHasCells && kIsStill) {
+    partner_.resize(initial.size());
+    std::iota(partner_.begin(), partner_.end(), 0);
+  }
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
     BodyState state = initial[i];
     const Sphere& sphere = scene.bodies[i];
@@ -141,15 +146,16 @@ BodyChange SubstrateWorld<Phase, Near>::do_own_event(std::uint32_t i, double now
   }
   ++events_;
   BodyState state = phases_[i].at_end();
+  const std::array<std::uint32_t, 1> changed = {i};
   if (phases_[i].kind() == Kind::flying) {
-    show(now);
+    show_changed(changed, now);
     last_impact_speed_ = -state.velocity.z();
     land_body(i, state, now);
     if (sink_ && state.velocity.z() > 0) frame_.touches.push_back(substrate_touch(i));
     ++landings_;
   }
   set_state(i, state, now);
-  show(now);
+  show_changed(changed, now);
   return BodyChange::path;
 }
 
@@ -222,9 +228,11 @@ std::span<const std::uint32_t> SubstrateWorld<Phase, Near>::collide(std::uint32_
     if ((x - y - to_near(x, y)).norm() > (1 + kTouching) * contact) return changed_;
   }
   ++events_;
-  show(now);
   const bool is_quick = is_in_quick_succession(i, now) || is_in_quick_succession(j, now);
-  if (is_quick && scene_->collapse.model == CollapseRule::Model::largest_velocity) {
+  const bool is_cluster =
+      is_quick && scene_->collapse.model == CollapseRule::Model::largest_velocity;
+  show_changed(changed_, now, !is_cluster);
+  if (is_cluster) {
     ++collapses_;
     resolve_cluster(now);
   } else {
@@ -235,7 +243,7 @@ std::span<const std::uint32_t> SubstrateWorld<Phase, Near>::collide(std::uint32_
     bodies_[changed_[k]].last_collision = now;
     set_state(changed_[k], states_[k], now);
   }
-  show(now);
+  show_changed(changed_, now);
   return changed_;
 }
 
@@ -266,9 +274,13 @@ void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_
   for (const std::uint32_t k : {i, j})
     bodies_[k].hardest_impact = std::max(bodies_[k].hardest_impact, result.impact_speed);
   was_altered_ = result.altered;
-  if (sink_)
-    frame_.touches.push_back({static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j)),
-                              std::max(result.impulse.norm(), 1e-300)});
+  if (!sink_) return;
+  frame_.touches.push_back({static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j)),
+                            std::max(result.impulse.norm(), 1e-300)});
+  if constexpr (kHasCells && kIsStill) {
+    partner_[i] = j;
+    partner_[j] = i;
+  }
 }
 
 /// Bodies that would touch each other within the contact time collide at once.
@@ -318,6 +330,35 @@ void SubstrateWorld<Phase, Near>::show(double now) {
   }
   sink_->take(now, frame_);
   frame_.touches.clear();
+  is_partly_shown_ = false;
+}
+
+/// With those that they met last: what both become is looked at when the later one has become it.
+template <class Phase, class Near>
+void SubstrateWorld<Phase, Near>::show_changed(std::span<const std::uint32_t> changed, double now,
+                                               bool is_all_known) {
+  if (!sink_) return;
+  if constexpr (kHasCells && kIsStill) {
+    if (is_all_known) {
+      shown_.assign(changed.begin(), changed.end());
+      for (const std::uint32_t i : changed)
+        if (std::ranges::find(shown_, partner_[i]) == shown_.end()) shown_.push_back(partner_[i]);
+      shown_states_.clear();
+      const std::size_t touches = frame_.touches.size();
+      for (const std::size_t i : shown_) {
+        const auto body = static_cast<std::uint32_t>(i);
+        shown_states_.push_back(state_at(body, now));
+        if (phases_[i].is_supported()) frame_.touches.push_back(substrate_touch(body));
+      }
+      if (sink_->take_partial(now, {shown_, shown_states_, frame_.touches})) {
+        frame_.touches.clear();
+        is_partly_shown_ = true;
+        return;
+      }
+      frame_.touches.resize(touches);
+    }
+  }
+  show(now);
 }
 
 template class SubstrateWorld<SubstratePhase, AllPairs>;

@@ -50,9 +50,14 @@ class SubstrateWorld {
   }
 
   // --- for whoever looks on ---
-  /// Shown the frames before and after each event from now on; maybe nobody.
+  /// Shown the frames before and after each event from now on; maybe nobody. Of many bodies on a
+  /// still, level plane those alone that the event changes, where it takes these.
   void set_sink(FrameSink* sink) { sink_ = sink; }
   void show(double now);
+  /// All bodies, where the last frame had not all of them.
+  void show_the_rest(double now) {
+    if (is_partly_shown_) show(now);
+  }
   BodyState state_at(std::uint32_t i, double now) const;  ///< unfolded
   std::size_t events() const { return events_; }          ///< collisions and ends of phases
   std::size_t collisions() const { return collisions_; }  ///< of two bodies
@@ -109,6 +114,8 @@ class SubstrateWorld {
   void resolve_cluster(double now);
   void land_body(std::uint32_t i, BodyState& state, double now);
   Touch substrate_touch(std::uint32_t i) const;
+  /// What an event is about to change or has changed; all bodies, where it may draw in more.
+  void show_changed(std::span<const std::uint32_t> changed, double now, bool is_all_known = true);
 
   const Scene* scene_;
   LeastSpeeds least_;
@@ -123,6 +130,11 @@ class SubstrateWorld {
   bool was_altered_ = false;  ///< the last collision, by LeastSpeeds
   FrameSink* sink_ = nullptr;
   Frame frame_;
+  std::vector<std::uint32_t> partner_;  ///< of each body's last collision, or itself
+  // A partial frame.
+  bool is_partly_shown_ = false;
+  std::vector<std::size_t> shown_;
+  std::vector<BodyState> shown_states_;
 };
 
 extern template class SubstrateWorld<SubstratePhase, AllPairs>;

@@ -58,6 +58,7 @@ class SurfaceWorld {
   // --- for whoever looks on ---
   void set_sink(FrameSink* sink) { sink_ = sink; }
   void show(double now);
+  void show_the_rest(double) {}  ///< no frame is partial
   BodyState state_at(std::uint32_t i, double now) const;
   std::size_t events() const { return events_; }
   std::size_t collisions() const { return collisions_; }
