@@ -92,8 +92,12 @@ TEST(MeetingTree, LooksAtFew) {
 
 /// With cells a gas on an unbounded plane ends when it does over all pairs.
 TEST(MeetingTree, EndsARunOfManyRollingBalls) {
-  for (const double rolling : {0.0, 2e-3}) {
+  struct Case {
+    double rolling, downhill;
+  };
+  for (const auto& [rolling, downhill] : {Case{0, 0}, Case{2e-3, 0}, Case{0, 0.5}}) {
     Scene scene = test::steel_scene(100);
+    scene.downhill = {downhill, 0};
     std::mt19937 dice(5);
     std::uniform_real_distribution<double> unit(-1, 1);
     scene.pairs = {{0.8, 0.0, -1.0}};

@@ -29,6 +29,19 @@ LeastSpeeds least_speeds(const Scene& scene, std::span<const BodyState> states,
           .landing = settings.landing_fraction * speed_scale(scene, states)};
 }
 
+/// Bodies that roll go on to do so, and a tilt or the plane's motion accelerates all of them alike:
+/// K (22), with friction enough.
+bool are_driven_alike(const Scene& scene) {
+  const double A = scene.bodies[0].inverse_shape_factor();
+  const double drive = scene.downhill.norm() + scene.motion.largest_acceleration();
+  return std::ranges::all_of(
+             scene.bodies, [&](const Sphere& each) { return each.inverse_shape_factor() == A; }) &&
+         std::ranges::all_of(scene.substrate, [&](const SubstrateContact& each) {
+           return each.rolling.is_zero() && !(each.coupled_radius > 0) &&
+                  drive <= (1 + A) * each.static_friction * scene.gravity;
+         });
+}
+
 RateLimit rate_limit(const EventSettings& settings, std::size_t bodies, double now) {
   const std::size_t of_many = bodies > settings.most_without_cells ? 1000 * bodies : 0;
   return {settings.most_events, bodies, settings.burst + of_many, now};
@@ -105,8 +118,8 @@ class EventSolver::EngineOf final : public Engine {
         limit, [&](const World& world) { return world.collisions() + world.landings() != so_far; });
   }
   double next_collision(double limit, double slowest) override {
-    if constexpr (kHasStraightPaths) {
-      if (slowest == 0 && scene_->periodic == Vector2::Zero() && !world_.is_any_slipping())
+    if constexpr (World::kHasCells) {
+      if (slowest == 0 && rolls_straight() && !world_.is_any_slipping())
         return first_of_pairs(limit);
     }
     return time_of_hard(limit, slowest, [](const World& world) { return world.collisions(); });
@@ -166,10 +179,6 @@ class EventSolver::EngineOf final : public Engine {
   }
 
  private:
-  /// Of many bodies, on a level, still plane: what rolls there goes straight on.
-  static constexpr bool kHasStraightPaths =
-      std::is_same_v<World, SubstrateWorld<SubstratePhase, PlaneCells>>;
-
   /// When a copy that runs ahead comes to what `has_come` tells, or infinity where it does not
   /// before `limit` [s].
   template <class HasCome>
@@ -222,10 +231,16 @@ class EventSolver::EngineOf final : public Engine {
     return false;
   }
 
-  /// When the first two bodies meet, none of which slides or flies on a level, still plane. (In
-  /// cells, bodies that fly apart would cross them for ever.)
+  /// What rolls on a plane without bounds goes straight on, as seen from all others that roll.
+  bool rolls_straight() const {
+    if (scene_->periodic != Vector2::Zero()) return false;
+    return World::kIsStill || are_driven_alike(*scene_);
+  }
+
+  /// When the first two bodies meet, all of which do. (In cells, bodies that fly apart would cross
+  /// them for ever.)
   double first_of_pairs(double limit) const {
-    using Pairs = SubstrateWorld<SubstratePhase, AllPairs>;
+    using Pairs = SubstrateWorld<typename World::PhaseType, AllPairs>;
     const std::vector<BodyState> all = states();
     std::vector<StraightSphere> spheres;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -245,16 +260,16 @@ class EventSolver::EngineOf final : public Engine {
                                 if (!two.extents.empty()) two.extents[k] = scene_->extents[from];
                               }
                               const std::array<BodyState, 2> pair = {all[i], all[j]};
-                              EngineOf<Pairs, ScanQueue> ahead(two, pair, settings_, least_, 0);
-                              return ahead.next_collision(horizon, 0);
+                              EngineOf<Pairs, ScanQueue> ahead(two, pair, settings_, least_, now_);
+                              return ahead.next_collision(now_ + horizon, 0) - now_;
                             });
     return now_ + time;
   }
 
-  /// The same on any plane; where bodies are driven, by all pairs.
+  /// The same of any that roll; where some are driven otherwise than others, by all pairs.
   double time_of_next(double limit) {
-    if constexpr (World::kHasCells && !kHasStraightPaths) {
-      if (scene_->periodic == Vector2::Zero()) {
+    if constexpr (World::kHasCells) {
+      if (scene_->periodic == Vector2::Zero() && !rolls_straight()) {
         using Pairs = SubstrateWorld<typename World::PhaseType, AllPairs>;
         EngineOf<Pairs, HeapQueue> ahead(*scene_, states(), settings_, least_, now_);
         return ahead.next_collision(limit, 0);

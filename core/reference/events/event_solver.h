@@ -65,8 +65,8 @@ class EventSolver final : public LookingSolver {
   ///
   /// Until::rolling and Until::rest ask, whenever nothing slides or flies (moves), whether a
   /// collision still comes before the limit. The answer is found once and holds until that
-  /// collision; many bodies on an unbounded plane that is tilted or moves are then looked at in all
-  /// pairs.
+  /// collision; many bodies on an unbounded plane that accelerates some more than others are then
+  /// looked at in all pairs.
   SolvedRun run(const RunEnd& end, FrameSink* sink) override;
 
   // Both leave the solver as it is.
