@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scenario/contact_models.h"
+
 namespace slipcheck {
 
 OwnContacts::OwnContacts(const Scenario& scenario,
