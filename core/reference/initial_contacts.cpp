@@ -5,7 +5,7 @@
 
 #include "physics/contact/elastic_pair.h"
 #include "reference/events/event_solver.h"
-#include "reference/near_pairs.h"
+#include "reference/overlaps.h"
 #include "scenario/rules/overlap.h"
 
 namespace slipcheck {
@@ -33,12 +33,9 @@ std::vector<InitialContact> overlapping_pairs(const Scene& scene,
     return found;
   }
   double largest = 0;
-  std::vector<NearSphere> spheres;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    spheres.push_back({states[i].position, scene.bodies[i].radius});
-    largest = std::max(largest, scene.bodies[i].radius);
-  }
-  for (const auto& [i, j] : near_pairs(spheres, kRounding * largest)) look_at(i, j);
+  for (const Sphere& sphere : scene.bodies) largest = std::max(largest, sphere.radius);
+  for (const auto& [i, j] : near_pairs(near_spheres(scene, states), kRounding * largest))
+    look_at(i, j);
   return found;
 }
 

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <random>
 
+#include "reference/overlaps.h"
+#include "soft_scenes.h"
+
 namespace slipcheck {
 namespace {
 
@@ -98,6 +101,31 @@ TEST(NearPairs, AreTheSameOnAnyNumberOfThreads) {
     ThreadTeam team(threads);
     EXPECT_EQ(near_pairs(spheres, 0.2, Vector2::Zero(), &team), alone) << threads;
   }
+}
+
+TEST(Overlaps, HoldTheEnergyOfTheirSpringsAcrossAnEdge) {
+  Scene scene = test::steel_scene(3);
+  scene.periodic = {0.05, 0.05};
+  const double d = 2 * scene.bodies[0].radius, depth = 1e-5;
+  // Two over an edge of the cell and, each in an image of its own, over a corner.
+  scene.initial[0].position = {0.001, 0.02, scene.bodies[0].radius};
+  scene.initial[1].position = {0.001 - d + depth + 0.05, 0.02 + 0.1, scene.bodies[0].radius};
+  scene.initial[2].position = {0.001, 0.02 + d, scene.bodies[0].radius};  // touches the first
+  const ContactScene contacts = test::soft(scene);
+  const double stiffness = std::get<LinearForce>(contacts.soft[0]->normal).stiffness;
+  EXPECT_NEAR(elastic_energy(contacts, scene.initial), 0.5 * stiffness * depth * depth,
+              1e-9 * stiffness * depth * depth);
+  std::size_t count = 0;
+  for_each_overlap(contacts, scene.initial, [&](const Overlap& at) {
+    if (at.depth < 1e-12) return;  // round-off of what touches
+    ++count;
+    EXPECT_EQ(at.first, 0u);
+    EXPECT_EQ(at.second, 1u);
+    EXPECT_NEAR(at.depth, depth, 1e-15);
+    EXPECT_NEAR(at.apart.x(), at.distance, 1e-15);
+  });
+  EXPECT_EQ(count, 1u);
+  EXPECT_EQ(elastic_energy(with_hard_contacts(scene), scene.initial), 0);
 }
 
 }  // namespace

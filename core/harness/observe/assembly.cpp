@@ -6,21 +6,13 @@
 #include <numbers>
 #include <variant>
 
-#include "reference/near_pairs.h"
+#include "reference/overlaps.h"
 
 namespace slipcheck {
 namespace {
 
 /// Of a radius, how far from the substrate a body lies on it.
 constexpr double kFlat = 0.02;
-
-std::vector<NearSphere> spheres_of(const Scene& scene, std::span<const BodyState> states) {
-  std::vector<NearSphere> spheres;
-  spheres.reserve(states.size());
-  for (std::size_t i = 0; i < states.size(); ++i)
-    spheres.push_back({states[i].position, scene.bodies[i].radius});
-  return spheres;
-}
 
 Vector3 mean_velocity(const Scene& scene, std::span<const BodyState> states) {
   Vector3 momentum = Vector3::Zero();
@@ -133,23 +125,17 @@ AssemblyState assembly_state(const ContactScene& scene, std::span<const BodyStat
   add_motion(hard, states, region, all);
   std::vector<unsigned> own(states.size(), 0);
   std::vector<NearPair> touching;
-  for (const NearPair& pair : near_pairs(spheres_of(hard, states), 0, hard.periodic)) {
-    const auto [i, j] = pair;
-    const Vector3 apart = hard.to_nearest_image(states[i].position - states[j].position);
-    const double distance = apart.norm();
-    const double overlap = hard.bodies[i].radius + hard.bodies[j].radius - distance;
-    if (!(overlap > 0)) continue;
-    const std::optional<SoftContact> contact = scene.contact_of(i, j);
-    if (!contact) continue;
-    touching.push_back(pair);
+  for_each_overlap(scene, states, [&](const Overlap& at) {
+    const auto i = at.first, j = at.second;
+    touching.push_back({i, j});
     ++own[i];
     ++own[j];
-    const Vector3 n = apart / distance;
+    const Vector3 n = at.apart / at.distance;
     const double closing = -n.dot(states[i].velocity - states[j].velocity);
-    all.stress += contact_force(*contact, overlap, closing) * n * apart.transpose();
+    all.stress += contact_force(at.contact, at.depth, closing) * n * at.apart.transpose();
     all.elastic_energy +=
-        std::visit([&](const auto& law) { return law.energy(overlap); }, contact->normal);
-  }
+        std::visit([&](const auto& law) { return law.energy(at.depth); }, at.contact.normal);
+  });
   all.stress /= region.volume;
   all.contacts = touching.size();
   all.coordination = 2 * static_cast<double>(touching.size()) / static_cast<double>(states.size());

@@ -9,7 +9,7 @@
 #include "reference/events/event_solver.h"
 #include "reference/events/path_collision.h"
 #include "reference/meeting_tree.h"
-#include "reference/near_pairs.h"
+#include "reference/overlaps.h"
 #include "reference/steps/step_kernel.h"
 
 namespace slipcheck {
@@ -142,10 +142,7 @@ class StepSolver::Impl {
   double energy() {
     const Scene& hard = scene_->hard;
     const std::vector<BodyState> all = states();
-    std::vector<NearSphere> spheres;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      spheres.push_back({all[i].position, hard.bodies[i].radius});
-    double energy = 0;
+    double energy = elastic_energy(*scene_, all);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const BodyState& s = all[i];
       const Sphere& sphere = hard.bodies[i];
@@ -153,13 +150,6 @@ class StepSolver::Impl {
           0.5 * sphere.mass * s.velocity.squaredNorm() +
           0.5 * sphere.moment_of_inertia() * s.angular_velocity.squaredNorm() +
           sphere.mass * (hard.gravity * s.position.z() - hard.downhill.dot(s.position.head<2>()));
-    }
-    for (const auto& [i, j] : near_pairs(spheres, 0, hard.periodic)) {
-      const double apart = hard.to_nearest_image(all[i].position - all[j].position).norm();
-      const double overlap = hard.bodies[i].radius + hard.bodies[j].radius - apart;
-      if (!(overlap > 0)) continue;
-      if (const std::optional<SoftContact> contact = scene_->contact_of(i, j))
-        energy += std::visit([&](const auto& law) { return law.energy(overlap); }, contact->normal);
     }
     return energy;
   }
@@ -230,17 +220,17 @@ class StepSolver::Impl {
                          const Touch& touch) const {
     Vector3 mean = Vector3::Zero();
     for (const BodyState& state : all) mean += state.velocity / static_cast<double>(all.size());
+    const Scene& hard = scene_->hard;
     double fastest = 0, largest = 0;
-    std::vector<NearSphere> spheres;
     for (std::size_t i = 0; i < all.size(); ++i) {
       fastest = std::max(fastest, (all[i].velocity - mean).norm());
-      spheres.push_back({all[i].position, scene_->hard.bodies[i].radius});
-      largest = std::max(largest, spheres.back().radius);
+      largest = std::max(largest, hard.bodies[i].radius);
     }
     if (fastest == 0) return kNever;
     const double horizon = std::min(limit, largest / fastest);
     double first = horizon < limit ? horizon : kNever;
-    for (const auto& [i, j] : near_pairs(spheres, 2 * fastest * horizon, scene_->hard.periodic))
+    for (const auto& [i, j] :
+         near_pairs(near_spheres(hard, all), 2 * fastest * horizon, hard.periodic))
       first = std::min(first, touch(i, j, horizon));
     return first;
   }

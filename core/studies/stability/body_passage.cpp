@@ -30,28 +30,18 @@ void BodyPassage::begin(std::span<const BodyState> states) {
   find_near();
 }
 
-Vector3 BodyPassage::nearest_image(Vector3 apart) const {
-  const Vector2& cell = path_->scene().hard.periodic;
-  for (int k = 0; k < 2; ++k)
-    if (cell[k] > 0) apart[k] = std::remainder(apart[k], cell[k]);
-  return apart;
-}
-
 void BodyPassage::find_near() {
-  const auto& bodies = path_->scene().hard.bodies;
-  near_.clear();
-  for (std::size_t j = 1; j < bodies.size(); ++j)
-    for (std::size_t i = 0; i < j; ++i) {
-      const double reach = bodies[i].radius + bodies[j].radius + skin_;
-      const Vector3 apart = nearest_image(positions_[j] - positions_[i]);
-      if (apart.squaredNorm() <= reach * reach)
-        near_.push_back({static_cast<int>(i), static_cast<int>(j)});
-    }
+  const Scene& scene = path_->scene().hard;
+  std::vector<NearSphere> spheres;
+  for (std::size_t i = 0; i < positions_.size(); ++i)
+    spheres.push_back({positions_[i], scene.bodies[i].radius});
+  near_ = near_pairs(spheres, skin_, scene.periodic);
   budget_ = 0.5 * skin_;
 }
 
 std::string BodyPassage::take(std::span<const BodyState> states) {
-  const auto& bodies = path_->scene().hard.bodies;
+  const Scene& scene = path_->scene().hard;
+  const auto& bodies = scene.bodies;
   std::vector<Vector3> moved(states.size());
   double farthest = 0;
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -68,14 +58,13 @@ std::string BodyPassage::take(std::span<const BodyState> states) {
   budget_ -= farthest;
 
   std::string passed;
-  for (const Pair& pair : near_) {
-    const auto i = static_cast<std::size_t>(pair.first), j = static_cast<std::size_t>(pair.second);
+  for (const auto& [i, j] : near_) {
     const double reach = bodies[i].radius + bodies[j].radius;
     const double smaller = std::min(bodies[i].radius, bodies[j].radius);
-    const Vector3 apart = nearest_image(positions_[j] - positions_[i]);
+    const Vector3 apart = scene.to_nearest_image(positions_[j] - positions_[i]);
     const Vector3 step = moved[j] - moved[i];
-    const double beyond =
-        reach - nearest_on_way(apart, step) - path_->overlap(pair.first, pair.second);
+    const double beyond = reach - nearest_on_way(apart, step) -
+                          path_->overlap(static_cast<int>(i), static_cast<int>(j));
     depth_ = std::max(depth_, beyond / smaller);
     if (beyond > smaller && passed.empty())
       passed = fmt::format("bodies {} and {} come {:.3g} smaller radii deep into each other", i, j,

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "reference/near_pairs.h"
 #include "studies/stability/reference_path.h"
 
 namespace slipcheck {
@@ -31,15 +32,11 @@ class BodyPassage {
   double depth() const { return depth_; }
 
  private:
-  struct Pair {
-    int first, second;
-  };
   void find_near();
-  Vector3 nearest_image(Vector3 apart) const;
 
   const ReferencePath* path_;
   std::vector<Vector3> positions_;  ///< in the frame before
-  std::vector<Pair> near_;          ///< that may meet before `budget_` is used up
+  std::vector<NearPair> near_;      ///< that may meet before `budget_` is used up
   double skin_ = 0;                 ///< how much farther than touching is near [m]
   double budget_ = 0;               ///< what the fastest body may still move [m]
   double depth_ = 0;

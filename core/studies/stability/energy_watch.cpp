@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "reference/overlaps.h"
 #include "studies/stability/scene_energy.h"
 
 namespace slipcheck {

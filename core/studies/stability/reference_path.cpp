@@ -7,6 +7,7 @@
 
 #include "physics/numbers.h"
 #include "reference/initial_contacts.h"
+#include "reference/overlaps.h"
 #include "scenario/observable_key.h"
 #include "studies/stability/scene_energy.h"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 namespace slipcheck {
 
@@ -24,20 +23,6 @@ double potential_energy(const Scene& scene, std::span<const BodyState> states) {
     energy += scene.bodies[i].mass *
               (scene.gravity * (x.z() - scene.bodies[i].radius) - scene.downhill.dot(way));
   }
-  return energy;
-}
-
-double elastic_energy(const ContactScene& scene, std::span<const BodyState> states) {
-  if (scene.is_hard()) return 0;
-  double energy = 0;
-  for (std::size_t j = 0; j < states.size(); ++j)
-    for (std::size_t i = 0; i < j; ++i) {
-      const double reach = scene.hard.bodies[i].radius + scene.hard.bodies[j].radius;
-      const double overlap = reach - (states[i].position - states[j].position).norm();
-      if (!(overlap > 0)) continue;
-      if (const auto contact = scene.contact_of(i, j))
-        energy += std::visit([&](const auto& law) { return law.energy(overlap); }, contact->normal);
-    }
   return energy;
 }
 

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "physics/sphere.h"
-#include "scene/contact_scene.h"
+#include "scene/scene.h"
 
 namespace slipcheck {
 
@@ -13,9 +13,6 @@ double kinetic_energy(const Scene& scene, std::span<const BodyState> states);
 /// Energy of gravity [J], 0 where all bodies lie on the plane at their first places: m g (z − R),
 /// and on a tilted plane −m a·(x − x_0), a the downhill acceleration.
 double potential_energy(const Scene& scene, std::span<const BodyState> states);
-
-/// Energy in the overlaps of soft contacts of bodies [J]; that of bent asperities is no part of it.
-double elastic_energy(const ContactScene& scene, std::span<const BodyState> states);
 
 /// Between what limits [J] the energy of a state that an engine shows lies.
 struct EnergyRange {
