@@ -10,6 +10,7 @@
 #include "reference/piles/pile_solver.h"
 #include "reference/steps/grain_solver.h"
 #include "reference/steps/step_solver.h"
+#include "scenario/load.h"
 
 namespace slipcheck {
 namespace {
@@ -96,6 +97,33 @@ TEST(ManyThreads, GiveTheBitsOfOneToStepsInSpace) {
   const auto alone = hash_of_steps(scene, 3e-3, {.step = 1e-5});
   for (const std::size_t threads : kThreads)
     EXPECT_EQ(hash_of_steps(scene, 3e-3, {.step = 1e-5, .threads = threads}), alone) << threads;
+}
+
+/// Radii drawn from a range, so that each two have a contact of their own.
+TEST(ManyThreads, GiveTheBitsOfOneToContactsOfTheirOwn) {
+  const ContactScene scene = make_contact_scene(
+      parse_scenario("slipcheck: 1\nname: drawn\ntitle: t\ngravity: 9.81\n"
+                     "materials: {steel: {density: 7850}}\n"
+                     "contacts:\n"
+                     "  - between: [steel, steel]\n"
+                     "    normal: {model: linear, restitution: 0.9, collision_time: 1e-3}\n"
+                     "    tangential: {model: viscous, damping_ratio: 0.5, friction: 0.3}\n"
+                     "  - {between: [steel, substrate], friction: 0.1}\n"
+                     "substrate: {motion: {kind: oscillate, amplitude: [5 mm, 0], frequency: 5}}\n"
+                     "fill: {prefix: g, material: steel, seed: 1, speed: 1, count: 1500,\n"
+                     "       radius: {uniform: [1 mm, 2 mm]}, area: [0, 0, 180 mm, 180 mm]}\n"
+                     "run: {until: 1}\ncompare: {engines: []}\n",
+                     "s.yaml"));
+  ASSERT_TRUE(scene.own);
+  const auto hash = [&](std::size_t threads) {
+    StepSolver solver(scene, scene.hard.initial, {.step = 2e-5, .threads = threads});
+    const SolvedRun run = solver.run(until_time(6e-3), nullptr);
+    EXPECT_TRUE(run.reached) << run.reason;
+    EXPECT_GT(run.collisions, 500u);
+    return hash_of(solver.states());
+  };
+  const auto alone = hash(1);
+  for (const std::size_t threads : kThreads) EXPECT_EQ(hash(threads), alone) << threads;
 }
 
 }  // namespace

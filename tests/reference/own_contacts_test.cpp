@@ -12,6 +12,7 @@
 #include "reference/piles/pile_solver.h"
 #include "reference/reference_solver.h"
 #include "reference/steps/step_solver.h"
+#include "scenario/load.h"
 
 namespace slipcheck {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -43,16 +44,20 @@ class StepLaws {
       for (std::size_t i = 0; i < j; ++i) number_.push_back(in_table(i, j));
   }
   /// For the neighbours, which are new.
-  void find(const StepNeighbours& neighbours, const StepWorld& world) {
+  void find(StepNeighbours& neighbours, const StepWorld& world) {
     const std::vector<StepNeighbour>& all = neighbours.all();
     number_.assign(all.size(), 0);
     if (!scene_->own && rows_ == 1) return;
-    if (scene_->own) laws_.clear();
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const std::size_t i = world.number_of(all[k].first), j = world.number_of(all[k].second);
-      number_[k] = scene_->own ? static_cast<std::uint32_t>(k) : in_table(i, j);
-      if (scene_->own) laws_.push_back(make_(*scene_->contact_of(i, j)));
-    }
+    if (scene_->own) laws_.resize(all.size(), laws_.front());
+    constexpr std::size_t kShare = 1024;
+    neighbours.team().run((all.size() + kShare - 1) / kShare, [&](std::size_t share) {
+      const std::size_t end = std::min(all.size(), (share + 1) * kShare);
+      for (std::size_t k = share * kShare; k < end; ++k) {
+        const std::size_t i = world.number_of(all[k].first), j = world.number_of(all[k].second);
+        number_[k] = scene_->own ? static_cast<std::uint32_t>(k) : in_table(i, j);
+        if (scene_->own) laws_[k] = make_(*scene_->contact_of(i, j));
+      }
+    });
   }
   /// Of that pair, or those neighbours.
   const Law& operator[](std::size_t pair) const { return laws_[number_[pair]]; }
