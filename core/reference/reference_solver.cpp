@@ -105,8 +105,8 @@ ReferenceSolver::ReferenceSolver(const ContactScene& scene, const ReferenceSetti
   scene.hard.box ? choose_in_box() : choose_on_plane();
   if (scene.own && !is_stepped() && !is_piled())
     throw Unsupported(
-        "bodies of too many sizes for a table of what each two do to each other are only solved in "
-        "steps: compare.reference may be steps, where bodies do not move in a container");
+        "bodies of so many sizes that each two have a contact of their own are solved in steps "
+        "alone, and not in a container; compare.reference may be steps");
 }
 
 void ReferenceSolver::choose_in_box() {

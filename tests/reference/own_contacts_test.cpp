@@ -162,9 +162,8 @@ TEST(OwnContacts, AreSolvedInStepsAlone) {
     ReferenceSettings settings;
     settings.asked = asked;
     EXPECT_EQ(test::refusal_of<Unsupported>([&] { ReferenceSolver(own, settings); }),
-              "bodies of too many sizes for a table of what each two do to each other are only "
-              "solved in steps: compare.reference may be steps, where bodies do not move in a "
-              "container");
+              "bodies of so many sizes that each two have a contact of their own are solved in "
+              "steps alone, and not in a container; compare.reference may be steps");
   }
   EXPECT_EQ(test::refusal_of<Unsupported>([&] { EngineScene scene(own); }),
             "no engine is given bodies that have each two a contact of their own");

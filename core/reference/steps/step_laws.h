@@ -49,10 +49,10 @@ class StepLaws {
     number_.assign(all.size(), 0);
     if (!scene_->own && rows_ == 1) return;
     if (scene_->own) laws_.resize(all.size(), laws_.front());
-    constexpr std::size_t kShare = 1024;
-    neighbours.team().run((all.size() + kShare - 1) / kShare, [&](std::size_t share) {
-      const std::size_t end = std::min(all.size(), (share + 1) * kShare);
-      for (std::size_t k = share * kShare; k < end; ++k) {
+    constexpr std::size_t kPairsAtOnce = 1024;
+    neighbours.team().run((all.size() + kPairsAtOnce - 1) / kPairsAtOnce, [&](std::size_t share) {
+      const std::size_t end = std::min(all.size(), (share + 1) * kPairsAtOnce);
+      for (std::size_t k = share * kPairsAtOnce; k < end; ++k) {
         const std::size_t i = world.number_of(all[k].first), j = world.number_of(all[k].second);
         number_[k] = scene_->own ? static_cast<std::uint32_t>(k) : in_table(i, j);
         if (scene_->own) laws_[k] = make_(*scene_->contact_of(i, j));
