@@ -124,6 +124,29 @@ TEST(OwnContacts, OfStepsGiveTheBitsOfTheTable) {
   }
 }
 
+/// Of few that are far apart none is near another for a while.
+TEST(OwnContacts, AreMadeOnceBodiesComeNear) {
+  const Scenario scenario = drawn(kNormals[0], kViscous, 2);
+  ContactScene table = make_contact_scene(scenario), own = make_contact_scene(scenario, 3);
+  ASSERT_TRUE(own.own);
+  for (Scene* scene : {&table.hard, &own.hard}) {
+    scene->confined = true;
+    for (std::size_t i = 0; i < 4; ++i)
+      scene->initial[i] = {{i < 2 ? 0.025 * static_cast<double>(i) : 0,
+                            i < 2 ? 0 : static_cast<double>(i), scene->bodies[i].radius},
+                           {i == 0 ? 2.0 : 0, 0, 0},
+                           Vector3::Zero()};
+  }
+  const StepSettings settings{.step = 1e-6, .most_in_all_pairs = 2};
+  StepSolver in_table(table, table.hard.initial, settings);
+  StepSolver by_own(own, own.hard.initial, settings);
+  const SolvedRun a = in_table.run(until_time(0.02), nullptr);
+  const SolvedRun b = by_own.run(until_time(0.02), nullptr);
+  EXPECT_EQ(a.collisions, 1u);
+  EXPECT_EQ(b.collisions, 1u);
+  expect_same(in_table.states(), by_own.states());
+}
+
 TEST(OwnContacts, AreFoundAgainByARunThatGoesOn) {
   const ContactScene own = make_contact_scene(drawn(kNormals[0], kViscous), 3);
   const StepSettings settings{.step = ReferenceSolver(own, Compare::Reference::steps).step()};

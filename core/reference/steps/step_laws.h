@@ -25,7 +25,10 @@ class StepLaws {
   /// two rows do; make: a Law, but for `clamped`, of a SoftContact.
   template <class CanMeet, class Make>
   StepLaws(const ContactScene& scene, const Law& example, const CanMeet& can_meet, const Make& make)
-      : scene_(&scene), rows_(scene.hard.row_count()), laws_(rows_ * rows_, example) {
+      : scene_(&scene),
+        rows_(scene.hard.row_count()),
+        example_(example),
+        laws_(rows_ * rows_, example) {
     make_ = [make](const SoftContact& contact) {
       Law law = make(contact);
       law.clamped = contact.end == ContactEnd::zero_force;
@@ -48,7 +51,7 @@ class StepLaws {
     const std::vector<StepNeighbour>& all = neighbours.all();
     number_.assign(all.size(), 0);
     if (!scene_->own && rows_ == 1) return;
-    if (scene_->own) laws_.resize(all.size(), laws_.front());
+    if (scene_->own) laws_.resize(all.size(), example_);
     constexpr std::size_t kPairsAtOnce = 1024;
     neighbours.team().run((all.size() + kPairsAtOnce - 1) / kPairsAtOnce, [&](std::size_t share) {
       const std::size_t end = std::min(all.size(), (share + 1) * kPairsAtOnce);
@@ -69,6 +72,7 @@ class StepLaws {
 
   const ContactScene* scene_;
   std::size_t rows_;
+  Law example_;
   std::function<Law(const SoftContact&)> make_;
   std::vector<Law> laws_;
   std::vector<std::uint32_t> number_;  // of laws, by pair
