@@ -1,5 +1,7 @@
 #include <cmath>
+#include <set>
 
+#include "scenario/rules/fill_names.h"
 #include "scenes.h"
 
 namespace slipcheck {
@@ -113,6 +115,47 @@ TEST(Fill, RefusesWhatDoesNotFit) {
            "bodies: [{name: g7, material: steel, sphere: {radius: 0.1}, "
            "position: [0, 0]}]\nrun:"),
       "s.yaml:11:16: fill.prefix: must give unique names, but g7 is also in bodies[0], got g");
+}
+
+Fill named(const std::string& prefix, std::int64_t count, const std::string& path) {
+  Fill fill;
+  fill.prefix = prefix;
+  fill.count = count;
+  fill.path = path;
+  fill.complete = true;
+  return fill;
+}
+
+/// All that two fills and two bodies may be called, against what a list of all names tells.
+TEST(Fill, KnowsNamesThatAreGivenTwice) {
+  const std::vector<std::string> prefixes = {"g", "g1", "g10", "g0", "gg", "h"};
+  const std::vector<std::int64_t> counts = {1, 9, 10, 12, 120};
+  std::size_t shared_by_some = 0;
+  for (const std::string& first : prefixes)
+    for (const std::string& second : prefixes)
+      for (const std::int64_t many : counts)
+        for (const std::int64_t few : counts) {
+          const Fill one = named(first, many, "one"), two = named(second, few, "two");
+          std::set<std::string> all = {"g7", "g110"};
+          for (std::int64_t k = 1; k <= many; ++k) all.insert(first + std::to_string(k));
+          std::string expected;
+          for (std::int64_t k = few; k >= 1; --k)
+            if (all.contains(second + std::to_string(k))) expected = second + std::to_string(k);
+          SceneNames names;
+          names.add("g7", "a body");
+          names.add("g110", "another");
+          names.add(one);
+          const auto shared = names.add(two);
+          EXPECT_EQ(shared ? shared->name : "", expected)
+              << first << ' ' << many << ", " << second << ' ' << few;
+          shared_by_some += shared.has_value();
+          for (const std::string& name : all) EXPECT_TRUE(names.path_of(name)) << name;
+          for (const char* name : {"g", "g01", "g121", "g1a", "g99999999999999999999", "h0"})
+            EXPECT_EQ(names.path_of(name) != nullptr,
+                      all.contains(name) || number_in(two, name) > 0)
+                << name;
+        }
+  EXPECT_GT(shared_by_some, 100u);
 }
 
 TEST(Fill, TakesManyBodies) {

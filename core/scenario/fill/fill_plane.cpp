@@ -8,11 +8,13 @@
 namespace slipcheck {
 namespace {
 
-constexpr double kMostCells = 1e9;  // along one axis
+constexpr double kMostDiameters = 1e9;  // along one axis
+constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-std::uint64_t key(std::int64_t i, std::int64_t j) {
-  return static_cast<std::uint64_t>(i) * 0x100000000u ^
-         (static_cast<std::uint64_t>(j) & 0xFFFFFFFFu);
+/// Of cells as wide as a diameter, or of so few that there are some two for each ball.
+double cell_width(const Vector2& size, double diameter, std::int64_t count) {
+  const double cells = 2 * static_cast<double>(count);
+  return std::max({diameter, std::sqrt(size.prod() / cells), size.maxCoeff() / cells});
 }
 
 }  // namespace
@@ -21,12 +23,17 @@ FillPlane::FillPlane(const Fill& fill, const WrittenScene& scene)
     : up_(scene.container ? 2 : 1),
       origin_(fill.area[0], fill.area[1]),
       size_(fill.area[2] - fill.area[0], fill.area[3] - fill.area[1]),
-      cell_(2 * fill.most_radius) {
+      diameter_(2 * fill.most_radius),
+      cell_(cell_width(size_, diameter_, fill.count)),
+      cells_{static_cast<std::size_t>(size_.x() / cell_) + 1,
+             static_cast<std::size_t>(size_.y() / cell_) + 1},
+      last_(cells_[0] * cells_[1], kNone) {
   if (scene.substrate) periodic_ = scene.substrate->periodic;
-  cells_.reserve(static_cast<std::size_t>(fill.count));
+  before_.reserve(static_cast<std::size_t>(fill.count));
+  balls_.reserve(static_cast<std::size_t>(fill.count));
 }
 
-bool FillPlane::has_few_cells() const { return size_.maxCoeff() / cell_ < kMostCells; }
+bool FillPlane::has_few_cells() const { return size_.maxCoeff() / diameter_ < kMostDiameters; }
 
 void FillPlane::insert(const Body& body) {
   Vector3 position = body.initial.position;
@@ -51,7 +58,10 @@ void FillPlane::insert(const Body& body) {
     const double margin = periodic_ ? reach + (*periodic_)[axis] : reach;
     if (at < -margin || at > size_[axis] + margin) return;
   }
-  cells_[key(cell_of(position, 0), cell_of(position, 1))].push_back(ball);
+  std::uint32_t& last = last_[cell_of(position, 0) * cells_[1] + cell_of(position, 1)];
+  before_.push_back(last);
+  last = static_cast<std::uint32_t>(balls_.size());
+  balls_.push_back(ball);
 }
 
 bool FillPlane::is_free(const Vector3& position, double radius) const {
@@ -70,9 +80,10 @@ bool FillPlane::is_free(const Vector3& position, double radius) const {
   return true;
 }
 
-std::int64_t FillPlane::cell_of(const Vector3& position, int axis) const {
-  return static_cast<std::int64_t>(
-      std::floor((position[axis == 0 ? 0 : up_] - origin_[axis]) / cell_));
+std::size_t FillPlane::cell_of(const Vector3& position, int axis, std::int64_t shift) const {
+  const double cell = std::floor((position[axis == 0 ? 0 : up_] - origin_[axis]) / cell_);
+  const auto last = static_cast<double>(cells_[static_cast<std::size_t>(axis)] - 1);
+  return static_cast<std::size_t>(std::clamp(cell + static_cast<double>(shift), 0.0, last));
 }
 
 bool FillPlane::is_image_free(const Vector3& position, double radius) const {
@@ -80,13 +91,11 @@ bool FillPlane::is_image_free(const Vector3& position, double radius) const {
     return overlap_of(position, radius, ball.position, ball.radius) > 0;
   };
   if (std::ranges::any_of(large_, meets)) return false;
-  const std::int64_t i0 = cell_of(position, 0), j0 = cell_of(position, 1);
-  for (std::int64_t i = i0 - neighbours_; i <= i0 + neighbours_; ++i) {
-    for (std::int64_t j = j0 - neighbours_; j <= j0 + neighbours_; ++j) {
-      const auto found = cells_.find(key(i, j));
-      if (found != cells_.end() && std::ranges::any_of(found->second, meets)) return false;
-    }
-  }
+  const std::size_t i1 = cell_of(position, 0, neighbours_), j1 = cell_of(position, 1, neighbours_);
+  for (std::size_t i = cell_of(position, 0, -neighbours_); i <= i1; ++i)
+    for (std::size_t j = cell_of(position, 1, -neighbours_); j <= j1; ++j)
+      for (std::uint32_t k = last_[i * cells_[1] + j]; k != kNone; k = before_[k])
+        if (meets(balls_[k])) return false;
   return true;
 }
 

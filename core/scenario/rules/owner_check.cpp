@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <utility>
 
 #include "scenario/owned_names.h"
+#include "scenario/rules/fill_names.h"
 #include "scenario/rules/spanning_rules.h"
 #include "scenario/surfaces.h"
 
@@ -16,12 +16,8 @@ namespace {
 using Place = std::pair<std::size_t, std::int64_t>;
 
 std::optional<Place> place_in(const Fill& fill, const std::string& name, std::size_t entry) {
-  if (!fill.complete || !name.starts_with(fill.prefix)) return std::nullopt;
-  const std::string digits = name.substr(fill.prefix.size());
-  std::int64_t number = 0;
-  std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (std::to_string(number) != digits || number < 1 || number > fill.count) return std::nullopt;
-  return Place(entry, number);
+  const std::int64_t number = number_in(fill, name);
+  return number > 0 ? std::optional(Place(entry, number)) : std::nullopt;
 }
 
 std::optional<Place> place_of(const WrittenScene& written, const std::string& name) {

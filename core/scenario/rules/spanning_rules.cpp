@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "base/stop_scope.h"
+#include "scenario/rules/fill_names.h"
 #include "scenario/rules/rules.h"
 #include "scenario/surfaces.h"
 
@@ -14,17 +14,17 @@ namespace {
 
 /// Observables of the pair "a-b" must not be taken for those of a body of that name or of another
 /// pair: "a-b" with "c", and "a" with "b-c".
-void check_joined_names(const std::map<std::string, std::string>& path_of, Reading& reading) {
+void check_joined_names(const SceneNames& names, Reading& reading) {
   std::map<std::string, std::string> left_rest, right_rest;  // by the rest: a name it belongs to
   const auto known = [&](const std::string& name) {
-    return path_of.contains(name) || name == "substrate" || name == "floor" || name == "wall" ||
+    return names.path_of(name) || name == "substrate" || name == "floor" || name == "wall" ||
            name == "lid";
   };
-  for (const auto& [name, path] : path_of) {
+  for (const std::string& name : names.joined()) {
     for (std::size_t at = name.find('-'); at != std::string::npos; at = name.find('-', at + 1)) {
       const std::string left = name.substr(0, at), right = name.substr(at + 1);
       if (known(left) && known(right)) {
-        reading.fault_at(path + ".name",
+        reading.fault_at(*names.path_of(name) + ".name",
                          fmt::format("must not read like the pair of {} and {}", left, right));
       }
       if (known(left)) left_rest.emplace(right, name);
@@ -34,7 +34,7 @@ void check_joined_names(const std::map<std::string, std::string>& path_of, Readi
   for (const auto& [rest, name] : left_rest) {
     const auto other = right_rest.find(rest);
     if (other == right_rest.end() || other->second == name) continue;
-    reading.fault_at(path_of.at(name) + ".name",
+    reading.fault_at(*names.path_of(name) + ".name",
                      fmt::format("must not make pairs that read alike, as with {}", other->second));
   }
 }
@@ -69,22 +69,22 @@ void check_names(const WrittenScene& written, Reading& reading) {
       reading.fault_at("materials." + each.first, "must not have a reserved name");
     }
   }
-  std::map<std::string, std::string> path_of;  // of each body or fill, by name
+  SceneNames names;
   const auto add_name = [&](const std::string& name, const std::string& path) {
     if (name.empty()) return;
     if (is_reserved_name(name)) {
       reading.fault_at(path + ".name", "must not be a reserved name");
     }
-    if (!path_of.emplace(name, path).second) {
+    if (!names.add(name, path)) {
       reading.fault_at(path + ".name",
-                       fmt::format("must be unique, but is also {}", path_of.at(name)));
+                       fmt::format("must be unique, but is also {}", *names.path_of(name)));
     }
   };
   for (const WrittenSurface& surface : written.surfaces) {
     add_name(surface.name, surface.path);
     if (const auto* box = std::get_if<BoxOfPlates>(&surface.shape))
       for (const NamedSurface& plate : plates_of(surface, *box))
-        path_of.emplace(plate.name, surface.path);
+        names.add(plate.name, surface.path);
     check_material(surface.material, surface.path + ".material", written, reading);
   }
   std::vector<const Fill*> fills;
@@ -99,17 +99,12 @@ void check_names(const WrittenScene& written, Reading& reading) {
   for (const Fill& fill : written.fill) fills.push_back(&fill);
   for (const Fill* fill : fills) {
     check_material(fill->material, fill->path + ".material", written, reading);
-    for (std::int64_t i = 1; fill->complete && i <= fill->count; ++i) {
-      heed_stop();
-      const std::string name = fill->prefix + std::to_string(i);
-      if (path_of.emplace(name, fill->path).second) continue;
+    if (const auto shared = names.add(*fill))
       reading.fault_at(
           fill->path + ".prefix",
-          fmt::format("must give unique names, but {} is also in {}", name, path_of.at(name)));
-      break;
-    }
+          fmt::format("must give unique names, but {} is also in {}", shared->name, shared->path));
   }
-  check_joined_names(path_of, reading);
+  check_joined_names(names, reading);
 }
 
 void check_surroundings(const WrittenScene& written, Reading& reading) {
