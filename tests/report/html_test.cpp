@@ -343,6 +343,31 @@ TEST(Html, DrawsTheFloorsSwingAndAPeriodicCell) {
   EXPECT_EQ(count(page_of({scene}), "<path class=\"cell\""), 1u);
 }
 
+/// No page grows with the scene.
+TEST(Html, DrawsManyBodiesInPart) {
+  SceneRecord scene = lottery_scene();
+  const Body ball = scene.scenario.bodies[0];
+  scene.scenario.bodies.clear();
+  for (int k = 0; k < 1600; ++k) {
+    Body& body = scene.scenario.bodies.emplace_back(ball);
+    body.name = fmt::format("g{}", k);
+    body.initial.position = {0.01 * (k % 40), 0.01 * (k / 40), body.sphere.radius};
+    body.initial.velocity.setZero();
+  }
+  // Of one in the middle and one at the corner.
+  scene.scenario.bodies[0].initial.velocity.x() = scene.scenario.bodies[820].initial.velocity.x() =
+      1;
+  const std::string html = page_of({scene});
+  EXPECT_EQ(count(html, "<circle class=\"ball"), 500u);
+  EXPECT_EQ(count(html, "<path class=\"arrow\""), 1u);
+  EXPECT_TRUE(contains(html, "1600 bodies"));
+  EXPECT_TRUE(contains(html, "Drawn are 500 in their middle."));
+  scene.scenario.bodies.resize(500);
+  const std::string all = page_of({scene});
+  EXPECT_EQ(count(all, "<circle class=\"ball"), 500u);
+  EXPECT_FALSE(contains(all, "in their middle"));
+}
+
 TEST(Html, CanBeEmpty) {
   EXPECT_TRUE(contains(page_of({}), "</html>"));
   SceneRecord scene;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "report/html/html_text.h"
 #include "report/rows/quantity.h"
@@ -18,6 +20,7 @@ constexpr double kMargin = 22;         // for names
 constexpr double kSmallestRadius = 2;  // what is smaller is drawn so, and hollow
 constexpr std::size_t kMostNames = 30;
 constexpr std::size_t kMostDescribed = 6;
+constexpr std::size_t kMostDrawn = 500;  // of more a part is
 
 bool is_seen_from_side(const Scenario& scenario) {
   if (std::holds_alternative<Container>(scenario.surroundings)) return true;
@@ -27,20 +30,75 @@ bool is_seen_from_side(const Scenario& scenario) {
   });
 }
 
+Vector2 seen(const Vector3& v, bool from_side) {
+  return from_side ? Vector2(v.x(), v.z()) : v.head<2>();
+}
+
+/// The bodies that are drawn: all, or of many those in the middle of where they are, in a part of
+/// the same shape as the whole.
+std::vector<const Body*> drawn_bodies(const Scenario& scenario, bool from_side) {
+  std::vector<const Body*> drawn;
+  drawn.reserve(scenario.bodies.size());
+  for (const Body& body : scenario.bodies) drawn.push_back(&body);
+  if (drawn.size() <= kMostDrawn) return drawn;
+  const auto place = [&](const Body* body) { return seen(body->initial.position, from_side); };
+  Vector2 middle, extent;
+  for (int k = 0; k < 2; ++k) {
+    const auto along = [&](const Body* body) { return place(body)[k]; };
+    const auto median = drawn.begin() + static_cast<std::ptrdiff_t>(drawn.size() / 2);
+    std::ranges::nth_element(drawn, median, {}, along);
+    middle[k] = along(*median);
+    const auto [low, high] = std::ranges::minmax(drawn, {}, along);
+    extent[k] = std::max(along(high) - along(low), 1e-300);
+  }
+  const auto last = drawn.begin() + kMostDrawn;
+  std::ranges::nth_element(drawn, last, {}, [&](const Body* body) {
+    return (place(body) - middle).cwiseQuotient(extent).cwiseAbs().maxCoeff();
+  });
+  drawn.erase(last, drawn.end());
+  return drawn;
+}
+
 /// From the scene [m] to the drawing, y downwards.
 class View {
  public:
-  explicit View(const Scenario& scenario) : from_side_(is_seen_from_side(scenario)) {
+  explicit View(const Scenario& scenario)
+      : from_side_(is_seen_from_side(scenario)), bodies_(drawn_bodies(scenario, from_side_)) {
     double fastest = 0;
     Vector2 low = Vector2::Constant(INFINITY), high = -low;
     const auto cover = [&](const Vector2& point, double around) {
       low = low.cwiseMin(point - Vector2::Constant(around));
       high = high.cwiseMax(point + Vector2::Constant(around));
     };
-    for (const Body& body : scenario.bodies) {
-      fastest = std::max(fastest, seen(body.initial.velocity).norm());
-      cover(seen(body.initial.position), body.sphere.radius);
+    for (const Body* body : bodies_) {
+      fastest = std::max(fastest, seen(body->initial.velocity).norm());
+      cover(seen(body->initial.position), body->sphere.radius);
     }
+    if (bodies_.size() == scenario.bodies.size()) cover_surroundings(scenario, low, high, cover);
+    // The fastest body's arrow is a quarter of the balls' extent; of many, what lies between two.
+    const double many = 1 / std::sqrt(static_cast<double>(bodies_.size()));
+    const double longest = bodies_.size() > kMostNames ? std::min(0.05, many) : 0.25;
+    if (fastest > 0) arrow_time_ = longest * (high - low).maxCoeff() / fastest;
+    for (const Body* body : bodies_)
+      cover(seen(body->initial.position) + arrow_time_ * seen(body->initial.velocity), 0);
+    const Vector2 extent = high - low;
+    scale_ = std::min((kWidth - 2 * kMargin) / extent.x(), (kTallest - 2 * kMargin) / extent.y());
+    height_ = std::max(extent.y() * scale_ + 2 * kMargin, 90.0);
+    origin_ = Vector2(0.5 * kWidth, 0.5 * height_) -
+              scale_ * Vector2(0.5 * (low.x() + high.x()), -0.5 * (low.y() + high.y()));
+  }
+
+  bool from_side() const { return from_side_; }
+  const std::vector<const Body*>& bodies() const { return bodies_; }  ///< that are drawn
+  double height() const { return height_; }
+  double scale() const { return scale_; }  ///< pixels for one metre
+  Vector2 place(const Vector3& position) const { return origin_ + flipped(seen(position)); }
+  Vector2 arrow(const Vector3& velocity) const { return arrow_time_ * flipped(seen(velocity)); }
+
+ private:
+  template <class Cover>
+  void cover_surroundings(const Scenario& scenario, const Vector2& low, const Vector2& high,
+                          const Cover& cover) const {
     if (from_side_) cover(Vector2(0.5 * (low.x() + high.x()), 0), 0);
     if (const auto* box = std::get_if<Container>(&scenario.surroundings)) {
       cover(Vector2(0, -box->floor_amplitude), 0);
@@ -52,29 +110,12 @@ class View {
       cover(Vector2::Zero(), 0);
       cover(*plane->periodic, 0);
     }
-    // The fastest body's arrow is a quarter of the balls' extent, less where there are many.
-    const double longest = scenario.bodies.size() > kMostNames ? 0.05 : 0.25;
-    if (fastest > 0) arrow_time_ = longest * (high - low).maxCoeff() / fastest;
-    for (const Body& body : scenario.bodies)
-      cover(seen(body.initial.position) + arrow_time_ * seen(body.initial.velocity), 0);
-    const Vector2 extent = high - low;
-    scale_ = std::min((kWidth - 2 * kMargin) / extent.x(), (kTallest - 2 * kMargin) / extent.y());
-    height_ = std::max(extent.y() * scale_ + 2 * kMargin, 90.0);
-    origin_ = Vector2(0.5 * kWidth, 0.5 * height_) -
-              scale_ * Vector2(0.5 * (low.x() + high.x()), -0.5 * (low.y() + high.y()));
   }
-
-  bool from_side() const { return from_side_; }
-  double height() const { return height_; }
-  double scale() const { return scale_; }  ///< pixels for one metre
-  Vector2 place(const Vector3& position) const { return origin_ + flipped(seen(position)); }
-  Vector2 arrow(const Vector3& velocity) const { return arrow_time_ * flipped(seen(velocity)); }
-
- private:
-  Vector2 seen(const Vector3& v) const { return from_side_ ? Vector2(v.x(), v.z()) : v.head<2>(); }
+  Vector2 seen(const Vector3& v) const { return slipcheck::seen(v, from_side_); }
   Vector2 flipped(const Vector2& v) const { return scale_ * Vector2(v.x(), -v.y()); }
 
   bool from_side_;
+  std::vector<const Body*> bodies_;
   double arrow_time_ = 0;
   double scale_ = 1;
   double height_ = 0;
@@ -157,6 +198,8 @@ std::string caption(const Scenario& scenario, const View& view) {
     }
     text += fmt::format(" {} bodies, R = {}, the fastest at {}.", bodies.size(),
                         range(small, large, kLength), quantity(fastest, kVelocity, 3));
+    if (view.bodies().size() < bodies.size())
+      text += fmt::format(" Drawn are {} in their middle.", view.bodies().size());
   }
   return text;
 }
@@ -207,8 +250,8 @@ std::string scene_drawing(const Scenario& scenario) {
       "<figure class=\"drawing\"><svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">\n",
       kWidth, view.height(), text);
   html += surroundings(scenario, view);
-  for (const Body& body : scenario.bodies)
-    html += ball(view, body, scenario.bodies.size() <= kMostNames);
+  for (const Body* body : view.bodies())
+    html += ball(view, *body, view.bodies().size() <= kMostNames);
   return html + scale_bar(view) + "</svg><figcaption>" + text + "</figcaption></figure>\n";
 }
 
