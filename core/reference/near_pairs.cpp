@@ -72,24 +72,25 @@ std::array<CellAxis, 3> axes_of(const Extent& extent, double width, std::size_t 
 /// The spheres of one level, sorted by cells.
 class Level {
  public:
-  Level(std::span<const NearSphere> spheres, std::vector<std::uint32_t> members,
-        const Extent& extent, double skin)
+  Level(const NearSpheres& spheres, std::vector<std::uint32_t> members, const Extent& extent,
+        double skin)
       : members_(std::move(members)) {
     double largest = 0;
     for (const std::uint32_t i : members_) largest = std::max(largest, spheres[i].radius);
     axes_ = axes_of(extent, 2 * largest + skin, members_.size());
     const auto cells = static_cast<std::size_t>(axes_[0].count * axes_[1].count * axes_[2].count);
-    start_.assign(cells + 1, 0);
-    std::vector<std::uint32_t> cell(members_.size());
+    start_.assign(cells + 2, 0);
+    std::vector<std::uint32_t> cell(members_.size()), sorted(members_.size());
     for (std::size_t k = 0; k < members_.size(); ++k) {
       cell[k] = static_cast<std::uint32_t>(cell_of(spheres[members_[k]].position));
-      ++start_[cell[k] + 1];
+      ++start_[cell[k] + 2];
     }
+    // start_[c + 1] is where cell c begins, and as its spheres are put there comes to where it
+    // ends.
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1), sorted(members_.size());
     sorted_.resize(members_.size());
     for (std::size_t k = 0; k < members_.size(); ++k) {
-      const std::uint32_t place = next[cell[k]]++;
+      const std::uint32_t place = start_[cell[k] + 1]++;
       sorted[place] = members_[k];
       sorted_[place] = spheres[members_[k]];
     }
@@ -169,10 +170,9 @@ class Level {
 };
 
 /// From the largest radii down; none is empty.
-std::vector<Level> levels_of(std::span<const NearSphere> spheres, const Extent& extent,
-                             double skin) {
+std::vector<Level> levels_of(const NearSpheres& spheres, const Extent& extent, double skin) {
   double largest = 0;
-  for (const NearSphere& sphere : spheres) largest = std::max(largest, sphere.radius);
+  for (std::size_t i = 0; i < spheres.size(); ++i) largest = std::max(largest, spheres[i].radius);
   std::array<std::vector<std::uint32_t>, kLevels> members;
   for (std::uint32_t i = 0; i < spheres.size(); ++i) {
     const int halvings = std::ilogb(largest / spheres[i].radius);
@@ -185,13 +185,14 @@ std::vector<Level> levels_of(std::span<const NearSphere> spheres, const Extent& 
   return levels;
 }
 
-Extent extent_of(std::span<const NearSphere> spheres, const Vector2& periodic) {
+Extent extent_of(const NearSpheres& spheres, const Vector2& periodic) {
   Extent extent;
   extent.period = {periodic.x(), periodic.y(), 0};
   Vector3 high = extent.low = spheres[0].position;
-  for (const NearSphere& sphere : spheres) {
-    extent.low = extent.low.cwiseMin(sphere.position);
-    high = high.cwiseMax(sphere.position);
+  for (std::size_t i = 1; i < spheres.size(); ++i) {
+    const Vector3 position = spheres[i].position;
+    extent.low = extent.low.cwiseMin(position);
+    high = high.cwiseMax(position);
   }
   extent.length = high - extent.low;
   return extent;
@@ -200,7 +201,7 @@ Extent extent_of(std::span<const NearSphere> spheres, const Vector2& periodic) {
 /// What is looked for in shares of some bodies.
 class Search {
  public:
-  Search(std::span<const NearSphere> spheres, double skin, const Vector2& periodic)
+  Search(const NearSpheres& spheres, double skin, const Vector2& periodic)
       : levels_(levels_of(spheres, extent_of(spheres, periodic), skin)),
         skin_(skin),
         periodic_(periodic) {
@@ -269,8 +270,8 @@ double near_skin(double speed, double step, double radius) {
   return std::clamp(kSteps * 2 * speed * step, kThinnest * radius, kThickest * radius);
 }
 
-std::vector<NearPair> near_pairs(std::span<const NearSphere> spheres, double skin,
-                                 const Vector2& periodic, ThreadTeam* team) {
+std::vector<NearPair> near_pairs(const NearSpheres& spheres, double skin, const Vector2& periodic,
+                                 ThreadTeam* team) {
   if (spheres.size() < 2) return {};
   const Search search(spheres, skin, periodic);
   std::vector<std::vector<NearPair>> parts(search.shares());
@@ -282,7 +283,7 @@ std::vector<NearPair> near_pairs(std::span<const NearSphere> spheres, double ski
   return sorted(parts, spheres.size());
 }
 
-void near_pairs_in_shares(std::span<const NearSphere> spheres, double skin, const Vector2& periodic,
+void near_pairs_in_shares(const NearSpheres& spheres, double skin, const Vector2& periodic,
                           const std::function<void(std::span<const NearPair>)>& take) {
   if (spheres.size() < 2) return;
   const Search search(spheres, skin, periodic);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/thread_team.h"
@@ -14,6 +16,25 @@ namespace slipcheck {
 struct NearSphere {
   Vector3 position = Vector3::Zero();  ///< [m]
   double radius = 0;                   ///< [m], > 0
+};
+
+/// Those of a search, where they are: of many bodies no second copy is made. What they are read
+/// from must outlive it.
+class NearSpheres {
+ public:
+  NearSpheres(std::span<const NearSphere> all)
+      : size_(all.size()), at_([all](std::size_t i) { return all[i]; }) {}
+  NearSpheres(const std::vector<NearSphere>& all) : NearSpheres(std::span(all)) {}
+  /// at: that of each body, without a change from call to call.
+  NearSpheres(std::size_t size, std::function<NearSphere(std::size_t)> at)
+      : size_(size), at_(std::move(at)) {}
+
+  std::size_t size() const { return size_; }
+  NearSphere operator[](std::size_t i) const { return at_(i); }
+
+ private:
+  std::size_t size_;
+  std::function<NearSphere(std::size_t)> at_;
 };
 
 /// Two bodies that may touch soon; first < second.
@@ -30,13 +51,13 @@ struct NearPair {
 /// 183, 931 (2012)), so that the cost goes with the spheres that are near each other, however
 /// unlike their radii are. Cells are folded onto some two for each sphere: far apart they may lie.
 /// The pairs are the same on any number of threads.
-std::vector<NearPair> near_pairs(std::span<const NearSphere> spheres, double skin,
+std::vector<NearPair> near_pairs(const NearSpheres& spheres, double skin,
                                  const Vector2& periodic = Vector2::Zero(),
                                  ThreadTeam* team = nullptr);
 
 /// The same pairs in any order, without a list of all: take() has some thousands of bodies' at a
 /// time.
-void near_pairs_in_shares(std::span<const NearSphere> spheres, double skin, const Vector2& periodic,
+void near_pairs_in_shares(const NearSpheres& spheres, double skin, const Vector2& periodic,
                           const std::function<void(std::span<const NearPair>)>& take);
 
 /// How thick a skin [m] pays: that which bodies as fast as `speed` [m/s] come through in some 30

@@ -4,12 +4,10 @@
 
 namespace slipcheck {
 
-std::vector<NearSphere> near_spheres(const Scene& scene, std::span<const BodyState> states) {
-  std::vector<NearSphere> spheres;
-  spheres.reserve(states.size());
-  for (std::size_t i = 0; i < states.size(); ++i)
-    spheres.push_back({states[i].position, scene.bodies[i].radius});
-  return spheres;
+NearSpheres near_spheres(const Scene& scene, std::span<const BodyState> states) {
+  return {states.size(), [&scene, states](std::size_t i) {
+            return NearSphere{states[i].position, scene.bodies[i].radius};
+          }};
 }
 
 double elastic_energy(const ContactScene& scene, std::span<const BodyState> states) {

@@ -19,7 +19,8 @@ struct Overlap {
   Vector3 apart;    ///< from the second's centre, its image that is nearest, to the first's [m]
 };
 
-std::vector<NearSphere> near_spheres(const Scene& scene, std::span<const BodyState> states);
+/// Of all bodies in these states; neither is copied.
+NearSpheres near_spheres(const Scene& scene, std::span<const BodyState> states);
 
 /// All of them, in order.
 template <class Visit>

@@ -291,7 +291,7 @@ void keep_on_its_way(KeptSolver& solver, StepsAsEvents* events, RunKeeper& keepe
 }  // namespace
 
 SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink, const SolverAccuracy& accuracy,
-                               RunKeeper* keeper) const {
+                               RunKeeper* keeper, const std::function<void()>& started) const {
   if (accuracy.reversed || accuracy.other_rule) return run_varied(end, sink, accuracy);
   std::optional<ContactScene> softer;
   if (softened_to() > 0 && !is_piled() && accuracy.softness != 1)
@@ -305,6 +305,7 @@ SolvedRun ReferenceSolver::run(const RunEnd& end, FrameSink* sink, const SolverA
   if (is_stepped() && !is_piled() && sink && !sink->next_look()) events.emplace(*sink);
   const std::unique_ptr<Solver> solver =
       at_start(softer ? *softer : scene(), accuracy, end, !(keeper && keeper->resumed()));
+  if (started) started();
   if (keeper)
     keep_on_its_way(dynamic_cast<KeptSolver&>(*solver), events ? &*events : nullptr, *keeper);
   SolvedRun solved = solver->run(end, events ? &*events : sink);

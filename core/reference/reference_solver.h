@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -68,9 +69,10 @@ class ReferenceSolver {
   /// Another process can go on with a run: it goes in steps.
   bool keeps_state() const { return is_piled() || is_stepped(); }
   /// keeper: null, or where keeps_state() and the bodies are not reversed what keeps the run on
-  /// its way. Throws BadState for what is no state of such a run.
+  /// its way. started: called once the run has the bodies; from then on it does not look at the
+  /// scene's `initial`. Throws BadState for what is no state of such a run.
   SolvedRun run(const RunEnd& end, FrameSink* sink, const SolverAccuracy& accuracy = {},
-                RunKeeper* keeper = nullptr) const;
+                RunKeeper* keeper = nullptr, const std::function<void()>& started = {}) const;
   /// The time [s] of the first contact of two bodies or landing, or infinity where none comes
   /// before `limit` [s], and in a box.
   double first_contact(double limit, double tolerance = SolverAccuracy{}.tolerance) const;

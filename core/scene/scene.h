@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -65,7 +66,7 @@ struct Scene {
   std::vector<BodyState> initial;  ///< one for each body
   /// Of each body, an index below `substrate.size()`. Bodies of one material that a contact tells
   /// apart by their size count as several (scene_outline.h).
-  std::vector<std::size_t> material;
+  std::vector<std::uint32_t> material;
   std::vector<SubstrateContact> substrate;  ///< by material
   std::vector<PairContact> pairs;           ///< by row × row, symmetric
   SharedRows rows;                          ///< of `pairs`: by material

@@ -9,7 +9,7 @@ namespace slipcheck {
 namespace {
 
 /// Balls of 1 cm, one for each material given, on substrates and with pairs that need nothing.
-Scene balls_of(const std::vector<std::size_t>& materials, std::size_t kinds) {
+Scene balls_of(const std::vector<std::uint32_t>& materials, std::size_t kinds) {
   Scene scene;
   scene.bodies.assign(materials.size(), Sphere{0.01, 0.1, 0.4});
   scene.initial.resize(materials.size());

@@ -123,15 +123,14 @@ void AssemblyObserver::add_pairs(const std::vector<BodyState>& bodies) {
   const double d = assembly_.mean_diameter;
   // Points, found within a distance: of spheres half as large the surfaces are in touch.
   const double furthest = std::min(kFurthest * d, region.longest());
-  std::vector<NearSphere> points;
-  points.reserve(bodies.size());
-  for (const BodyState& body : bodies) {
-    points.push_back({body.position, 0.5 * d});
-    if (region.flat) points.back().position.z() = 0;
-  }
+  const auto point = [&](std::size_t i) {
+    NearSphere at{bodies[i].position, 0.5 * d};
+    if (region.flat) at.position.z() = 0;
+    return at;
+  };
   const auto count = [&](std::span<const NearPair> pairs) {
     for (const auto& [i, j] : pairs) {
-      const Vector3 apart = hard.to_nearest_image(points[i].position - points[j].position);
+      const Vector3 apart = hard.to_nearest_image(point(i).position - point(j).position);
       const double place = std::floor(apart.norm() / d / seen.width);
       if (place < static_cast<double>(seen.counts.size()) &&
           (place + 1) * seen.width * d <= furthest)
@@ -139,7 +138,7 @@ void AssemblyObserver::add_pairs(const std::vector<BodyState>& bodies) {
     }
   };
   // In space a body has some 250 others in that distance.
-  near_pairs_in_shares(points, std::max(0.0, furthest - d), hard.periodic, count);
+  near_pairs_in_shares({bodies.size(), point}, std::max(0.0, furthest - d), hard.periodic, count);
   for (std::size_t k = 0; k < seen.counts.size(); ++k) {
     if ((static_cast<double>(k) + 1) * seen.width * d > furthest) break;
     // By Simpson's rule, of polynomials of third degree in a plane and of fifth in space.

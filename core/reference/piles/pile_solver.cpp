@@ -31,9 +31,11 @@ std::vector<bool> carried_bodies(const Scene& scene, std::span<const PileBody> b
   std::vector<bool> carried(bodies.size());
   double largest = 0;
   for (const PileBody& b : bodies) largest = std::max(largest, b.radius);
-  std::vector<NearSphere> spheres;
-  for (const PileBody& b : bodies) spheres.push_back({b.position, b.radius});
-  for (const auto& [i, j] : near_pairs(spheres, 2 * kTypedGap * largest, scene.periodic)) {
+  const auto sphere = [&](std::size_t i) {
+    return NearSphere{bodies[i].position, bodies[i].radius};
+  };
+  for (const auto& [i, j] :
+       near_pairs({bodies.size(), sphere}, 2 * kTypedGap * largest, scene.periodic)) {
     const double reach = bodies[i].radius + bodies[j].radius;
     if (scene.to_nearest_image(bodies[i].position - bodies[j].position).norm() <=
         (1 + kTypedGap) * reach)

@@ -1,5 +1,7 @@
 #include "reference/steps/grain_loop.h"
 
+#include <vector>
+
 #include "reference/steps/grain_scene.h"
 
 namespace slipcheck {
@@ -11,6 +13,7 @@ void GrainLoop::find_forces(StepWorld& world) {
     for (const StepBody& body : world.bodies)
       states.push_back({body.position, body.velocity, body.angular_velocity});
     solver_.emplace(*scene_, states, world.step, threads_);
+    std::vector<StepBody>().swap(world.bodies);
   }
   world.touching = solver_->touching();
 }
@@ -32,9 +35,9 @@ bool GrainLoop::is_met(const StepWorld&, StepStop stop) const {
   return solver_->touching() == 0 && solver_->all_stick(stop == StepStop::rest);
 }
 
-void GrainLoop::show(const StepWorld&, Frame& frame) { solver_->show(frame); }
+void GrainLoop::show(const StepWorld&, Frame& frame, bool) { solver_->show(frame); }
 
-/// The bodies stay as they were at the start: the solver has its own.
+/// The world has no bodies any more: the solver has them.
 void GrainLoop::exchange(StateArchive& archive, StepWorld& world) {
   find_forces(world);
   archive(world);

@@ -19,7 +19,7 @@ class GrainLoop final : public StepKernel {
   void find_forces(StepWorld& world) override;
   void advance(StepWorld& world, std::size_t steps, StepStop stop) override;
   bool is_met(const StepWorld& world, StepStop stop) const override;
-  void show(const StepWorld& world, Frame& frame) override;
+  void show(const StepWorld& world, Frame& frame, bool with_touches) override;
   std::vector<std::string> features() const override;
   void exchange(StateArchive& archive, StepWorld& world) override;
 

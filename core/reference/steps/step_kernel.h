@@ -62,8 +62,9 @@ class StepKernel {
   virtual void advance(StepWorld& world, std::size_t steps, StepStop stop) = 0;
   /// Whether `stop`, not StepStop::never, is met now.
   virtual bool is_met(const StepWorld& world, StepStop stop) const = 0;
-  /// The world at the time of the positions; touches are those of the step around it.
-  virtual void show(const StepWorld& world, Frame& frame) = 0;
+  /// The world at the time of the positions; touches, where wanted, are those of the step around
+  /// it.
+  virtual void show(const StepWorld& world, Frame& frame, bool with_touches) = 0;
   /// What the loop was made for, in a few words each: "linear normal force", ...
   virtual std::vector<std::string> features() const = 0;
   /// The world, but for what the scene says of it, and what the loop goes on with.

@@ -74,10 +74,10 @@ class StepLoop final : public StepKernel {
     if (archive.reads()) take_neighbours(world);
   }
 
-  void show(const StepWorld& world, Frame& frame) override {
+  void show(const StepWorld& world, Frame& frame, bool with_touches) override {
     const std::size_t bodies = world.bodies.size();
     frame.bodies.resize(bodies);
-    impulses_.resize(bodies);
+    impulses_.resize(with_touches ? bodies : 0);
     StepSurroundings around = world.around;
     around.velocity = velocity_of_substrate(world, world.time());
     if (neighbours_)
@@ -87,6 +87,7 @@ class StepLoop final : public StepKernel {
     else
       show(world, around, 0, bodies, frame.bodies);
     frame.touches.clear();
+    if (!with_touches) return;
     for (std::size_t i = 0; i < bodies; ++i)
       if (impulses_[i] > 0)
         frame.touches.push_back({static_cast<int>(i), kSubstrate, impulses_[i]});
@@ -157,7 +158,7 @@ class StepLoop final : public StepKernel {
           world.n > 0 ? kick<Substrate>(body, *body.kind, around, 0.5 * world.step) : 0;
       const std::size_t i = world.number_of(k);
       shown[i] = {body.position, body.velocity, body.angular_velocity};
-      impulses_[i] = 2 * half;
+      if (!impulses_.empty()) impulses_[i] = 2 * half;
     }
   }
   void take_neighbours(const StepWorld& world) {

@@ -79,19 +79,20 @@ void StepNeighbours::move(double way, const StepWorld& world) {
 void StepNeighbours::search(StepWorld& world) {
   if (world.bodies.size() >= kOrderedFrom && searches_++ % kSearchesInAnOrder == 0)
     put_in_order(world, periodic_);
-  std::vector<NearSphere> spheres;
-  spheres.reserve(world.bodies.size());
+  const std::vector<StepBody>& bodies = world.bodies;
   double mean = 0, fastest2 = 0;
-  for (const StepBody& b : world.bodies) {
-    spheres.push_back({b.position, b.radius});
+  for (const StepBody& b : bodies) {
     largest_ = std::max(largest_, b.radius);
-    mean += b.radius / static_cast<double>(world.bodies.size());
+    mean += b.radius / static_cast<double>(bodies.size());
     fastest2 = std::max(fastest2, b.velocity.squaredNorm());
   }
   const double skin = near_skin(std::sqrt(fastest2), world.step, mean);
+  const NearSpheres spheres{bodies.size(), [&](std::size_t k) {
+                              return NearSphere{bodies[k].position, bodies[k].radius};
+                            }};
   const std::vector<NearPair> pairs = near_pairs(spheres, skin, periodic_, &team_);
   // They come by the first: counted by the second they stay so among those of one second.
-  std::vector<std::uint32_t> next(spheres.size() + 1, 0);
+  std::vector<std::uint32_t> next(bodies.size() + 1, 0);
   for (const NearPair& pair : pairs) ++next[pair.second + 1];
   std::partial_sum(next.begin(), next.end(), next.begin());
   all_.resize(pairs.size());
@@ -104,7 +105,7 @@ void StepNeighbours::search(StepWorld& world) {
     near.shift.setZero();
     for (int k = 0; k < 2; ++k)
       if (periodic_[k] > 0) {
-        const double apart = spheres[near.first].position[k] - spheres[near.second].position[k];
+        const double apart = bodies[near.first].position[k] - bodies[near.second].position[k];
         near.shift[k] = periodic_[k] * std::round(apart / periodic_[k]);
       }
   }

@@ -121,8 +121,8 @@ class StepSolver::Impl {
 
   std::vector<BodyState> states() {
     kernel_->find_forces(world_);
-    kernel_->show(world_, frame_);
-    return frame_.bodies;
+    kernel_->show(world_, frame_, false);
+    return std::move(frame_.bodies);
   }
 
   void exchange(StateArchive& archive) {
@@ -167,7 +167,7 @@ class StepSolver::Impl {
     while (true) {
       kernel_->find_forces(world_);
       if (sink && world_.time() >= sink->next_look().value_or(0)) {
-        kernel_->show(world_, frame_);
+        kernel_->show(world_, frame_, !sink->next_look());
         sink->take(world_.time(), frame_);
       }
       if (wanted != StepStop::never && world_.n >= quiet_from_ && kernel_->is_met(world_, wanted)) {

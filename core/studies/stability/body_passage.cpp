@@ -32,10 +32,10 @@ void BodyPassage::begin(std::span<const BodyState> states) {
 
 void BodyPassage::find_near() {
   const Scene& scene = path_->scene().hard;
-  std::vector<NearSphere> spheres;
-  for (std::size_t i = 0; i < positions_.size(); ++i)
-    spheres.push_back({positions_[i], scene.bodies[i].radius});
-  near_ = near_pairs(spheres, skin_, scene.periodic);
+  const auto sphere = [&](std::size_t i) {
+    return NearSphere{positions_[i], scene.bodies[i].radius};
+  };
+  near_ = near_pairs({positions_.size(), sphere}, skin_, scene.periodic);
   budget_ = 0.5 * skin_;
 }
 
