@@ -1,7 +1,10 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -106,6 +109,91 @@ TEST(WholeReference, HasTheSamplesOfOneThatIsWatched) {
       EXPECT_NEAR(quantity.of(whole.assembly->states[k]), quantity.of(watched.assembly->states[k]),
                   1e-9 * largest)
           << quantity.name << " at " << k;
+  }
+}
+
+/// Grains on a periodic plane; `more` stands under `substrate`, `law` under the normal one.
+std::string grains(std::size_t count, const std::string& more, const std::string& law) {
+  const double side = std::sqrt(static_cast<double>(count) * 3.1e-5);
+  return fmt::format(R"(
+slipcheck: 1
+name: many
+title: Many grains
+materials:
+  steel: {{density: 7850}}
+contacts:
+  - between: [steel, steel]
+    normal: {{model: linear, restitution: 0.9, collision_time: 1e-3}}
+    tangential: {{{2}}}
+  - between: [steel, substrate]
+    friction: 0.1
+substrate: {{periodic: [{0}, {0}], {1}}}
+fill: {{prefix: g, count: {3}, material: steel, radius: "2 mm", area: [0, 0, {0}, {0}], speed: 0.2, seed: 7}}
+run: {{until: 0.0002}}
+compare: {{reference: steps, engines: []}}
+)",
+                     side, more, law, count);
+}
+
+constexpr const char* kViscous = "model: viscous, damping_ratio: 0.5, friction: 0.3";
+
+ReferenceExtras three_samples() {
+  ReferenceExtras extras;
+  extras.samples = 3;
+  extras.whole = true;
+  return extras;
+}
+
+void expect_same_bits(const ReferenceResult& a, const ReferenceResult& b) {
+  ASSERT_TRUE(a.assembly && b.assembly);
+  EXPECT_EQ(a.assembly->time, b.assembly->time);
+  EXPECT_EQ(a.assembly->pairs.counts, b.assembly->pairs.counts);
+  ASSERT_EQ(a.assembly->states.size(), b.assembly->states.size());
+  for (const AssemblyQuantity& quantity : assembly_quantities())
+    for (std::size_t k = 0; k < a.assembly->states.size(); ++k)
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(quantity.of(a.assembly->states[k])),
+                std::bit_cast<std::uint64_t>(quantity.of(b.assembly->states[k])))
+          << quantity.name << " at " << k;
+}
+
+/// The loops of unlike bodies and of like ones, and that of contacts that remember.
+TEST(WholeReference, DoesNotLookAtTheStartAgain) {
+  const std::pair<const char*, const char*> scenes[] = {
+      {"confined: true, motion: {kind: oscillate, amplitude: [5 mm, 0], frequency: 5}", kViscous},
+      {"confined: true", kViscous},
+      {"tilt: 0", "model: spring, stiffness_ratio: 0.3, friction: 0.3"}};
+  for (const auto& [more, law] : scenes) {
+    const Scenario scenario = parse_scenario(grains(300, more, law), "many.yaml");
+    ContactScene scene = make_contact_scene(scenario);
+    const ReferenceSolver solver(scene, reference_settings(scenario));
+    ReferenceExtras extras = three_samples();
+    const ReferenceResult kept = run_reference_whole(solver, run_end(scenario), extras);
+    extras.started = [&] { scene.hard.initial = {}; };
+    const ReferenceResult let_go = run_reference_whole(solver, run_end(scenario), extras);
+    EXPECT_TRUE(scene.hard.initial.empty());
+    expect_same_bits(kept, let_go);
+  }
+}
+
+/// What the file says of many bodies is dropped while they move, and there again afterwards.
+TEST(WholeReference, TellsManyBodiesAgain) {
+  const std::string text = grains(10000, "confined: true", kViscous);
+  const Scenario scenario = parse_scenario(text, "many.yaml");
+  const ContactScene scene = make_contact_scene(scenario);
+  const ReferenceResult alone = run_reference_whole(
+      ReferenceSolver(scene, reference_settings(scenario)), run_end(scenario), three_samples());
+  const std::map<std::string, ReferenceExtras> wanted = {{"many", three_samples()}};
+  const std::vector<PreparedScene> prepared =
+      prepare_scenes({parse_scenario(text, "many.yaml")}, false, 1, 600, 1, &wanted);
+  const PreparedScene& whole = prepared.front();
+  expect_same_bits(alone, whole.reference);
+  ASSERT_EQ(whole.scenario.bodies.size(), 10000u);
+  ASSERT_EQ(whole.contact->hard.initial.size(), 10000u);
+  for (std::size_t i = 0; i < 10000; ++i) {
+    EXPECT_EQ(whole.scenario.bodies[i].name, scenario.bodies[i].name);
+    EXPECT_EQ(whole.scenario.bodies[i].initial.position, scenario.bodies[i].initial.position);
+    EXPECT_EQ(whole.contact->hard.initial[i].position, scene.hard.initial[i].position);
+    EXPECT_EQ(whole.contact->hard.initial[i].velocity, scene.hard.initial[i].velocity);
   }
 }
 

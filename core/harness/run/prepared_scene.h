@@ -16,7 +16,7 @@ namespace slipcheck {
 /// wanted.
 struct PreparedScene {
   Scenario scenario;
-  std::unique_ptr<const ContactScene> contact;  ///< the solver looks at it
+  std::unique_ptr<ContactScene> contact;  ///< the solver looks at it
   ReferenceSolver solver;
   ReferenceResult reference;
 };

@@ -72,7 +72,8 @@ ObservedRun solve(const ReferenceSolver& solver, const RunEnd& end, int rounding
     });
   ObservedRun solved;
   const double begin = timed == Timed::yes ? thread_cpu_seconds() : 0;
-  solved.run = solver.run(end, &sink, accuracy, keeper);
+  solved.run =
+      solver.run(end, &sink, accuracy, keeper, extras ? extras->started : std::function<void()>());
   if (timed == Timed::yes)
     solved.cpu_seconds = thread_cpu_seconds() - begin + (keeper ? keeper->cpu_before() : 0);
   if (observer) solved.seen = observer->finish(solved.run.end_time);

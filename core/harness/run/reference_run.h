@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ struct ReferenceExtras {
   bool whole = false;
   bool left_out = false;                 ///< engines run alone
   AssemblyObserver::States states = {};  ///< takes each sample's states
+  /// Called when the run has the bodies: as of ReferenceSolver::run().
+  std::function<void()> started = {};
   /// Writes or reads what `states` goes on with.
   std::function<void(StateArchive&)> exchange_states = {};
 };

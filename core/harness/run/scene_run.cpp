@@ -24,6 +24,12 @@ void record_motion_of(PreparedScene& scene, double time_limit) {
   }
 }
 
+/// What was solved, which the solver is not asked for again.
+std::shared_ptr<const ContactScene> solved_of(PreparedScene& scene) {
+  if (&scene.solver.scene() == scene.contact.get()) return std::move(scene.contact);
+  return std::make_shared<const ContactScene>(scene.solver.scene());
+}
+
 }  // namespace
 
 void run_engines(std::span<const EngineTask> tasks, const RunOptions& options) {
@@ -85,10 +91,12 @@ std::vector<SceneRecord> run_scenes(std::vector<Scenario> scenarios, const RunOp
     for (PreparedScene& scene : prepared) record_motion_of(scene, options.time_limit);
 
   std::vector<SceneRecord> scenes;
-  for (std::size_t s = 0; s < prepared.size(); ++s)
-    scenes.push_back({std::move(prepared[s].scenario),
-                      std::make_shared<const ContactScene>(prepared[s].solver.scene()),
-                      std::move(prepared[s].reference), std::move(runs[s])});
+  for (std::size_t s = 0; s < prepared.size(); ++s) {
+    PreparedScene& scene = prepared[s];
+    std::shared_ptr<const ContactScene> solved = solved_of(scene);
+    scenes.push_back({std::move(scene.scenario), std::move(solved), std::move(scene.reference),
+                      std::move(runs[s])});
+  }
   return scenes;
 }
 
