@@ -9,6 +9,7 @@ function(slipcheck_worker engine precision)
   set(worker slipcheck-engine-${engine}-${precision})
   add_executable(${worker} ${arg_SOURCES})
   target_link_libraries(${worker} PRIVATE slipcheck_flags ${arg_LIBRARIES})
+  set_target_properties(${worker} PROPERTIES SLIPCHECK_PLAIN ON)  # the engine is what runs long
   if(NOT TARGET ${engine}_profiles)
     slipcheck_profiles(${engine})
   endif()
