@@ -132,7 +132,7 @@ class StepSolver::Impl {
       kinds[world_.number_of(k)] = world_.bodies[k].kind;
     kernel_->exchange(archive, world_);
     goes_on_ = archive.reads();
-    for (std::size_t k = 0; k < kinds.size(); ++k)
+    for (std::size_t k = 0; k < world_.bodies.size(); ++k)  // none where the loop has its own
       world_.bodies[k].kind = kinds[world_.number_of(k)];
   }
 
