@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +13,7 @@
 
 #include "../support/bundled.h"
 #include "../support/refusal.h"
+#include "base/stop_scope.h"
 #include "harness/compare/assembly_comparison.h"
 #include "harness/observe/energy_budget.h"
 #include "harness/run/prepared_scene.h"
@@ -195,6 +197,22 @@ TEST(WholeReference, TellsManyBodiesAgain) {
     EXPECT_EQ(whole.contact->hard.initial[i].position, scene.hard.initial[i].position);
     EXPECT_EQ(whole.contact->hard.initial[i].velocity, scene.hard.initial[i].velocity);
   }
+}
+
+TEST(WholeReference, TellsThemAgainWhereTheUserHasHadEnough) {
+  std::atomic<bool> stop = false;
+  ReferenceExtras extras = three_samples();
+  extras.states = [&](double, const std::vector<BodyState>&) { stop = true; };
+  const std::map<std::string, ReferenceExtras> wanted = {{"many", extras}};
+  Scenario scenario = parse_scenario(grains(10000, "confined: true", kViscous), "many.yaml");
+  const StopScope scope(&stop);
+  const std::vector<PreparedScene> prepared =
+      prepare_scenes({std::move(scenario)}, false, 1, 600, 1, &wanted);
+  EXPECT_TRUE(stop);
+  EXPECT_TRUE(prepared.front().reference.run.failed);
+  EXPECT_EQ(prepared.front().reference.run.reason, "interrupted");
+  EXPECT_EQ(prepared.front().scenario.bodies.size(), 10000u);
+  EXPECT_EQ(prepared.front().contact->hard.initial.size(), 10000u);
 }
 
 TEST(WholeReference, CanBeLeftOut) {

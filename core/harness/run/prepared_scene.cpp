@@ -46,6 +46,7 @@ void let_go(Values& values) {
 }
 
 void tell_bodies_again(PreparedScene& scene) {
+  const StopScope whatever_ended_the_run{StopScope::Terms{}};
   scene.scenario.bodies = parse_scenario(scene.scenario.text, scene.scenario.file).bodies;
   std::vector<BodyState>& initial = scene.contact->hard.initial;
   if (!initial.empty()) return;
