@@ -1,7 +1,7 @@
 #include <cmath>
 #include <set>
 
-#include "scenario/rules/fill_names.h"
+#include "scenario/rules/scene_names.h"
 #include "scenes.h"
 
 namespace slipcheck {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "scenario/owned_names.h"
-#include "scenario/rules/fill_names.h"
+#include "scenario/rules/scene_names.h"
 #include "scenario/rules/spanning_rules.h"
 #include "scenario/surfaces.h"
 

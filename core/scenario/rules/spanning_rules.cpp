@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "scenario/rules/fill_names.h"
 #include "scenario/rules/rules.h"
+#include "scenario/rules/scene_names.h"
 #include "scenario/surfaces.h"
 
 namespace slipcheck {

@@ -1,4 +1,4 @@
-#include "scenario/rules/fill_names.h"
+#include "scenario/rules/scene_names.h"
 
 #include <charconv>
 
