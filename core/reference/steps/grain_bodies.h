@@ -11,6 +11,13 @@
 
 namespace slipcheck {
 
+/// What a scene of grains has; what it lacks does not exist in the loop chosen by these.
+struct GrainFeatures {
+  bool rubs = false;        ///< grains exert tangential forces, so that they spin
+  bool on_plane = false;    ///< Coulomb friction of a level, still substrate; grains roll
+  bool any_normal = false;  ///< other normal forces than the linear one
+};
+
 /// What the grains of one kind have in common, beside the radius that all have; see StepBody.
 struct GrainKind {
   double inverse_mass = 0;      ///< 1/m [1/kg]
@@ -57,13 +64,24 @@ struct GrainArrays {
     for (auto* values : {&x, &y, &vx, &vy, &wx, &wy, &wz, &dvx, &dvy, &dwx, &dwy, &dwz, &sticks})
       f(*values);
   }
-  /// Grain `k` becomes grain `i` of another.
-  void take(std::size_t k, const GrainArrays& from, std::size_t i) {
+  /// Those that steps change.
+  template <class F>
+  void for_each_changing(const GrainFeatures& has, F&& f) {
+    for (auto* values : {&x, &y, &vx, &vy, &dvx, &dvy}) f(*values);
+    if (has.rubs)
+      for (auto* values : {&wz, &dwz}) f(*values);
+    if (has.on_plane)
+      for (auto* values : {&wx, &wy, &dwx, &dwy, &sticks}) f(*values);
+  }
+  /// What steps change of grain `i` of another becomes that of grain `k`.
+  void take(std::size_t k, const GrainArrays& from, std::size_t i, const GrainFeatures& has) {
     x[k] = from.x[i], y[k] = from.y[i], vx[k] = from.vx[i], vy[k] = from.vy[i];
-    wx[k] = from.wx[i], wy[k] = from.wy[i], wz[k] = from.wz[i];
     dvx[k] = from.dvx[i], dvy[k] = from.dvy[i];
-    dwx[k] = from.dwx[i], dwy[k] = from.dwy[i], dwz[k] = from.dwz[i];
-    sticks[k] = from.sticks[i], kind[k] = from.kind[i];
+    if (has.rubs) wz[k] = from.wz[i], dwz[k] = from.dwz[i];
+    if (!has.on_plane) return;
+    wx[k] = from.wx[i], wy[k] = from.wy[i];
+    dwx[k] = from.dwx[i], dwy[k] = from.dwy[i];
+    sticks[k] = from.sticks[i];
   }
 };
 

@@ -145,11 +145,14 @@ class GrainContact {
   /// there; it had h/2 F. What is taken back from a grain that the other pressed down was borne by
   /// the substrate and must not lift it.
   HWY_ATTR void end(GrainPair& pair, double part, const Force& last, double nx, double ny) const {
-    const double before_a = s_.fz[pair.a], before_b = s_.fz[pair.b];
-    push(pair, mix(0.5 * (part - 1), pair.force, 0.5 * part, last), nx, ny);
+    const Force pushed = mix(0.5 * (part - 1), pair.force, 0.5 * part, last);
     if constexpr (kOnPlane) {
+      const double before_a = s_.fz[pair.a], before_b = s_.fz[pair.b];
+      push(pair, pushed, nx, ny);
       keep_down(pair.a, before_a);
       keep_down(pair.b, before_b);
+    } else {
+      push(pair, pushed, nx, ny);
     }
     pair.touching = false;
   }

@@ -62,10 +62,10 @@ void GrainIslands::find(std::size_t grains, std::span<const std::uint32_t> first
     place_[k] = next_[island_[root(k)]]++;
     grains_[place_[k]] = active_[k];
   }
-  pairs_.resize(near.size());
+  pair_place_.resize(near.size());
   next_ = pair_start_;
   for (std::uint32_t p = 0; p < near.size(); ++p)
-    pairs_[next_[island_[root(slot_[first[near[p]]])]]++] = p;
+    pair_place_[p] = next_[island_[root(slot_[first[near[p]]])]]++;
   make_groups();
 }
 

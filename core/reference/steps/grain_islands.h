@@ -18,7 +18,8 @@ class GrainIslands {
             std::span<const std::uint32_t> second, std::span<const std::uint32_t> near);
 
   const std::vector<std::uint32_t>& grains() const { return grains_; }  ///< island by island
-  const std::vector<std::uint32_t>& pairs() const { return pairs_; }    ///< places in `near`
+  /// Of each of `near`: its place, island by island.
+  const std::vector<std::uint32_t>& pair_place() const { return pair_place_; }
   /// Of a grain in grains(): its place there.
   std::uint32_t place(std::uint32_t grain) const { return place_[slot_[grain]]; }
   const std::vector<GrainGroup>& groups() const { return groups_; }
@@ -34,7 +35,7 @@ class GrainIslands {
   std::vector<std::uint32_t> parent_;  ///< of each slot
   std::vector<std::uint32_t> island_;  ///< of each root
   std::vector<std::uint32_t> grain_start_, pair_start_, next_;
-  std::vector<std::uint32_t> grains_, place_, pairs_;
+  std::vector<std::uint32_t> grains_, place_, pair_place_;
   std::vector<GrainGroup> groups_;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <initializer_list>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reference/steps/grain_kernels.cpp"
@@ -23,19 +24,25 @@ HWY_EXPORT(Glide);
 HWY_EXPORT(Run);
 HWY_EXPORT(Target);
 
-void GrainBatch::resize(std::size_t n) {
-  grains.resize(n);
-  for (auto* values : {&fx, &fy, &fz, &tx, &ty, &tz, &load, &fastest, &inverse_mass,
-                       &inverse_inertia, &weight, &share, &turn, &mu_s, &mu_k})
-    values->assign(n, 0);
+void GrainBatch::resize(std::size_t n, const GrainFeatures& has) {
+  const auto each = [n](std::initializer_list<std::vector<double>*> all) {
+    for (std::vector<double>* values : all) values->resize(n);
+  };
+  grains.for_each_changing(has, [n](std::vector<double>& values) { values.resize(n); });
+  each({&fx, &fy, &fastest, &inverse_mass});
+  if (has.rubs) each({&tz});
+  if (has.rubs || has.on_plane) each({&inverse_inertia});
+  if (has.on_plane) each({&fz, &tx, &ty, &load, &weight, &share, &turn, &mu_s, &mu_k});
 }
 
 void GrainBatch::take(std::size_t k, const GrainArrays& from, std::size_t i,
-                      const std::vector<GrainKind>& kinds) {
-  grains.take(k, from, i);
+                      const std::vector<GrainKind>& kinds, const GrainFeatures& has) {
+  grains.take(k, from, i, has);
   const GrainKind& kind = kinds[from.kind[i]];
+  fastest[k] = 0;
   inverse_mass[k] = kind.inverse_mass;
-  inverse_inertia[k] = kind.inverse_inertia;
+  if (has.rubs || has.on_plane) inverse_inertia[k] = kind.inverse_inertia;
+  if (!has.on_plane) return;
   weight[k] = kind.weight;
   share[k] = kind.share;
   turn[k] = kind.turn;

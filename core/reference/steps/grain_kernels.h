@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,27 +12,22 @@
 
 namespace slipcheck {
 
-/// What a scene of grains has; what it lacks does not exist in the loop chosen by these.
-struct GrainFeatures {
-  bool rubs = false;        ///< grains exert tangential forces, so that they spin
-  bool on_plane = false;    ///< Coulomb friction of a level, still substrate; grains roll
-  bool any_normal = false;  ///< other normal forces than the linear one
-};
-
 /// Grains that may meet within a few steps, in groups that do not meet each other: each group's
-/// steps can be done at once, while it lies in the nearest cache.
+/// steps can be done at once, while it lies in the nearest cache. What the features lack is in none
+/// of these arrays.
 struct GrainBatch {
   GrainArrays grains;
   std::vector<GrainPair> pairs;  ///< by index into `grains`
-  /// Forces [N] and torques [N m] by other grains, load |N| dt of the substrate [N s], squares of
-  /// the largest speeds [m²/s²], and the constants of GrainKind, for each grain.
+  /// Forces [N] and torques [N m] by other grains, none between two runs; load |N| dt of the
+  /// substrate [N s], squares of the largest speeds [m²/s²], and the constants of GrainKind, for
+  /// each grain.
   std::vector<double> fx, fy, fz, tx, ty, tz, load, fastest;
   std::vector<double> inverse_mass, inverse_inertia, weight, share, turn, mu_s, mu_k;
 
-  void resize(std::size_t n);
+  void resize(std::size_t n, const GrainFeatures& has);
   /// Takes grain `i` of `from` as grain `k`.
   void take(std::size_t k, const GrainArrays& from, std::size_t i,
-            const std::vector<GrainKind>& kinds);
+            const std::vector<GrainKind>& kinds, const GrainFeatures& has);
 };
 
 /// The ranges of a batch that one group of islands takes.
@@ -53,6 +49,12 @@ struct GrainPlane {
   double radius = 0;                  ///< R [m]
   double length_x = 0, length_y = 0;  ///< of the periodic cell [m]; 0: none
 };
+
+/// What a distance is shortened by to the nearest image of `length` [m]; 0: there are none.
+inline double shift_to_nearest_image(double distance, double length) {
+  if (!(std::abs(distance) > 0.5 * length)) return 0;  // most
+  return length > 0 ? length * std::nearbyint(distance / length) : 0;
+}
 
 /// Calls for the loop of these features on the best instruction set that the machine has. All give
 /// the same bits.

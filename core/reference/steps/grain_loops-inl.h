@@ -8,6 +8,15 @@
 
 #include <hwy/highway.h>
 
+/// Before a loop each turn of which reads and writes what no other does: compilers do not see it of
+/// more than some arrays.
+#undef SLIPCHECK_EACH_ALONE
+#ifdef __clang__
+#define SLIPCHECK_EACH_ALONE _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define SLIPCHECK_EACH_ALONE _Pragma("GCC ivdep")
+#endif
+
 #include "reference/steps/grain_contact-inl.h"
 #include "reference/steps/grain_kernels.h"
 
@@ -91,6 +100,7 @@ HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, const std::vector<Gr
   double* HWY_RESTRICT sticks = grains.sticks.data();
   const std::uint32_t* HWY_RESTRICT kind = grains.kind.data();
   const GrainKind* HWY_RESTRICT table = kinds.data();
+  SLIPCHECK_EACH_ALONE
   for (std::size_t i = 0, n = grains.size(); i < n; ++i) {
     const GrainKind& k = table[kind[i]];
     const double lost = k.kinetic_friction * k.weight * k.inverse_mass * h;  // of |v| in a step
@@ -156,34 +166,38 @@ HWY_ATTR void KickAndDrift(GrainBatch& batch, const GrainGroup& group, double R,
                            double h) {
   const std::size_t n = group.last_grain - group.first_grain, o = group.first_grain;
   GrainArrays& g = batch.grains;
-  double* HWY_RESTRICT x = g.x.data() + o;
-  double* HWY_RESTRICT y = g.y.data() + o;
-  double* HWY_RESTRICT vx = g.vx.data() + o;
-  double* HWY_RESTRICT vy = g.vy.data() + o;
-  double* HWY_RESTRICT wx = g.wx.data() + o;
-  double* HWY_RESTRICT wy = g.wy.data() + o;
-  double* HWY_RESTRICT wz = g.wz.data() + o;
-  double* HWY_RESTRICT dvx = g.dvx.data() + o;
-  double* HWY_RESTRICT dvy = g.dvy.data() + o;
-  double* HWY_RESTRICT dwx = g.dwx.data() + o;
-  double* HWY_RESTRICT dwy = g.dwy.data() + o;
-  double* HWY_RESTRICT dwz = g.dwz.data() + o;
-  double* HWY_RESTRICT sticks = g.sticks.data() + o;
-  double* HWY_RESTRICT fx = batch.fx.data() + o;
-  double* HWY_RESTRICT fy = batch.fy.data() + o;
-  double* HWY_RESTRICT fz = batch.fz.data() + o;
-  double* HWY_RESTRICT tx = batch.tx.data() + o;
-  double* HWY_RESTRICT ty = batch.ty.data() + o;
-  double* HWY_RESTRICT tz = batch.tz.data() + o;
-  double* HWY_RESTRICT load_of = batch.load.data() + o;
-  double* HWY_RESTRICT fastest = batch.fastest.data() + o;
-  const double* HWY_RESTRICT inverse_mass = batch.inverse_mass.data() + o;
-  const double* HWY_RESTRICT inverse_inertia = batch.inverse_inertia.data() + o;
-  const double* HWY_RESTRICT weight = batch.weight.data() + o;
-  const double* HWY_RESTRICT share = batch.share.data() + o;
-  const double* HWY_RESTRICT turn = batch.turn.data() + o;
-  const double* HWY_RESTRICT mu_s = batch.mu_s.data() + o;
-  const double* HWY_RESTRICT mu_k = batch.mu_k.data() + o;
+  const auto begin = [o](std::vector<double>& values) {
+    return values.empty() ? nullptr : values.data() + o;
+  };
+  double* HWY_RESTRICT x = begin(g.x);
+  double* HWY_RESTRICT y = begin(g.y);
+  double* HWY_RESTRICT vx = begin(g.vx);
+  double* HWY_RESTRICT vy = begin(g.vy);
+  double* HWY_RESTRICT wx = begin(g.wx);
+  double* HWY_RESTRICT wy = begin(g.wy);
+  double* HWY_RESTRICT wz = begin(g.wz);
+  double* HWY_RESTRICT dvx = begin(g.dvx);
+  double* HWY_RESTRICT dvy = begin(g.dvy);
+  double* HWY_RESTRICT dwx = begin(g.dwx);
+  double* HWY_RESTRICT dwy = begin(g.dwy);
+  double* HWY_RESTRICT dwz = begin(g.dwz);
+  double* HWY_RESTRICT sticks = begin(g.sticks);
+  double* HWY_RESTRICT fx = begin(batch.fx);
+  double* HWY_RESTRICT fy = begin(batch.fy);
+  double* HWY_RESTRICT fz = begin(batch.fz);
+  double* HWY_RESTRICT tx = begin(batch.tx);
+  double* HWY_RESTRICT ty = begin(batch.ty);
+  double* HWY_RESTRICT tz = begin(batch.tz);
+  double* HWY_RESTRICT load_of = begin(batch.load);
+  double* HWY_RESTRICT fastest = begin(batch.fastest);
+  const double* HWY_RESTRICT inverse_mass = begin(batch.inverse_mass);
+  const double* HWY_RESTRICT inverse_inertia = begin(batch.inverse_inertia);
+  const double* HWY_RESTRICT weight = begin(batch.weight);
+  const double* HWY_RESTRICT share = begin(batch.share);
+  const double* HWY_RESTRICT turn = begin(batch.turn);
+  const double* HWY_RESTRICT mu_s = begin(batch.mu_s);
+  const double* HWY_RESTRICT mu_k = begin(batch.mu_k);
+  SLIPCHECK_EACH_ALONE
   for (std::size_t i = 0; i < n; ++i) {
     double ax = vx[i] + (dt * inverse_mass[i]) * fx[i];
     double ay = vy[i] + (dt * inverse_mass[i]) * fy[i];
@@ -230,8 +244,8 @@ HWY_ATTR void KickAndDrift(GrainBatch& batch, const GrainGroup& group, double R,
     vy[i] = ay;
     x[i] += h * ax;
     y[i] += h * ay;
-    const double speed2 = ax * ax + ay * ay;
-    fastest[i] = speed2 > fastest[i] ? speed2 : fastest[i];
+    const double speed2 = ax * ax + ay * ay, before = fastest[i];
+    fastest[i] = speed2 > before ? speed2 : before;
   }
 }
 

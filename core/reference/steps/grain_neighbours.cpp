@@ -30,10 +30,6 @@ struct Axis {
   }
 };
 
-double to_nearest_image(double distance, double length) {
-  return length > 0 ? distance - length * std::nearbyint(distance / length) : distance;
-}
-
 }  // namespace
 
 const std::vector<std::uint32_t>& GrainNeighbours::sort(const GrainArrays& grains,
@@ -59,8 +55,9 @@ void GrainNeighbours::take(const GrainArrays& grains, const GrainPlane& plane, d
                            std::uint32_t i, std::uint32_t begin, std::uint32_t end) {
   const double reach = 2 * plane.radius + skin;
   for (std::uint32_t j = begin; j < end; ++j) {
-    const double dx = to_nearest_image(grains.x[i] - grains.x[j], plane.length_x);
-    const double dy = to_nearest_image(grains.y[i] - grains.y[j], plane.length_y);
+    double dx = grains.x[i] - grains.x[j], dy = grains.y[i] - grains.y[j];
+    dx -= shift_to_nearest_image(dx, plane.length_x);
+    dy -= shift_to_nearest_image(dy, plane.length_y);
     if (dx * dx + dy * dy <= reach * reach) found_.push_back(j);
   }
 }

@@ -109,25 +109,27 @@ class GrainSolver::Impl {
   void show(Frame& frame) {
     if (!blocks_.cover(1)) find_neighbours(1);
     // All grains in one batch get the half kick from their velocities' time to that of positions.
-    GrainBatch batch;
-    batch.resize(grains_.size());
-    for (std::size_t i = 0; i < grains_.size(); ++i) batch.take(i, grains_, i, kernels_.kinds());
+    GrainBatch batch = batch_of_all();
     std::vector<std::uint32_t> near;
     kernels_.find_near(grains_, neighbours_.first(), neighbours_.second(), blocks_.margin(1), near);
-    batch.pairs = pairs_of(near);
+    take_pairs(near, [](std::size_t k) { return k; }, batch);
     const GrainGroup all = {0, grains_.size(), 0, batch.pairs.size()};
     kernels_.run(batch, all, {step_, n_ > 0 ? 0.5 * step_ : 0, 1, false, n_ > 0});
     frame.bodies.resize(grains_.size());
     frame.touches.clear();
     const GrainArrays& g = batch.grains;
+    const bool rolls = features().on_plane;
     for (std::size_t i = 0; i < grains_.size(); ++i) {
       const double x = grains_.x[i] + static_cast<double>(image_x_[i]) * kernels_.plane().length_x;
       const double y = grains_.y[i] + static_cast<double>(image_y_[i]) * kernels_.plane().length_y;
       frame.bodies[body_[i]] = {
-          {x, y, radius()}, {g.vx[i], g.vy[i], 0}, {g.wx[i], g.wy[i], g.wz[i]}};
-      const double impulse = features().on_plane ? 2 * batch.load[i]
-                             : n_ > 0            ? kernels_.kinds()[g.kind[i]].weight * step_
-                                                 : 0;
+          {x, y, radius()},
+          {g.vx[i], g.vy[i], 0},
+          {rolls ? g.wx[i] : grains_.wx[i], rolls ? g.wy[i] : grains_.wy[i],
+           features().rubs ? g.wz[i] : grains_.wz[i]}};
+      const double impulse = rolls    ? 2 * batch.load[i]
+                             : n_ > 0 ? kernels_.kinds()[grains_.kind[i]].weight * step_
+                                      : 0;
       if (impulse > 0) frame.touches.push_back({static_cast<int>(body_[i]), kSubstrate, impulse});
     }
     for (const GrainPair& pair : batch.pairs) {
@@ -183,17 +185,19 @@ class GrainSolver::Impl {
   }
 
   void reorder(const std::vector<std::uint32_t>& order) {
-    const auto apply = [&](auto& values) {
-      std::remove_reference_t<decltype(values)> moved(values.size());
+    std::vector<std::uint32_t> place;
+    const auto apply = [&](auto& values, auto& moved) {
+      moved.resize(values.size());
       for (std::size_t k = 0; k < order.size(); ++k) moved[k] = values[order[k]];
       values.swap(moved);
     };
-    grains_.for_each_real(apply);
-    apply(grains_.kind);
-    apply(image_x_);
-    apply(image_y_);
-    apply(body_);
-    std::vector<std::uint32_t> place(order.size());
+    grains_.for_each_real([&](std::vector<double>& values) { apply(values, moved_); });
+    if (kernels_.kinds().size() > 1) apply(grains_.kind, place);
+    std::vector<std::int64_t> image;
+    apply(image_x_, image);
+    apply(image_y_, image);
+    apply(body_, place);
+    place.resize(order.size());
     for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
     for (Contact& c : touching_) {
       c.i = place[c.i];
@@ -208,29 +212,38 @@ class GrainSolver::Impl {
     });
   }
 
-  /// The near pairs, by index of grain, with what those in contact remember.
-  std::vector<GrainPair> pairs_of(const std::vector<std::uint32_t>& near) const {
+  /// All grains, each in its own place.
+  GrainBatch batch_of_all() const {
+    GrainBatch batch;
+    batch.resize(grains_.size(), features());
+    for (std::size_t i = 0; i < grains_.size(); ++i)
+      batch.take(i, grains_, i, kernels_.kinds(), features());
+    return batch;
+  }
+
+  /// The near pairs, each in place_of() its number, by index of grain, with what those in contact
+  /// remember.
+  template <class PlaceOf>
+  void take_pairs(const std::vector<std::uint32_t>& near, const PlaceOf& place_of,
+                  GrainBatch& batch) const {
     const GrainPlane& plane = kernels_.plane();
     const std::size_t materials = scene_->hard.substrate.size();
-    const auto shift = [](double distance, double length) {
-      return length > 0 ? length * std::nearbyint(distance / length) : 0;
-    };
-    std::vector<GrainPair> pairs(near.size());
+    batch.pairs.resize(near.size());
     auto contact = touching_.begin();
     for (std::size_t k = 0; k < near.size(); ++k) {
       const std::uint32_t i = neighbours_.first()[near[k]], j = neighbours_.second()[near[k]];
-      GrainPair& pair = pairs[k];
+      GrainPair& pair = batch.pairs[place_of(k)];
+      pair.touching = false;
       while (contact != touching_.end() && std::pair(contact->i, contact->j) < std::pair(i, j))
         ++contact;
       if (contact != touching_.end() && contact->i == i && contact->j == j) pair = contact->pair;
       pair.a = i;
       pair.b = j;
-      pair.shift_x = shift(grains_.x[i] - grains_.x[j], plane.length_x);
-      pair.shift_y = shift(grains_.y[i] - grains_.y[j], plane.length_y);
+      pair.shift_x = shift_to_nearest_image(grains_.x[i] - grains_.x[j], plane.length_x);
+      pair.shift_y = shift_to_nearest_image(grains_.y[i] - grains_.y[j], plane.length_y);
       pair.law = static_cast<std::uint32_t>(kernels_.kinds()[grains_.kind[i]].material * materials +
                                             kernels_.kinds()[grains_.kind[j]].material);
     }
-    return pairs;
   }
 
   /// So many steps, or none where a grain got faster than foreseen.
@@ -238,15 +251,13 @@ class GrainSolver::Impl {
     find_near(blocks_.margin(length));
     islands_.find(grains_.size(), neighbours_.first(), neighbours_.second(), near_);
     const std::vector<std::uint32_t>& active = islands_.grains();
-    batch_.resize(active.size());
+    batch_.resize(active.size(), features());
     share(active.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k)
-        batch_.take(k, grains_, active[k], kernels_.kinds());
+        batch_.take(k, grains_, active[k], kernels_.kinds(), features());
     });
-    const std::vector<GrainPair> pairs = pairs_of(near_);
-    batch_.pairs.resize(pairs.size());
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      GrainPair& pair = batch_.pairs[k] = pairs[islands_.pairs()[k]];
+    take_pairs(near_, [&](std::size_t k) { return islands_.pair_place()[k]; }, batch_);
+    for (GrainPair& pair : batch_.pairs) {
       pair.a = islands_.place(pair.a);
       pair.b = islands_.place(pair.b);
     }
@@ -268,9 +279,10 @@ class GrainSolver::Impl {
     const double still2 =
         n_ == 0 && features().on_plane ? begin_gliding() : kernels_.glide(grains_, step_, length);
     share(active.size(), [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) grains_.take(active[k], batch_.grains, k);
+      for (std::size_t k = first; k < last; ++k)
+        grains_.take(active[k], batch_.grains, k, features());
     });
-    keep_contacts(pairs.size());
+    keep_contacts();
     collisions_ += begun;
     blocks_.took(length, active.size(), touching_.size(), std::sqrt(std::max(fastest2, still2)));
     return true;
@@ -305,20 +317,16 @@ class GrainSolver::Impl {
 
   /// The first step with its half kick.
   double begin_gliding() {
-    GrainBatch batch;
-    batch.resize(grains_.size());
-    for (std::size_t i = 0; i < grains_.size(); ++i) batch.take(i, grains_, i, kernels_.kinds());
+    GrainBatch batch = batch_of_all();
     kernels_.run(batch, {0, grains_.size(), 0, 0}, {step_, 0.5 * step_, 1, true, false});
-    grains_ = std::move(batch.grains);
+    for (std::size_t i = 0; i < grains_.size(); ++i) grains_.take(i, batch.grains, i, features());
     return *std::max_element(batch.fastest.begin(), batch.fastest.end());
   }
 
-  void keep_contacts(std::size_t pairs) {
-    place_of_.resize(pairs);
-    for (std::uint32_t k = 0; k < pairs; ++k) place_of_[islands_.pairs()[k]] = k;
+  void keep_contacts() {
     touching_.clear();
-    for (std::size_t p = 0; p < pairs; ++p) {
-      const GrainPair& pair = batch_.pairs[place_of_[p]];
+    for (std::size_t p = 0; p < near_.size(); ++p) {
+      const GrainPair& pair = batch_.pairs[islands_.pair_place()[p]];
       if (pair.touching)
         touching_.push_back({neighbours_.first()[near_[p]], neighbours_.second()[near_[p]], pair});
     }
@@ -330,11 +338,12 @@ class GrainSolver::Impl {
   GrainKernels kernels_;
   std::vector<std::int64_t> image_x_, image_y_;  ///< cells between a grain's path and its place
   std::vector<std::uint32_t> body_;              ///< of the scene
+  std::vector<double> moved_;                    ///< one quantity's, for reorder()
   std::size_t n_ = 0, collisions_ = 0;
   GrainBlocks blocks_;
   GrainNeighbours neighbours_;
   GrainIslands islands_;
-  std::vector<std::uint32_t> near_, place_of_;
+  std::vector<std::uint32_t> near_;
   std::vector<std::vector<std::uint32_t>> found_;  ///< near ones, by share of the list
   std::vector<std::size_t> begun_;                 ///< contacts, by group
   ThreadTeam team_;
