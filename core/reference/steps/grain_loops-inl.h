@@ -9,9 +9,11 @@
 #include <hwy/highway.h>
 
 /// Before a loop each turn of which reads and writes what no other does: compilers do not see it of
-/// more than some arrays.
+/// more than some arrays. Under sanitizers none is vectorised.
 #undef SLIPCHECK_EACH_ALONE
-#ifdef __clang__
+#if defined(SLIPCHECK_SANITIZE)
+#define SLIPCHECK_EACH_ALONE
+#elif defined(__clang__)
 #define SLIPCHECK_EACH_ALONE _Pragma("clang loop vectorize(assume_safety)")
 #else
 #define SLIPCHECK_EACH_ALONE _Pragma("GCC ivdep")
@@ -39,26 +41,31 @@ HWY_ATTR void FindNear(const GrainArrays& grains, const GrainPlane& plane,
   const auto per_y = hn::Set(d, plane.length_y > 0 ? 1 / plane.length_y : 0);
   const double reach = 2 * plane.radius + margin;
   const auto reach2 = hn::Set(d, reach * reach);
+  // Which are near is written down without a branch for some, then read.
+  constexpr std::size_t kAtOnce = 64;
   std::size_t k = 0;
-  for (; k + lanes <= first.size(); k += lanes) {
-    const auto i = hn::BitCast(
-        di, hn::PromoteTo(hn::RebindToUnsigned<decltype(di)>(), hn::LoadU(du, first.data() + k)));
-    const auto j = hn::BitCast(
-        di, hn::PromoteTo(hn::RebindToUnsigned<decltype(di)>(), hn::LoadU(du, second.data() + k)));
-    auto dx =
-        hn::Sub(hn::GatherIndex(d, grains.x.data(), i), hn::GatherIndex(d, grains.x.data(), j));
-    auto dy =
-        hn::Sub(hn::GatherIndex(d, grains.y.data(), i), hn::GatherIndex(d, grains.y.data(), j));
-    dx = hn::Sub(dx, hn::Mul(length_x, hn::Round(hn::Mul(dx, per_x))));
-    dy = hn::Sub(dy, hn::Mul(length_y, hn::Round(hn::Mul(dy, per_y))));
-    const auto distance2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
-    const auto is_near = hn::Le(distance2, reach2);
-    if (hn::AllFalse(d, is_near)) continue;
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, is_near, bytes);
-    for (unsigned bits = bytes[0]; bits != 0; bits &= bits - 1)
+  for (; k + kAtOnce <= first.size(); k += kAtOnce) {
+    std::uint64_t all = 0;
+    for (std::size_t at = 0; at < kAtOnce; at += lanes) {
+      const auto i = hn::BitCast(di, hn::PromoteTo(hn::RebindToUnsigned<decltype(di)>(),
+                                                   hn::LoadU(du, first.data() + k + at)));
+      const auto j = hn::BitCast(di, hn::PromoteTo(hn::RebindToUnsigned<decltype(di)>(),
+                                                   hn::LoadU(du, second.data() + k + at)));
+      auto dx =
+          hn::Sub(hn::GatherIndex(d, grains.x.data(), i), hn::GatherIndex(d, grains.x.data(), j));
+      auto dy =
+          hn::Sub(hn::GatherIndex(d, grains.y.data(), i), hn::GatherIndex(d, grains.y.data(), j));
+      dx = hn::Sub(dx, hn::Mul(length_x, hn::Round(hn::Mul(dx, per_x))));
+      dy = hn::Sub(dy, hn::Mul(length_y, hn::Round(hn::Mul(dy, per_y))));
+      const auto distance2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
+      const auto is_near = hn::Le(distance2, reach2);
+      std::uint8_t bytes[8] = {};
+      hn::StoreMaskBits(d, is_near, bytes);
+      all |= std::uint64_t{bytes[0]} << at;
+    }
+    for (; all != 0; all &= all - 1)
       near.push_back(static_cast<std::uint32_t>(k) +
-                     static_cast<std::uint32_t>(std::countr_zero(bits)));
+                     static_cast<std::uint32_t>(std::countr_zero(all)));
   }
   for (; k < first.size(); ++k) {
     const std::uint32_t i = first[k], j = second[k];

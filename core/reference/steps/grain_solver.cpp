@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
-#include <type_traits>
 #include <utility>
 
 #include "base/stop_scope.h"
@@ -112,7 +111,8 @@ class GrainSolver::Impl {
     GrainBatch batch = batch_of_all();
     std::vector<std::uint32_t> near;
     kernels_.find_near(grains_, neighbours_.first(), neighbours_.second(), blocks_.margin(1), near);
-    take_pairs(near, [](std::size_t k) { return k; }, batch);
+    take_pairs(
+        near, [](std::size_t k) { return k; }, batch);
     const GrainGroup all = {0, grains_.size(), 0, batch.pairs.size()};
     kernels_.run(batch, all, {step_, n_ > 0 ? 0.5 * step_ : 0, 1, false, n_ > 0});
     frame.bodies.resize(grains_.size());
@@ -122,11 +122,10 @@ class GrainSolver::Impl {
     for (std::size_t i = 0; i < grains_.size(); ++i) {
       const double x = grains_.x[i] + static_cast<double>(image_x_[i]) * kernels_.plane().length_x;
       const double y = grains_.y[i] + static_cast<double>(image_y_[i]) * kernels_.plane().length_y;
-      frame.bodies[body_[i]] = {
-          {x, y, radius()},
-          {g.vx[i], g.vy[i], 0},
-          {rolls ? g.wx[i] : grains_.wx[i], rolls ? g.wy[i] : grains_.wy[i],
-           features().rubs ? g.wz[i] : grains_.wz[i]}};
+      frame.bodies[body_[i]] = {{x, y, radius()},
+                                {g.vx[i], g.vy[i], 0},
+                                {rolls ? g.wx[i] : grains_.wx[i], rolls ? g.wy[i] : grains_.wy[i],
+                                 features().rubs ? g.wz[i] : grains_.wz[i]}};
       const double impulse = rolls    ? 2 * batch.load[i]
                              : n_ > 0 ? kernels_.kinds()[grains_.kind[i]].weight * step_
                                       : 0;
@@ -256,7 +255,8 @@ class GrainSolver::Impl {
       for (std::size_t k = first; k < last; ++k)
         batch_.take(k, grains_, active[k], kernels_.kinds(), features());
     });
-    take_pairs(near_, [&](std::size_t k) { return islands_.pair_place()[k]; }, batch_);
+    take_pairs(
+        near_, [&](std::size_t k) { return islands_.pair_place()[k]; }, batch_);
     for (GrainPair& pair : batch_.pairs) {
       pair.a = islands_.place(pair.a);
       pair.b = islands_.place(pair.b);
