@@ -73,12 +73,12 @@ class GrainBlocks {
  private:
   // Costs in units of one grain gliding through a block, about 1 ns. They only tell how long blocks
   // and how thick skins are.
-  static constexpr double kLook = 1.5;        ///< at a pair of the list
-  static constexpr double kSteps = 6;         ///< of a grain in an island, each step
+  static constexpr double kLook = 1;          ///< at a pair of the list
+  static constexpr double kSteps = 4;         ///< of a grain in an island, each step
   static constexpr double kIsland = 40;       ///< to sort a grain into one
   static constexpr double kNeighbours = 150;  ///< of a grain, to find them
   /// How much faster than the fastest now a grain may get in a block before it is done again.
-  static constexpr double kFaster = 1.25;
+  static constexpr double kFaster = 1.1;
 
   double step_ = 0, braking_ = 0;
   double fastest_ = 0;
