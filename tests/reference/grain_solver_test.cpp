@@ -4,6 +4,7 @@
 #include <hwy/targets.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -174,6 +175,24 @@ TEST(GrainSolver, EdgesOfThePeriodicCellAreNowhere) {
   there.show(b);
   for (BodyState& state : b.bodies) state.position -= shift;
   EXPECT_LT(largest_difference(a.bodies, b.bodies) * kRadius, 1e-10);
+}
+
+/// Without friction of any kind nothing acts on spins, wherever grains have come to lie in memory.
+TEST(GrainSolver, SpinsOfSmoothGrainsStay) {
+  ContactScene scene = periodic_gas(300, 0.3, false, 0.9);
+  for (std::optional<SoftContact>& contact : scene.soft) contact->tangential = NoTangentialForce{};
+  for (std::size_t i = 0; i < scene.hard.initial.size(); ++i) {
+    const auto k = static_cast<double>(i);
+    scene.hard.initial[i].angular_velocity = {1 + k, 2 - k, 3 + 2 * k};
+  }
+  ASSERT_EQ(grain_refusal(scene, scene.hard.initial), "");
+  GrainSolver solver(scene, scene.hard.initial, 2e-4);
+  solver.advance(5000);
+  EXPECT_GT(solver.collisions(), 100u);
+  Frame frame;
+  solver.show(frame);
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i)
+    EXPECT_EQ(frame.bodies[i].angular_velocity, scene.hard.initial[i].angular_velocity) << i;
 }
 
 /// Forces between grains are equal and opposite, and without friction nothing else acts.
