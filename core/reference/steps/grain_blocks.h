@@ -76,7 +76,7 @@ class GrainBlocks {
   static constexpr double kLook = 1;          ///< at a pair of the list
   static constexpr double kSteps = 4;         ///< of a grain in an island, each step
   static constexpr double kIsland = 40;       ///< to sort a grain into one
-  static constexpr double kNeighbours = 150;  ///< of a grain, to find them
+  static constexpr double kNeighbours = 400;  ///< of a grain, to find them
   /// How much faster than the fastest now a grain may get in a block before it is done again.
   static constexpr double kFaster = 1.1;
 

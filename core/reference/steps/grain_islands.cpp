@@ -1,6 +1,8 @@
 #include "reference/steps/grain_islands.h"
 
+#include <algorithm>
 #include <numeric>
+#include <vector>
 
 namespace slipcheck {
 namespace {
@@ -10,63 +12,69 @@ constexpr std::size_t kGroup = 128;
 
 }  // namespace
 
-std::uint32_t GrainIslands::root(std::uint32_t k) {
-  while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-  return k;
+std::uint32_t GrainIslands::root(std::uint32_t grain) {
+  while (parent_[grain] != grain) grain = parent_[grain] = parent_[parent_[grain]];
+  return grain;
 }
 
-std::uint32_t GrainIslands::slot_of(std::uint32_t grain) {
-  std::uint32_t& slot = slot_[grain];
-  if (slot == kNone) {
-    slot = static_cast<std::uint32_t>(active_.size());
-    active_.push_back(grain);
-    parent_.push_back(slot);
-  }
-  return slot;
+void GrainIslands::join(std::uint32_t a, std::uint32_t b) {
+  a = root(a);
+  b = root(b);
+  parent_[std::max(a, b)] = std::min(a, b);
 }
 
 void GrainIslands::find(std::size_t grains, std::span<const std::uint32_t> first,
-                        std::span<const std::uint32_t> second,
-                        std::span<const std::uint32_t> near) {
-  for (const std::uint32_t grain : active_) slot_[grain] = kNone;
-  slot_.resize(grains, kNone);
-  active_.clear();
-  parent_.clear();
+                        std::span<const std::uint32_t> second, std::span<const std::uint32_t> hit,
+                        std::vector<std::uint32_t>& near) {
+  forget();
+  while (parent_.size() < grains) parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
+  island_.resize(grains, kNone);
+  place_.resize(grains, kNone);
+  for (const std::uint32_t k : near) join(first[k], second[k]);
+  for (const std::uint32_t grain : hit) island_[root(grain)] = kHit;
+  std::erase_if(near, [&](std::uint32_t k) {
+    const bool stays = island_[root(first[k])] == kHit;
+    if (!stays) parent_[first[k]] = first[k], parent_[second[k]] = second[k];
+    return !stays;
+  });
+  // Number and count, then place.
+  grain_start_.assign(1, 0);
+  pair_start_.assign(1, 0);
   for (const std::uint32_t k : near) {
-    const std::uint32_t a = root(slot_of(first[k])), b = root(slot_of(second[k]));
-    // The smaller root wins, so that islands keep the order in which they were met.
-    if (a < b)
-      parent_[b] = a;
-    else
-      parent_[a] = b;
+    std::uint32_t& island = island_[root(first[k])];
+    if (island == kHit) {
+      island = static_cast<std::uint32_t>(grain_start_.size() - 1);
+      grain_start_.push_back(0);
+      pair_start_.push_back(0);
+    }
+    ++pair_start_[island + 1];
+    for (const std::uint32_t grain : {first[k], second[k]}) {
+      if (place_[grain] != kNone) continue;
+      place_[grain] = island;
+      met_.push_back(grain);
+      ++grain_start_[island + 1];
+    }
   }
-  // Count, then place.
-  island_.assign(active_.size(), kNone);
-  std::uint32_t islands = 0;
-  grain_start_.assign(active_.size() + 1, 0);
-  pair_start_.assign(active_.size() + 1, 0);
-  for (std::uint32_t k = 0; k < active_.size(); ++k) {
-    const std::uint32_t r = root(k);
-    if (island_[r] == kNone) island_[r] = islands++;
-    ++grain_start_[island_[r] + 1];
-  }
-  for (const std::uint32_t k : near) ++pair_start_[island_[root(slot_[first[k]])] + 1];
-  grain_start_.resize(islands + 1);
-  pair_start_.resize(islands + 1);
   std::partial_sum(grain_start_.begin(), grain_start_.end(), grain_start_.begin());
   std::partial_sum(pair_start_.begin(), pair_start_.end(), pair_start_.begin());
-  grains_.resize(active_.size());
-  place_.resize(active_.size());
-  next_ = grain_start_;
-  for (std::uint32_t k = 0; k < active_.size(); ++k) {
-    place_[k] = next_[island_[root(k)]]++;
-    grains_[place_[k]] = active_[k];
-  }
   pair_place_.resize(near.size());
   next_ = pair_start_;
-  for (std::uint32_t p = 0; p < near.size(); ++p)
-    pair_place_[p] = next_[island_[root(slot_[first[near[p]]])]]++;
+  for (std::size_t p = 0; p < near.size(); ++p) pair_place_[p] = next_[place_[first[near[p]]]]++;
+  grains_.resize(met_.size());
+  next_ = grain_start_;
+  for (const std::uint32_t grain : met_) {
+    place_[grain] = next_[place_[grain]]++;
+    grains_[place_[grain]] = grain;
+  }
   make_groups();
+}
+
+void GrainIslands::forget() {
+  for (const std::uint32_t grain : met_) {
+    parent_[grain] = grain;
+    island_[grain] = place_[grain] = kNone;
+  }
+  met_.clear();
 }
 
 void GrainIslands::make_groups() {
