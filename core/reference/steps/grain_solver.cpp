@@ -321,7 +321,7 @@ class GrainSolver::Impl {
   void find_hit(std::size_t length) {
     const double time = step_ * static_cast<double>(length);
     // What the substrate's friction takes from two grains, and roundings.
-    const double aside = braking() * step_ * (time + step_) + 1e-9 * radius();
+    const double aside = braking() * time * (time + step_) + 1e-9 * radius();
     const double reach = 2 * radius() + aside;
     const GrainPlane& plane = kernels_.plane();
     const GrainArrays& g = grains_;
