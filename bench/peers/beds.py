@@ -9,15 +9,12 @@ time, LAMMPS on N ranks beside as many threads. `height` is how far the mean hei
 apart.
 """
 import argparse
-import os
-import re
-import shutil
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-HERE = Path(__file__).parent
+import lammps
+
 TURNS = 3
 SKIN = 0.002  # of the peer [m], the fastest of 0.001, 0.002, 0.003
 
@@ -32,19 +29,9 @@ def ours(build, n, ratio, warm, steps, threads, data):
 
 
 def peer(n, warm, steps, ranks, constants, data, folder):
-    log = folder / "log"
-    step, kn, gamma, side = constants
-    start = ["mpirun", "--oversubscribe", "--allow-run-as-root", "-n", str(ranks)] if ranks > 1 else []
-    values = {"data": data, "skin": SKIN, "warm": warm, "steps": steps, "kn": repr(kn),
-              "gamma": repr(gamma), "side": repr(side), "step": repr(step)}
-    subprocess.run([*start, "lmp", "-in", HERE / "bed.lmp", "-log", log, "-screen", "none",
-                    *(word for key, value in values.items() for word in ("-var", key, str(value)))],
-                   env=dict(os.environ, OMP_NUM_THREADS="1"), check=True)
-    text = log.read_text()
-    seconds = float(re.findall(r"Loop time of (\S+)", text)[-1])
-    if ranks == 1:
-        seconds *= float(re.findall(r"([\d.]+)% CPU use", text)[-1]) / 100
-    height = float(re.findall(rf"^\s*{warm + steps}\s+(\S+)", text, re.M)[-1])
+    step, kn, gamma, side = map(repr, constants)
+    seconds, height = lammps.run("bed.lmp", folder / "log", ranks, data=data, skin=SKIN, warm=warm,
+                                 steps=steps, kn=kn, gamma=gamma, side=side, step=step)
     return n * steps / seconds / 1e6, height
 
 
@@ -54,8 +41,7 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--ranks", type=int, default=1)
     arguments = parser.parse_args()
-    if not shutil.which("lmp"):
-        sys.exit("beds.py: LAMMPS is not installed (apt-get install lammps)")
+    lammps.require()
     sizes = [(1000, 2000, 10000), (10000, 2000, 2000), (100000, 1000, 400)]
     if arguments.quick:
         sizes = [(1000, 1000, 3000), (10000, 1000, 1000)]

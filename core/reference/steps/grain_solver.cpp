@@ -112,8 +112,9 @@ class GrainSolver::Impl {
     GrainBatch batch = batch_of_all();
     std::vector<std::uint32_t> near;
     kernels_.find_near(grains_, neighbours_.first(), neighbours_.second(), blocks_.margin(1), near);
+    batch.pairs.resize(near.size());
     take_pairs(
-        near, [](std::size_t k) { return k; }, batch);
+        near, 0, near.size(), [](std::size_t k) { return k; }, batch);
     const GrainGroup all = {0, grains_.size(), 0, batch.pairs.size()};
     kernels_.run(batch, all, {step_, n_ > 0 ? 0.5 * step_ : 0, 1, false, n_ > 0});
     frame.bodies.resize(grains_.size());
@@ -145,6 +146,10 @@ class GrainSolver::Impl {
   struct Contact {
     std::uint32_t i = 0, j = 0;
     GrainPair pair;
+  };
+
+  struct Found {
+    std::vector<std::uint32_t> near, hit;
   };
 
   double radius() const { return kernels_.plane().radius; }
@@ -221,17 +226,23 @@ class GrainSolver::Impl {
     return batch;
   }
 
-  /// The near pairs, each in place_of() its number, by index of grain, with what those in contact
-  /// remember.
+  /// Of the near pairs those first … last − 1, each in place_of() its number, by index of grain,
+  /// with what those in contact remember.
   template <class PlaceOf>
-  void take_pairs(const std::vector<std::uint32_t>& near, const PlaceOf& place_of,
-                  GrainBatch& batch) const {
+  void take_pairs(const std::vector<std::uint32_t>& near, std::size_t first, std::size_t last,
+                  const PlaceOf& place_of, GrainBatch& batch) const {
     const GrainPlane& plane = kernels_.plane();
     const std::size_t materials = scene_->hard.substrate.size();
-    batch.pairs.resize(near.size());
+    const auto grains_of = [&](std::uint32_t k) {
+      return std::pair(neighbours_.first()[k], neighbours_.second()[k]);
+    };
     auto contact = touching_.begin();
-    for (std::size_t k = 0; k < near.size(); ++k) {
-      const std::uint32_t i = neighbours_.first()[near[k]], j = neighbours_.second()[near[k]];
+    if (first > 0 && first < last)
+      contact = std::partition_point(touching_.begin(), touching_.end(), [&](const Contact& each) {
+        return std::pair(each.i, each.j) < grains_of(near[first]);
+      });
+    for (std::size_t k = first; k < last; ++k) {
+      const auto [i, j] = grains_of(near[k]);
       GrainPair& pair = batch.pairs[place_of(k)];
       pair.touching = false;
       while (contact != touching_.end() && std::pair(contact->i, contact->j) < std::pair(i, j))
@@ -248,8 +259,7 @@ class GrainSolver::Impl {
 
   /// So many steps, or none where a grain got faster than foreseen.
   bool run_block(std::size_t length) {
-    find_near(blocks_.margin(length));
-    find_hit(length);
+    find_near(length);
     islands_.find(grains_.size(), neighbours_.first(), neighbours_.second(), hit_, near_);
     const std::vector<std::uint32_t>& active = islands_.grains();
     batch_.resize(active.size(), features());
@@ -257,18 +267,23 @@ class GrainSolver::Impl {
       for (std::size_t k = first; k < last; ++k)
         batch_.take(k, grains_, active[k], kernels_.kinds(), features());
     });
-    take_pairs(
-        near_, [&](std::size_t k) { return islands_.pair_place()[k]; }, batch_);
-    for (GrainPair& pair : batch_.pairs) {
-      pair.a = islands_.place(pair.a);
-      pair.b = islands_.place(pair.b);
-    }
+    batch_.pairs.resize(near_.size());
+    share(near_.size(), [&](std::size_t first, std::size_t last) {
+      const auto place_of = [&](std::size_t k) { return islands_.pair_place()[k]; };
+      take_pairs(near_, first, last, place_of, batch_);
+      for (std::size_t k = first; k < last; ++k) {
+        GrainPair& pair = batch_.pairs[place_of(k)];
+        pair.a = islands_.place(pair.a);
+        pair.b = islands_.place(pair.b);
+      }
+    });
     // Groups share no grain: whoever takes them, each does the same.
     const std::vector<GrainGroup>& groups = islands_.groups();
     begun_.assign(groups.size(), 0);
-    team_.run(groups.size(), [&](std::size_t k) {
-      begun_[k] = kernels_.run(batch_, groups[k],
-                               {step_, n_ == 0 ? 0.5 * step_ : step_, length, true, n_ > 0});
+    share(groups.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k)
+        begun_[k] = kernels_.run(batch_, groups[k],
+                                 {step_, n_ == 0 ? 0.5 * step_ : step_, length, true, n_ > 0});
     });
     const std::size_t begun = std::accumulate(begun_.begin(), begun_.end(), std::size_t{0});
     double fastest2 = 0;
@@ -290,46 +305,57 @@ class GrainSolver::Impl {
     return true;
   }
 
-  /// Calls work(first, last) for shares of 0 … count − 1.
+  /// Calls work(first, last) for shares of 0 … count − 1, some for each thread: what lies side by
+  /// side is mostly one thread's.
   template <class Work>
   void share(std::size_t count, const Work& work) {
-    constexpr std::size_t kShare = 4096;
-    team_.run((count + kShare - 1) / kShare,
-              [&](std::size_t k) { work(k * kShare, std::min(count, (k + 1) * kShare)); });
+    const std::size_t shares = team_.size() == 1 ? 1 : std::min(count, 4 * team_.size());
+    team_.run(shares, [&](std::size_t k) { work(count * k / shares, count * (k + 1) / shares); });
   }
 
-  void find_near(double margin) {
+  /// Pairs that may meet within `length` steps, in near_, and in hit_ one grain of each that
+  /// touches, or meets if both go straight on.
+  void find_near(std::size_t length) {
     const std::vector<std::uint32_t>&first = neighbours_.first(), &second = neighbours_.second();
+    const double margin = blocks_.margin(length);
     near_.clear();
+    hit_.clear();
+    for (const Contact& contact : touching_) hit_.push_back(contact.i);
     if (team_.size() == 1) {
       kernels_.find_near(grains_, first, second, margin, near_);
+      find_hit(length, near_, hit_);
       return;
     }
-    constexpr std::size_t kShare = 16384;
+    constexpr std::size_t kShare = 8192;
     found_.resize((first.size() + kShare - 1) / kShare);
     team_.run(found_.size(), [&](std::size_t k) {
       const std::size_t from = k * kShare, count = std::min(kShare, first.size() - from);
-      found_[k].clear();
+      Found& found = found_[k];
+      found.near.clear();
+      found.hit.clear();
       kernels_.find_near(grains_, std::span(first).subspan(from, count),
-                         std::span(second).subspan(from, count), margin, found_[k]);
-      for (std::uint32_t& each : found_[k]) each += static_cast<std::uint32_t>(from);
+                         std::span(second).subspan(from, count), margin, found.near);
+      for (std::uint32_t& each : found.near) each += static_cast<std::uint32_t>(from);
+      find_hit(length, found.near, found.hit);
     });
-    for (const auto& found : found_) near_.insert(near_.end(), found.begin(), found.end());
+    for (const Found& found : found_) {
+      near_.insert(near_.end(), found.near.begin(), found.near.end());
+      hit_.insert(hit_.end(), found.hit.begin(), found.hit.end());
+    }
   }
 
-  /// One grain of each pair that touches, or meets within the block if both go straight on.
-  void find_hit(std::size_t length) {
+  /// Adds the first grain of each pair that meets within `length` steps if both go straight on.
+  void find_hit(std::size_t length, const std::vector<std::uint32_t>& near,
+                std::vector<std::uint32_t>& hit) const {
     const double time = step_ * static_cast<double>(length);
     // What the substrate's friction takes from two grains, and roundings.
     const double aside = braking() * time * (time + step_) + 1e-9 * radius();
     const double reach = 2 * radius() + aside;
     const GrainPlane& plane = kernels_.plane();
     const GrainArrays& g = grains_;
-    hit_.clear();
-    for (const Contact& contact : touching_) hit_.push_back(contact.i);
-    std::size_t hits = hit_.size();
-    hit_.resize(hits + near_.size());
-    for (const std::uint32_t k : near_) {
+    std::size_t hits = hit.size();
+    hit.resize(hits + near.size());
+    for (const std::uint32_t k : near) {
       const std::uint32_t i = neighbours_.first()[k], j = neighbours_.second()[k];
       double dx = g.x[i] - g.x[j], dy = g.y[i] - g.y[j];
       dx -= shift_to_nearest_image(dx, plane.length_x);
@@ -340,10 +366,10 @@ class GrainSolver::Impl {
       const double when = std::clamp(-(dx * ux + dy * uy) / speed2, 0.0, time);
       dx += ux * when;
       dy += uy * when;
-      hit_[hits] = i;
+      hit[hits] = i;
       hits += dx * dx + dy * dy <= reach * reach ? 1 : 0;
     }
-    hit_.resize(hits);
+    hit.resize(hits);
   }
 
   /// The first step with its half kick.
@@ -375,8 +401,8 @@ class GrainSolver::Impl {
   GrainNeighbours neighbours_;
   GrainIslands islands_;
   std::vector<std::uint32_t> near_, hit_;
-  std::vector<std::vector<std::uint32_t>> found_;  ///< near ones, by share of the list
-  std::vector<std::size_t> begun_;                 ///< contacts, by group
+  std::vector<Found> found_;        ///< by share of the list
+  std::vector<std::size_t> begun_;  ///< contacts, by group
   ThreadTeam team_;
   GrainBatch batch_;
   std::vector<Contact> touching_;  ///< in the order of the list
