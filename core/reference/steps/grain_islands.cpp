@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <vector>
 
 namespace slipcheck {
 namespace {
@@ -24,23 +23,24 @@ void GrainIslands::join(std::uint32_t a, std::uint32_t b) {
 }
 
 void GrainIslands::find(std::size_t grains, std::span<const std::uint32_t> first,
-                        std::span<const std::uint32_t> second, std::span<const std::uint32_t> hit,
-                        std::vector<std::uint32_t>& near) {
+                        std::span<const std::uint32_t> second, std::span<const std::uint32_t> near,
+                        std::span<const std::uint32_t> hit) {
   forget();
   while (parent_.size() < grains) parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
   island_.resize(grains, kNone);
   place_.resize(grains, kNone);
   for (const std::uint32_t k : near) join(first[k], second[k]);
   for (const std::uint32_t grain : hit) island_[root(grain)] = kHit;
-  std::erase_if(near, [&](std::uint32_t k) {
-    const bool stays = island_[root(first[k])] == kHit;
-    if (!stays) parent_[first[k]] = first[k], parent_[second[k]] = second[k];
-    return !stays;
-  });
+  for (const std::uint32_t k : near) {
+    if (island_[root(first[k])] == kHit)
+      kept_.push_back(k);
+    else
+      parent_[first[k]] = first[k], parent_[second[k]] = second[k];
+  }
   // Number and count, then place.
   grain_start_.assign(1, 0);
   pair_start_.assign(1, 0);
-  for (const std::uint32_t k : near) {
+  for (const std::uint32_t k : kept_) {
     std::uint32_t& island = island_[root(first[k])];
     if (island == kHit) {
       island = static_cast<std::uint32_t>(grain_start_.size() - 1);
@@ -57,9 +57,9 @@ void GrainIslands::find(std::size_t grains, std::span<const std::uint32_t> first
   }
   std::partial_sum(grain_start_.begin(), grain_start_.end(), grain_start_.begin());
   std::partial_sum(pair_start_.begin(), pair_start_.end(), pair_start_.begin());
-  pair_place_.resize(near.size());
+  pairs_.resize(kept_.size());
   next_ = pair_start_;
-  for (std::size_t p = 0; p < near.size(); ++p) pair_place_[p] = next_[place_[first[near[p]]]]++;
+  for (const std::uint32_t k : kept_) pairs_[next_[place_[first[k]]]++] = k;
   grains_.resize(met_.size());
   next_ = grain_start_;
   for (const std::uint32_t grain : met_) {
@@ -75,6 +75,7 @@ void GrainIslands::forget() {
     island_[grain] = place_[grain] = kNone;
   }
   met_.clear();
+  kept_.clear();
 }
 
 void GrainIslands::make_groups() {

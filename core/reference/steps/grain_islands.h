@@ -14,16 +14,15 @@ namespace slipcheck {
 /// on as if alone.
 class GrainIslands {
  public:
-  /// `near` are indices into first and second, which tell grains below `grains`; those of islands
-  /// left out are taken from it. hit: of each pair that touches or is to meet unless others
-  /// intervene, one grain.
+  /// `near` are indices into first and second, which tell grains below `grains`. hit: of each pair
+  /// that touches or is to meet unless others intervene, one grain.
   void find(std::size_t grains, std::span<const std::uint32_t> first,
-            std::span<const std::uint32_t> second, std::span<const std::uint32_t> hit,
-            std::vector<std::uint32_t>& near);
+            std::span<const std::uint32_t> second, std::span<const std::uint32_t> near,
+            std::span<const std::uint32_t> hit);
 
   const std::vector<std::uint32_t>& grains() const { return grains_; }  ///< island by island
-  /// Of each of `near`: its place, island by island.
-  const std::vector<std::uint32_t>& pair_place() const { return pair_place_; }
+  /// Those of `near`, island by island.
+  const std::vector<std::uint32_t>& pairs() const { return pairs_; }
   /// Of a grain in grains(): its place there.
   std::uint32_t place(std::uint32_t grain) const { return place_[grain]; }
   const std::vector<GrainGroup>& groups() const { return groups_; }
@@ -39,9 +38,9 @@ class GrainIslands {
   std::vector<std::uint32_t> parent_;
   std::vector<std::uint32_t> island_;  ///< of a root; kHit before it has a number
   std::vector<std::uint32_t> place_;
-  std::vector<std::uint32_t> met_;  ///< those of grains_, in the order of the pairs
+  std::vector<std::uint32_t> met_, kept_;  ///< grains_ and pairs_ in the order of the pairs
   std::vector<std::uint32_t> grain_start_, pair_start_, next_;
-  std::vector<std::uint32_t> grains_, pair_place_;
+  std::vector<std::uint32_t> grains_, pairs_;
   std::vector<GrainGroup> groups_;
 };
 

@@ -74,9 +74,10 @@ class GrainKernels {
   void find_near(const GrainArrays& grains, std::span<const std::uint32_t> first,
                  std::span<const std::uint32_t> second, double margin,
                  std::vector<std::uint32_t>& near) const;
-  /// Steps of grains that meet none: in one go, to rounding what single steps do. Returns the
-  /// square of the largest speed [m²/s²].
-  double glide(GrainArrays& grains, double step, std::size_t count) const;
+  /// Steps of the grains first … last − 1, which meet none: in one go, to rounding what single
+  /// steps do. Returns the square of the largest speed [m²/s²].
+  double glide(GrainArrays& grains, std::size_t first, std::size_t last, double step,
+               std::size_t count) const;
   /// Steps of one group. Returns how many contacts began.
   std::size_t run(GrainBatch& batch, const GrainGroup& group, const GrainSteps& steps) const;
 

@@ -79,12 +79,13 @@ HWY_ATTR void FindNear(const GrainArrays& grains, const GrainPlane& plane,
 // --- grains that meet none -----------------------------------------------------------------------
 
 /// Without friction: straight on.
-HWY_ATTR inline void GlideFreely(GrainArrays& grains, double time) {
+HWY_ATTR inline void GlideFreely(GrainArrays& grains, std::size_t first, std::size_t last,
+                                 double time) {
   double* HWY_RESTRICT x = grains.x.data();
   double* HWY_RESTRICT y = grains.y.data();
   const double* HWY_RESTRICT vx = grains.vx.data();
   const double* HWY_RESTRICT vy = grains.vy.data();
-  for (std::size_t i = 0, n = grains.size(); i < n; ++i) {
+  for (std::size_t i = first; i < last; ++i) {
     x[i] += time * vx[i];
     y[i] += time * vy[i];
   }
@@ -92,8 +93,9 @@ HWY_ATTR inline void GlideFreely(GrainArrays& grains, double time) {
 
 /// Steps against a constant friction μ_k g, m of them until one stops the slip, then straight on:
 /// the sums over the steps that StepBody's kick and drift make one by one.
-HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, const std::vector<GrainKind>& kinds,
-                                       double R, double h, double count) {
+HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, std::size_t first, std::size_t last,
+                                       const std::vector<GrainKind>& kinds, double R, double h,
+                                       double count) {
   double* HWY_RESTRICT x = grains.x.data();
   double* HWY_RESTRICT y = grains.y.data();
   double* HWY_RESTRICT vx = grains.vx.data();
@@ -108,7 +110,7 @@ HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, const std::vector<Gr
   const std::uint32_t* HWY_RESTRICT kind = grains.kind.data();
   const GrainKind* HWY_RESTRICT table = kinds.data();
   SLIPCHECK_EACH_ALONE
-  for (std::size_t i = 0, n = grains.size(); i < n; ++i) {
+  for (std::size_t i = first; i < last; ++i) {
     const GrainKind& k = table[kind[i]];
     const double lost = k.kinetic_friction * k.weight * k.inverse_mass * h;  // of |v| in a step
     const double ux = vx[i] - R * wy[i], uy = vy[i] + R * wx[i];
@@ -141,28 +143,29 @@ HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, const std::vector<Gr
   }
 }
 
-HWY_ATTR double LargestSquare(const std::vector<double>& x, const std::vector<double>& y) {
+HWY_ATTR double LargestSquare(const std::vector<double>& x, const std::vector<double>& y,
+                              std::size_t first, std::size_t last) {
   const hn::ScalableTag<double> d;
   const std::size_t lanes = hn::Lanes(d);
   auto largest = hn::Zero(d);
-  std::size_t i = 0;
-  for (; i + lanes <= x.size(); i += lanes) {
+  std::size_t i = first;
+  for (; i + lanes <= last; i += lanes) {
     const auto a = hn::LoadU(d, x.data() + i), b = hn::LoadU(d, y.data() + i);
     largest = hn::Max(largest, hn::Add(hn::Mul(a, a), hn::Mul(b, b)));
   }
   double found = hn::GetLane(hn::MaxOfLanes(d, largest));
-  for (; i < x.size(); ++i) found = std::max(found, x[i] * x[i] + y[i] * y[i]);
+  for (; i < last; ++i) found = std::max(found, x[i] * x[i] + y[i] * y[i]);
   return found;
 }
 
-HWY_ATTR double Glide(const GrainFeatures& features, GrainArrays& grains,
-                      const std::vector<GrainKind>& kinds, double radius, double step,
-                      std::size_t count) {
+HWY_ATTR double Glide(const GrainFeatures& features, GrainArrays& grains, std::size_t first,
+                      std::size_t last, const std::vector<GrainKind>& kinds, double radius,
+                      double step, std::size_t count) {
   if (features.on_plane)
-    GlideWithFriction(grains, kinds, radius, step, static_cast<double>(count));
+    GlideWithFriction(grains, first, last, kinds, radius, step, static_cast<double>(count));
   else
-    GlideFreely(grains, step * static_cast<double>(count));
-  return LargestSquare(grains.vx, grains.vy);
+    GlideFreely(grains, first, last, step * static_cast<double>(count));
+  return LargestSquare(grains.vx, grains.vy, first, last);
 }
 
 // --- grains that may meet ------------------------------------------------------------------------

@@ -51,44 +51,67 @@ const std::vector<std::uint32_t>& GrainNeighbours::sort(const GrainArrays& grain
   return order_;
 }
 
-void GrainNeighbours::take(const GrainArrays& grains, const GrainPlane& plane, double skin,
-                           std::uint32_t i, std::uint32_t begin, std::uint32_t end) {
-  const double reach = 2 * plane.radius + skin;
-  for (std::uint32_t j = begin; j < end; ++j) {
-    double dx = grains.x[i] - grains.x[j], dy = grains.y[i] - grains.y[j];
-    dx -= shift_to_nearest_image(dx, plane.length_x);
-    dy -= shift_to_nearest_image(dy, plane.length_y);
-    if (dx * dx + dy * dy <= reach * reach) found_.push_back(j);
+void GrainNeighbours::find(const GrainArrays& grains, const GrainPlane& plane, double skin,
+                           ThreadTeam& team) {
+  found_.resize(team.size());
+  const std::size_t shares = found_.size();
+  team.run(shares, [&](std::size_t k) {
+    find_in(grains, plane, skin, static_cast<std::int64_t>(rows_ * k / shares),
+            static_cast<std::int64_t>(rows_ * (k + 1) / shares), found_[k]);
+  });
+  first_.clear();
+  second_.clear();
+  for (const Found& found : found_) {
+    first_.insert(first_.end(), found.first.begin(), found.first.end());
+    second_.insert(second_.end(), found.second.begin(), found.second.end());
   }
 }
 
-void GrainNeighbours::find(const GrainArrays& grains, const GrainPlane& plane, double skin) {
-  first_.clear();
-  second_.clear();
+std::uint32_t GrainNeighbours::place_of(std::uint32_t i, std::uint32_t j) const {
+  const auto [begin, end] = std::equal_range(first_.begin(), first_.end(), i);
+  const auto second = second_.begin();
+  const auto at =
+      std::lower_bound(second + (begin - first_.begin()), second + (end - first_.begin()), j);
+  return static_cast<std::uint32_t>(at - second);
+}
+
+void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane, double skin,
+                              std::int64_t first_row, std::int64_t last_row, Found& found) const {
+  found.first.clear();
+  found.second.clear();
+  const double reach = 2 * plane.radius + skin;
+  const auto take = [&](std::uint32_t i, std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t j = begin; j < end; ++j) {
+      double dx = grains.x[i] - grains.x[j], dy = grains.y[i] - grains.y[j];
+      dx -= shift_to_nearest_image(dx, plane.length_x);
+      dy -= shift_to_nearest_image(dy, plane.length_y);
+      if (dx * dx + dy * dy <= reach * reach) found.beside.push_back(j);
+    }
+  };
   const auto columns = static_cast<std::int64_t>(columns_), rows = static_cast<std::int64_t>(rows_);
   // A cell of few columns or rows would meet itself around the plane.
   const bool round_x = plane.length_x > 0 && columns > 2;
   const bool round_y = plane.length_y > 0 && rows > 2;
   const bool all_x = columns <= 2, all_y = rows <= 2;
-  for (std::int64_t row = 0; row < rows; ++row)
+  for (std::int64_t row = first_row; row < last_row; ++row)
     for (std::int64_t column = 0; column < columns; ++column) {
       const std::size_t cell = static_cast<std::size_t>(row * columns + column);
       for (std::uint32_t i = start_[cell]; i < start_[cell + 1]; ++i) {
-        found_.clear();
+        found.beside.clear();
         for (std::int64_t r = all_y ? 0 : row - 1; r <= (all_y ? rows - 1 : row + 1); ++r) {
           if (!round_y && (r < 0 || r >= rows)) continue;
-          const std::int64_t beside = (r + rows) % rows * columns;
+          const std::int64_t row_beside = (r + rows) % rows * columns;
           for (std::int64_t c = all_x ? 0 : column - 1; c <= (all_x ? columns - 1 : column + 1);
                ++c) {
             if (!round_x && (c < 0 || c >= columns)) continue;
-            const auto other = static_cast<std::size_t>(beside + (c + columns) % columns);
+            const auto other = static_cast<std::size_t>(row_beside + (c + columns) % columns);
             if (other < cell) continue;
-            take(grains, plane, skin, i, other == cell ? i + 1 : start_[other], start_[other + 1]);
+            take(i, other == cell ? i + 1 : start_[other], start_[other + 1]);
           }
         }
-        std::sort(found_.begin(), found_.end());
-        first_.insert(first_.end(), found_.size(), i);
-        second_.insert(second_.end(), found_.begin(), found_.end());
+        std::sort(found.beside.begin(), found.beside.end());
+        found.first.insert(found.first.end(), found.beside.size(), i);
+        found.second.insert(found.second.end(), found.beside.begin(), found.beside.end());
       }
     }
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/thread_team.h"
 #include "reference/steps/grain_bodies.h"
 #include "reference/steps/grain_kernels.h"
 
@@ -17,24 +18,31 @@ class GrainNeighbours {
   const std::vector<std::uint32_t>& sort(const GrainArrays& grains, const GrainPlane& plane,
                                          double width);
   /// The pairs of grains that sort() has ordered, no further from each other's surface than `skin`
-  /// [m] and in ascending order. The width given to sort() must be that of skin and two radii.
-  void find(const GrainArrays& grains, const GrainPlane& plane, double skin);
+  /// [m] and in ascending order. The width given to sort() must be that of skin and two radii. The
+  /// team shares the work.
+  void find(const GrainArrays& grains, const GrainPlane& plane, double skin, ThreadTeam& team);
 
   /// The list; the rest is made anew with it.
   void exchange(StateArchive& archive) { archive(first_, second_); }
   const std::vector<std::uint32_t>& first() const { return first_; }
   const std::vector<std::uint32_t>& second() const { return second_; }  ///< > first()
+  /// The place of a pair i < j of the list in it.
+  std::uint32_t place_of(std::uint32_t i, std::uint32_t j) const;
 
  private:
-  void take(const GrainArrays& grains, const GrainPlane& plane, double skin, std::uint32_t i,
-            std::uint32_t begin, std::uint32_t end);
+  /// Pairs by the rows of cells that one thread looks at.
+  struct Found {
+    std::vector<std::uint32_t> first, second, beside;
+  };
+  void find_in(const GrainArrays& grains, const GrainPlane& plane, double skin,
+               std::int64_t first_row, std::int64_t last_row, Found& found) const;
 
   std::uint32_t columns_ = 1, rows_ = 1;
   std::vector<std::uint32_t> cell_;   ///< of each grain, in the order before sort()
   std::vector<std::uint32_t> start_;  ///< of each cell in the new order
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> first_, second_;
-  std::vector<std::uint32_t> found_;
+  std::vector<Found> found_;
 };
 
 }  // namespace slipcheck

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "base/stop_scope.h"
@@ -86,6 +85,7 @@ class GrainSolver::Impl {
 
   void exchange(StateArchive& archive) {
     archive(grains_, image_x_, image_y_, body_, n_, collisions_, blocks_, neighbours_, touching_);
+    remember_contacts();
   }
 
   double now() const { return static_cast<double>(n_) * step_; }
@@ -113,8 +113,7 @@ class GrainSolver::Impl {
     std::vector<std::uint32_t> near;
     kernels_.find_near(grains_, neighbours_.first(), neighbours_.second(), blocks_.margin(1), near);
     batch.pairs.resize(near.size());
-    take_pairs(
-        near, 0, near.size(), [](std::size_t k) { return k; }, batch);
+    for (std::size_t p = 0; p < near.size(); ++p) take_pair(near[p], batch.pairs[p]);
     const GrainGroup all = {0, grains_.size(), 0, batch.pairs.size()};
     kernels_.run(batch, all, {step_, n_ > 0 ? 0.5 * step_ : 0, 1, false, n_ > 0});
     frame.bodies.resize(grains_.size());
@@ -142,14 +141,20 @@ class GrainSolver::Impl {
   }
 
  private:
-  /// A pair in contact at the end of a block.
+  /// A pair of the list in contact at the end of a block, by grain.
   struct Contact {
-    std::uint32_t i = 0, j = 0;
+    std::uint32_t listed = 0;
     GrainPair pair;
   };
-
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  /// Of a thread's share of the list: near pairs, and one grain of each that is hit.
   struct Found {
     std::vector<std::uint32_t> near, hit;
+  };
+  /// What a group's steps came to.
+  struct Ended {
+    std::size_t begun = 0, touching = 0;
+    double fastest2 = 0;
   };
 
   double radius() const { return kernels_.plane().radius; }
@@ -179,7 +184,16 @@ class GrainSolver::Impl {
     const std::vector<std::uint32_t>& order =
         neighbours_.sort(g, kernels_.plane(), 2 * radius() + blocks_.skin());
     reorder(order);
-    neighbours_.find(g, kernels_.plane(), blocks_.skin());
+    neighbours_.find(g, kernels_.plane(), blocks_.skin(), team_);
+    for (Contact& contact : touching_)
+      contact.listed = neighbours_.place_of(contact.pair.a, contact.pair.b);
+    remember_contacts();
+  }
+
+  /// Where the contact of a listed pair is found.
+  void remember_contacts() {
+    contact_of_.assign(neighbours_.first().size(), kNone);
+    for (std::uint32_t c = 0; c < touching_.size(); ++c) contact_of_[touching_[c].listed] = c;
   }
 
   /// ρ [1/m²] of a periodic plane, else that of grains side by side.
@@ -204,17 +218,15 @@ class GrainSolver::Impl {
     apply(body_, place);
     place.resize(order.size());
     for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
-    for (Contact& c : touching_) {
-      c.i = place[c.i];
-      c.j = place[c.j];
-      if (c.i < c.j) continue;
-      std::swap(c.i, c.j);
-      const GrainPair::Force& f = c.pair.force;
-      c.pair.force = {-f.x, -f.y, -f.z, -f.across_x, -f.across_y};
+    for (Contact& contact : touching_) {
+      GrainPair& pair = contact.pair;
+      pair.a = place[pair.a];
+      pair.b = place[pair.b];
+      if (pair.a < pair.b) continue;
+      std::swap(pair.a, pair.b);
+      const GrainPair::Force& f = pair.force;
+      pair.force = {-f.x, -f.y, -f.z, -f.across_x, -f.across_y};
     }
-    std::sort(touching_.begin(), touching_.end(), [](const Contact& a, const Contact& b) {
-      return std::pair(a.i, a.j) < std::pair(b.i, b.j);
-    });
   }
 
   /// All grains, each in its own place.
@@ -226,118 +238,125 @@ class GrainSolver::Impl {
     return batch;
   }
 
-  /// Of the near pairs those first … last − 1, each in place_of() its number, by index of grain,
-  /// with what those in contact remember.
-  template <class PlaceOf>
-  void take_pairs(const std::vector<std::uint32_t>& near, std::size_t first, std::size_t last,
-                  const PlaceOf& place_of, GrainBatch& batch) const {
+  /// A pair of the list, by grain, with what it remembers if in contact.
+  void take_pair(std::uint32_t listed, GrainPair& pair) const {
     const GrainPlane& plane = kernels_.plane();
-    const std::size_t materials = scene_->hard.substrate.size();
-    const auto grains_of = [&](std::uint32_t k) {
-      return std::pair(neighbours_.first()[k], neighbours_.second()[k]);
-    };
-    auto contact = touching_.begin();
-    if (first > 0 && first < last)
-      contact = std::partition_point(touching_.begin(), touching_.end(), [&](const Contact& each) {
-        return std::pair(each.i, each.j) < grains_of(near[first]);
-      });
-    for (std::size_t k = first; k < last; ++k) {
-      const auto [i, j] = grains_of(near[k]);
-      GrainPair& pair = batch.pairs[place_of(k)];
-      pair.touching = false;
-      while (contact != touching_.end() && std::pair(contact->i, contact->j) < std::pair(i, j))
-        ++contact;
-      if (contact != touching_.end() && contact->i == i && contact->j == j) pair = contact->pair;
-      pair.a = i;
-      pair.b = j;
-      pair.shift_x = shift_to_nearest_image(grains_.x[i] - grains_.x[j], plane.length_x);
-      pair.shift_y = shift_to_nearest_image(grains_.y[i] - grains_.y[j], plane.length_y);
-      pair.law = static_cast<std::uint32_t>(kernels_.kinds()[grains_.kind[i]].material * materials +
-                                            kernels_.kinds()[grains_.kind[j]].material);
-    }
+    const std::uint32_t contact = contact_of_[listed];
+    pair.touching = false;
+    if (contact != kNone) pair = touching_[contact].pair;
+    const std::uint32_t i = neighbours_.first()[listed], j = neighbours_.second()[listed];
+    pair.a = i;
+    pair.b = j;
+    pair.shift_x = shift_to_nearest_image(grains_.x[i] - grains_.x[j], plane.length_x);
+    pair.shift_y = shift_to_nearest_image(grains_.y[i] - grains_.y[j], plane.length_y);
+    pair.law = static_cast<std::uint32_t>(kernels_.kinds()[grains_.kind[i]].material *
+                                              scene_->hard.substrate.size() +
+                                          kernels_.kinds()[grains_.kind[j]].material);
   }
 
   /// So many steps, or none where a grain got faster than foreseen.
   bool run_block(std::size_t length) {
     find_near(length);
-    islands_.find(grains_.size(), neighbours_.first(), neighbours_.second(), hit_, near_);
-    const std::vector<std::uint32_t>& active = islands_.grains();
-    batch_.resize(active.size(), features());
-    share(active.size(), [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k)
-        batch_.take(k, grains_, active[k], kernels_.kinds(), features());
-    });
-    batch_.pairs.resize(near_.size());
-    share(near_.size(), [&](std::size_t first, std::size_t last) {
-      const auto place_of = [&](std::size_t k) { return islands_.pair_place()[k]; };
-      take_pairs(near_, first, last, place_of, batch_);
-      for (std::size_t k = first; k < last; ++k) {
-        GrainPair& pair = batch_.pairs[place_of(k)];
-        pair.a = islands_.place(pair.a);
-        pair.b = islands_.place(pair.b);
-      }
-    });
+    islands_.find(grains_.size(), neighbours_.first(), neighbours_.second(), near_, hit_);
+    batch_.resize(islands_.grains().size(), features());
+    batch_.pairs.resize(islands_.pairs().size());
     // Groups share no grain: whoever takes them, each does the same.
     const std::vector<GrainGroup>& groups = islands_.groups();
-    begun_.assign(groups.size(), 0);
-    share(groups.size(), [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k)
-        begun_[k] = kernels_.run(batch_, groups[k],
-                                 {step_, n_ == 0 ? 0.5 * step_ : step_, length, true, n_ > 0});
+    ended_.resize(groups.size());
+    share(groups.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) ended_[k] = run_group(groups[k], length);
     });
-    const std::size_t begun = std::accumulate(begun_.begin(), begun_.end(), std::size_t{0});
-    double fastest2 = 0;
-    for (const double each : batch_.fastest) fastest2 = std::max(fastest2, each);
-    if (std::sqrt(fastest2) > blocks_.bound(length)) {
-      blocks_.set_fastest(std::sqrt(fastest2));
+    Ended all;
+    for (const Ended& each : ended_) {
+      all.begun += each.begun;
+      all.touching += each.touching;
+      all.fastest2 = std::max(all.fastest2, each.fastest2);
+    }
+    if (std::sqrt(all.fastest2) > blocks_.bound(length)) {
+      blocks_.set_fastest(std::sqrt(all.fastest2));
       return false;
     }
-    // Grains at rest stay; the first kick is half as long, and without friction there is none.
-    const double still2 =
-        n_ == 0 && features().on_plane ? begin_gliding() : kernels_.glide(grains_, step_, length);
-    share(active.size(), [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k)
-        grains_.take(active[k], batch_.grains, k, features());
-    });
-    keep_contacts();
-    collisions_ += begun;
-    blocks_.took(length, active.size(), touching_.size(), std::sqrt(std::max(fastest2, still2)));
+    const double still2 = end_block(length, all.touching);
+    collisions_ += all.begun;
+    blocks_.took(length, islands_.grains().size(), all.touching,
+                 std::sqrt(std::max(all.fastest2, still2)));
     return true;
   }
 
-  /// Calls work(first, last) for shares of 0 … count − 1, some for each thread: what lies side by
-  /// side is mostly one thread's.
+  /// Takes a group's grains and pairs and does its steps.
+  Ended run_group(const GrainGroup& group, std::size_t length) {
+    for (std::size_t k = group.first_grain; k < group.last_grain; ++k)
+      batch_.take(k, grains_, islands_.grains()[k], kernels_.kinds(), features());
+    for (std::size_t p = group.first_pair; p < group.last_pair; ++p) {
+      GrainPair& pair = batch_.pairs[p];
+      take_pair(islands_.pairs()[p], pair);
+      pair.a = islands_.place(pair.a);
+      pair.b = islands_.place(pair.b);
+    }
+    Ended ended;
+    ended.begun =
+        kernels_.run(batch_, group, {step_, n_ == 0 ? 0.5 * step_ : step_, length, true, n_ > 0});
+    for (std::size_t k = group.first_grain; k < group.last_grain; ++k)
+      ended.fastest2 = std::max(ended.fastest2, batch_.fastest[k]);
+    for (std::size_t p = group.first_pair; p < group.last_pair; ++p)
+      ended.touching += batch_.pairs[p].touching ? 1 : 0;
+    return ended;
+  }
+
+  /// Grains that met none glide; the others, and contacts, are taken back from the batch. Returns
+  /// the square of the largest speed of those that glided.
+  double end_block(std::size_t length, std::size_t touching) {
+    for (const Contact& contact : touching_) contact_of_[contact.listed] = kNone;
+    touching_.resize(touching);
+    // The first kick is half as long, and without friction there is none.
+    const bool begins = n_ == 0 && features().on_plane;
+    std::vector<double> still2(team_.size(), begins ? begin_gliding() : 0);
+    const std::vector<std::uint32_t>& active = islands_.grains();
+    share(grains_.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
+      if (!begins) still2[own] = kernels_.glide(grains_, first, last, step_, length);
+      for (std::size_t k = 0; k < active.size(); ++k)
+        if (first <= active[k] && active[k] < last)
+          grains_.take(active[k], batch_.grains, k, features());
+    });
+    std::uint32_t c = 0;
+    for (std::size_t p = 0; p < batch_.pairs.size(); ++p) {
+      if (!batch_.pairs[p].touching) continue;
+      const std::uint32_t listed = islands_.pairs()[p];
+      Contact& contact = touching_[c];
+      contact = {listed, batch_.pairs[p]};
+      contact.pair.a = neighbours_.first()[listed];
+      contact.pair.b = neighbours_.second()[listed];
+      contact_of_[listed] = c++;
+    }
+    return *std::max_element(still2.begin(), still2.end());
+  }
+
+  /// Calls work(k, first, last) for shares of 0 … count − 1, one for each thread: what lies side by
+  /// side is the same thread's in each block.
   template <class Work>
   void share(std::size_t count, const Work& work) {
-    const std::size_t shares = team_.size() == 1 ? 1 : std::min(count, 4 * team_.size());
-    team_.run(shares, [&](std::size_t k) { work(count * k / shares, count * (k + 1) / shares); });
+    const std::size_t shares = team_.size();
+    team_.run(shares,
+              [&](std::size_t k) { work(k, count * k / shares, count * (k + 1) / shares); });
   }
 
   /// Pairs that may meet within `length` steps, in near_, and in hit_ one grain of each that
   /// touches, or meets if both go straight on.
   void find_near(std::size_t length) {
-    const std::vector<std::uint32_t>&first = neighbours_.first(), &second = neighbours_.second();
-    const double margin = blocks_.margin(length);
-    near_.clear();
-    hit_.clear();
-    for (const Contact& contact : touching_) hit_.push_back(contact.i);
-    if (team_.size() == 1) {
-      kernels_.find_near(grains_, first, second, margin, near_);
-      find_hit(length, near_, hit_);
-      return;
-    }
-    constexpr std::size_t kShare = 8192;
-    found_.resize((first.size() + kShare - 1) / kShare);
-    team_.run(found_.size(), [&](std::size_t k) {
-      const std::size_t from = k * kShare, count = std::min(kShare, first.size() - from);
-      Found& found = found_[k];
+    const std::span<const std::uint32_t> one = neighbours_.first(), other = neighbours_.second();
+    found_.resize(team_.size());
+    share(one.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
+      Found& found = found_[own];
       found.near.clear();
       found.hit.clear();
-      kernels_.find_near(grains_, std::span(first).subspan(from, count),
-                         std::span(second).subspan(from, count), margin, found.near);
-      for (std::uint32_t& each : found.near) each += static_cast<std::uint32_t>(from);
+      kernels_.find_near(grains_, one.subspan(first, last - first),
+                         other.subspan(first, last - first), blocks_.margin(length), found.near);
+      for (std::uint32_t& each : found.near) each += static_cast<std::uint32_t>(first);
       find_hit(length, found.near, found.hit);
     });
+    near_.clear();
+    hit_.clear();
+    for (const Contact& contact : touching_) hit_.push_back(contact.pair.a);
     for (const Found& found : found_) {
       near_.insert(near_.end(), found.near.begin(), found.near.end());
       hit_.insert(hit_.end(), found.hit.begin(), found.hit.end());
@@ -380,15 +399,6 @@ class GrainSolver::Impl {
     return *std::max_element(batch.fastest.begin(), batch.fastest.end());
   }
 
-  void keep_contacts() {
-    touching_.clear();
-    for (std::size_t p = 0; p < near_.size(); ++p) {
-      const GrainPair& pair = batch_.pairs[islands_.pair_place()[p]];
-      if (pair.touching)
-        touching_.push_back({neighbours_.first()[near_[p]], neighbours_.second()[near_[p]], pair});
-    }
-  }
-
   const ContactScene* scene_;
   double step_;
   GrainArrays grains_;
@@ -400,12 +410,13 @@ class GrainSolver::Impl {
   GrainBlocks blocks_;
   GrainNeighbours neighbours_;
   GrainIslands islands_;
+  std::vector<Found> found_;
   std::vector<std::uint32_t> near_, hit_;
-  std::vector<Found> found_;        ///< by share of the list
-  std::vector<std::size_t> begun_;  ///< contacts, by group
+  std::vector<Ended> ended_;
   ThreadTeam team_;
   GrainBatch batch_;
-  std::vector<Contact> touching_;  ///< in the order of the list
+  std::vector<Contact> touching_;
+  std::vector<std::uint32_t> contact_of_;  ///< of a listed pair, in touching_ or kNone
 };
 
 GrainSolver::GrainSolver(const ContactScene& scene, std::span<const BodyState> initial, double step,
