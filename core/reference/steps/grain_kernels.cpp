@@ -24,11 +24,13 @@ HWY_EXPORT(Glide);
 HWY_EXPORT(Run);
 HWY_EXPORT(Target);
 
-void GrainBatch::resize(std::size_t n, const GrainFeatures& has) {
-  const auto each = [n](std::initializer_list<std::vector<double>*> all) {
-    for (std::vector<double>* values : all) values->resize(n);
+void GrainBatch::hold(std::size_t count, std::size_t pair_count, const GrainFeatures& has) {
+  if (pairs.size() < pair_count) pairs.resize(pair_count);
+  if (fx.size() >= count) return;
+  const auto each = [count](std::initializer_list<std::vector<double>*> all) {
+    for (std::vector<double>* values : all) values->resize(count);
   };
-  grains.for_each_changing(has, [n](std::vector<double>& values) { values.resize(n); });
+  grains.for_each_changing(has, [count](std::vector<double>& values) { values.resize(count); });
   each({&fx, &fy, &fastest, &inverse_mass});
   if (has.rubs) each({&tz});
   if (has.rubs || has.on_plane) each({&inverse_inertia});

@@ -24,7 +24,8 @@ struct GrainBatch {
   std::vector<double> fx, fy, fz, tx, ty, tz, load, fastest;
   std::vector<double> inverse_mass, inverse_inertia, weight, share, turn, mu_s, mu_k;
 
-  void resize(std::size_t n, const GrainFeatures& has);
+  /// Makes room for so many; what there is stays.
+  void hold(std::size_t count, std::size_t pair_count, const GrainFeatures& has);
   /// Takes grain `i` of `from` as grain `k`.
   void take(std::size_t k, const GrainArrays& from, std::size_t i,
             const std::vector<GrainKind>& kinds, const GrainFeatures& has);

@@ -154,6 +154,7 @@ class GrainSolver::Impl {
   /// What a group's steps came to.
   struct Ended {
     std::size_t begun = 0, touching = 0;
+    std::size_t touching_before = 0;  ///< of the groups before it
     double fastest2 = 0;
   };
 
@@ -232,7 +233,7 @@ class GrainSolver::Impl {
   /// All grains, each in its own place.
   GrainBatch batch_of_all() const {
     GrainBatch batch;
-    batch.resize(grains_.size(), features());
+    batch.hold(grains_.size(), 0, features());
     for (std::size_t i = 0; i < grains_.size(); ++i)
       batch.take(i, grains_, i, kernels_.kinds(), features());
     return batch;
@@ -258,8 +259,7 @@ class GrainSolver::Impl {
   bool run_block(std::size_t length) {
     find_near(length);
     islands_.find(grains_.size(), neighbours_.first(), neighbours_.second(), near_, hit_);
-    batch_.resize(islands_.grains().size(), features());
-    batch_.pairs.resize(islands_.pairs().size());
+    batch_.hold(islands_.grains().size(), islands_.pairs().size(), features());
     // Groups share no grain: whoever takes them, each does the same.
     const std::vector<GrainGroup>& groups = islands_.groups();
     ended_.resize(groups.size());
@@ -267,7 +267,8 @@ class GrainSolver::Impl {
       for (std::size_t k = first; k < last; ++k) ended_[k] = run_group(groups[k], length);
     });
     Ended all;
-    for (const Ended& each : ended_) {
+    for (Ended& each : ended_) {
+      each.touching_before = all.touching;
       all.begun += each.begun;
       all.touching += each.touching;
       all.fastest2 = std::max(all.fastest2, each.fastest2);
@@ -318,8 +319,16 @@ class GrainSolver::Impl {
         if (first <= active[k] && active[k] < last)
           grains_.take(active[k], batch_.grains, k, features());
     });
-    std::uint32_t c = 0;
-    for (std::size_t p = 0; p < batch_.pairs.size(); ++p) {
+    share(ended_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) keep_contacts(k);
+    });
+    return *std::max_element(still2.begin(), still2.end());
+  }
+
+  void keep_contacts(std::size_t group) {
+    const GrainGroup& pairs = islands_.groups()[group];
+    auto c = static_cast<std::uint32_t>(ended_[group].touching_before);
+    for (std::size_t p = pairs.first_pair; p < pairs.last_pair; ++p) {
       if (!batch_.pairs[p].touching) continue;
       const std::uint32_t listed = islands_.pairs()[p];
       Contact& contact = touching_[c];
@@ -328,7 +337,6 @@ class GrainSolver::Impl {
       contact.pair.b = neighbours_.second()[listed];
       contact_of_[listed] = c++;
     }
-    return *std::max_element(still2.begin(), still2.end());
   }
 
   /// Calls work(k, first, last) for shares of 0 … count − 1, one for each thread: what lies side by
