@@ -10,14 +10,14 @@ itself and what writes the peer's data included. --large: the larger size is 10â
 import argparse
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-PEERS = Path(__file__).parent / "peers"
+sys.path.insert(0, str(Path(__file__).parent / "peers"))
+import lammps  # noqa: E402
 
 
 def child(command):
@@ -40,7 +40,7 @@ def events(build, n):
 
 
 def grains(build, n, fraction, kind, steps, data):
-    out, memory = child([build / "grains", n, fraction, kind, steps // 10, steps, data])
+    out, memory = child([build / "grains", n, fraction, kind, steps // 10, steps, 1, data])
     return 1e9 / float(out.split()[0]), memory
 
 
@@ -52,13 +52,8 @@ def bed(build, n, warm, steps, data):
 
 def peer(script, n, steps, data, folder, **values):
     log = folder / "log"
-    words = {"data": data, "steps": steps, **values}
-    _, memory = child(["lmp", "-in", PEERS / script, "-log", log, "-screen", "none",
-                       *(word for key, value in words.items() for word in ("-var", key, value))])
-    text = log.read_text()
-    seconds = float(re.findall(r"Loop time of (\S+)", text)[-1])
-    used = float(re.findall(r"([\d.]+)% CPU use", text)[-1]) / 100
-    return 1e9 * seconds * used / (n * steps), memory
+    _, memory = child(lammps.command(script, log, data=data, steps=steps, **values))
+    return 1e9 * lammps.seconds(log) / (n * steps), memory
 
 
 def row(what, n, time, unit, small, large, memory):

@@ -14,16 +14,24 @@ def require():
         sys.exit(f"{Path(sys.argv[0]).name}: LAMMPS is not installed (apt-get install lammps)")
 
 
-def run(script, log, ranks, **variables):
-    """Seconds of the script's last run, and what it printed first for that run's last step: of CPU
-    time on one rank, of wall time on several."""
+def command(script, log, ranks=1, **variables):
     start = ["mpirun", "--oversubscribe", "--allow-run-as-root", "-n", str(ranks)] if ranks > 1 else []
-    subprocess.run([*start, "lmp", "-in", HERE / script, "-log", log, "-screen", "none",
-                    *(word for name, value in variables.items() for word in ("-var", name, str(value)))],
-                   env=dict(os.environ, OMP_NUM_THREADS="1"), check=True)
+    return [*start, "lmp", "-in", HERE / script, "-log", log, "-screen", "none",
+            *(word for name, value in variables.items() for word in ("-var", name, str(value)))]
+
+
+def seconds(log, ranks=1):
+    """What the last run took: CPU time on one rank, wall time on several."""
     text = log.read_text()
-    seconds = float(re.findall(r"Loop time of (\S+)", text)[-1])
-    if ranks == 1:
-        seconds *= float(re.findall(r"([\d.]+)% CPU use", text)[-1]) / 100
+    wall = float(re.findall(r"Loop time of (\S+)", text)[-1])
+    used = float(re.findall(r"([\d.]+)% CPU use", text)[-1]) / 100
+    return wall * used if ranks == 1 else wall
+
+
+def run(script, log, ranks, **variables):
+    """seconds() and what it printed first for the last step."""
+    subprocess.run(command(script, log, ranks, **variables),
+                   env=dict(os.environ, OMP_NUM_THREADS="1"), check=True)
     last = variables["warm"] + variables["steps"]
-    return seconds, float(re.findall(rf"^\s*{last}\s+(\S+)", text, re.M)[-1])
+    shown = re.findall(rf"^\s*{last}\s+(\S+)", log.read_text(), re.M)
+    return seconds(log, ranks), float(shown[-1])
