@@ -11,7 +11,7 @@
 namespace slipcheck {
 namespace {
 
-using Surface = SoftBoxDynamics::Surface;
+using Face = SoftBoxDynamics::Face;
 
 double elastic_energy(const NormalForce& law, double overlap) {
   if (!(overlap > 0)) return 0;
@@ -69,25 +69,24 @@ SoftBoxDynamics::Meeting SoftBoxDynamics::meeting(std::size_t first, std::size_t
     return m;
   }
   const Box& box = *scene_->hard.box;
-  const auto which = static_cast<Surface>(partner - size());
-  const bool is_side = which == Surface::left || which == Surface::right;
-  if (!is_side && (which == Surface::floor || box.moving_walls))
-    m.surface_vz = box.floor.velocity(t);
+  const auto which = static_cast<Face>(partner - size());
+  const bool is_side = which == Face::left || which == Face::right;
+  if (!is_side && (which == Face::floor || box.moving_walls)) m.surface_vz = box.floor.velocity(t);
   if (is_side && box.moving_walls) m.surface_vz = box.floor.velocity(t);
   switch (which) {
-    case Surface::floor:
+    case Face::floor:
       m.nz = 1;
       m.overlap = radius + box.floor.height(t) - a.z;
       break;
-    case Surface::lid:
+    case Face::lid:
       m.nz = -1;
       m.overlap = radius + a.z - *box.lid - (box.moving_walls ? box.floor.height(t) : 0);
       break;
-    case Surface::left:
+    case Face::left:
       m.nx = 1;
       m.overlap = radius - a.x;
       break;
-    case Surface::right:
+    case Face::right:
       m.nx = -1;
       m.overlap = radius + a.x - box.width;
       break;
@@ -102,10 +101,10 @@ SoftBoxDynamics::Meeting SoftBoxDynamics::meeting(std::size_t first, std::size_t
 const SoftContact& SoftBoxDynamics::law(std::size_t first, std::size_t partner) const {
   if (partner < size()) return *scene_->between(first, partner);
   const std::size_t material = scene_->hard.material[first];
-  switch (static_cast<Surface>(partner - size())) {
-    case Surface::floor:
+  switch (static_cast<Face>(partner - size())) {
+    case Face::floor:
       return *scene_->soft_box.on_floor[material];
-    case Surface::lid:
+    case Face::lid:
       return *scene_->soft_box.on_lid[material];
     default:
       return *scene_->soft_box.on_wall[material];
@@ -215,7 +214,7 @@ void SoftBoxDynamics::evaluate(double t, const State& state, Rates& out) const {
     double az = a.vz;
     if (is_body)
       az -= rate.bodies[j].vz;
-    else if (j == surface(Surface::floor) || box.moving_walls)
+    else if (j == surface(Face::floor) || box.moving_walls)
       az -= box.floor.acceleration(t);
     f.closing_rate = -(f.at.nx * ax + f.at.nz * az) - f.at.across * f.at.across / f.at.distance;
   }

@@ -45,7 +45,7 @@ struct SoftTouch {
 /// does, z_f(t); walls only where the box says so.
 class SoftBoxDynamics {
  public:
-  enum class Surface : std::size_t { floor, left, right, lid };
+  enum class Face : std::size_t { floor, left, right, lid };
   static constexpr std::size_t kSurfaces = 4;
 
   /// The scene must outlive this. Throws Unsupported where the scene has no box, or where a contact
@@ -84,7 +84,7 @@ class SoftBoxDynamics {
   std::vector<std::size_t> moved;  ///< bodies that touch something
 
   std::size_t size() const { return scene_->hard.bodies.size(); }
-  std::size_t surface(Surface which) const { return size() + static_cast<std::size_t>(which); }
+  std::size_t surface(Face which) const { return size() + static_cast<std::size_t>(which); }
   bool has_lid() const { return scene_->hard.box->lid.has_value(); }
   const ContactScene& scene() const { return *scene_; }
 

@@ -78,7 +78,7 @@ void SoftBoxFlight::list(double t, std::span<const PlanarMotion> bodies) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t s = 0; s < SoftBoxDynamics::kSurfaces; ++s) {
       const std::size_t surface = bodies.size() + s;
-      if (surface == dynamics_->surface(SoftBoxDynamics::Surface::lid) && !dynamics_->has_lid())
+      if (surface == dynamics_->surface(SoftBoxDynamics::Face::lid) && !dynamics_->has_lid())
         continue;
       if (dynamics_->meeting(i, surface, t, bodies[i], bodies[i]).overlap > -skin_)
         near_.push_back({i, surface, false, kNever});
@@ -142,8 +142,8 @@ double SoftBoxFlight::surface_meeting(double t, std::size_t i, std::size_t surfa
   const ShakenFloor& floor = scene.box->floor;
   const double touching = 8 * kEpsilon * scene.bodies[i].radius;
   const double rate = floor.angular_frequency();
-  const bool upright = surface == dynamics_->surface(SoftBoxDynamics::Surface::left) ||
-                       surface == dynamics_->surface(SoftBoxDynamics::Surface::right);
+  const bool upright = surface == dynamics_->surface(SoftBoxDynamics::Face::left) ||
+                       surface == dynamics_->surface(SoftBoxDynamics::Face::right);
   const double bound = upright ? 0 : scene.gravity + floor.amplitude * rate * rate;
   while (t <= valid_until_) {
     const PlanarMotion m = at(i, t);
