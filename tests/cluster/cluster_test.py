@@ -34,9 +34,8 @@ sweep:
 """
 
 
-def shard_at_work(store, written):
-    """The process that writes this store, as its command has it written, once it has made a run; None
-    if it is not there."""
+def writer_of(written):
+    """The process that writes this store, as its command has it written; None if it is not there."""
     for entry in Path("/proc").iterdir():
         if not entry.name.isdigit():
             continue
@@ -44,7 +43,7 @@ def shard_at_work(store, written):
             words = (entry / "cmdline").read_bytes().split(b"\0")
         except OSError:
             continue
-        if str(written).encode() in words and words[0] == SLIPCHECK.encode() and runs_in(store) > 0:
+        if str(written).encode() in words and words[0] == SLIPCHECK.encode():
             return int(entry.name)
     return None
 
@@ -61,13 +60,22 @@ class Cluster(unittest.TestCase):
         self.directory.cleanup()
 
     def kill_shard(self, written, patience=60):
+        """Kills it at work, once it has made a run. It stands while that is looked at, so that it
+        cannot be done before."""
         store = self.path / written
         end = time.monotonic() + patience
         while time.monotonic() < end:
-            pid = shard_at_work(store, written)
-            if pid is not None:
-                os.kill(pid, signal.SIGKILL)
-                return
+            pid = writer_of(written)
+            try:
+                while pid is not None and time.monotonic() < end:
+                    os.kill(pid, signal.SIGSTOP)
+                    if runs_in(store) > 0:
+                        os.kill(pid, signal.SIGKILL)
+                        return
+                    os.kill(pid, signal.SIGCONT)
+                    time.sleep(0.001)
+            except ProcessLookupError:  # it was done, or was what starts the writer
+                continue
             time.sleep(0.01)
         self.fail(f"no process came to write {store}")
 
