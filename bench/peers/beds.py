@@ -8,7 +8,6 @@ Rates are millions of particle-steps a second of CPU time, the best of the turns
 time, LAMMPS on N ranks beside as many threads. `height` is how far the mean heights in the end are
 apart.
 """
-import argparse
 import subprocess
 import tempfile
 from pathlib import Path
@@ -36,12 +35,7 @@ def peer(n, warm, steps, ranks, constants, data, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("build", type=Path)
-    parser.add_argument("--quick", action="store_true")
-    parser.add_argument("--ranks", type=int, default=1)
-    arguments = parser.parse_args()
-    lammps.require()
+    arguments = lammps.arguments(__doc__)
     sizes = [(1000, 2000, 10000), (10000, 2000, 2000), (100000, 1000, 400)]
     if arguments.quick:
         sizes = [(1000, 1000, 3000), (10000, 1000, 1000)]

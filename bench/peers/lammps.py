@@ -1,4 +1,5 @@
 """LAMMPS (Debian's package lammps) on the scripts of this folder."""
+import argparse
 import os
 import re
 import shutil
@@ -12,6 +13,17 @@ HERE = Path(__file__).parent
 def require():
     if not shutil.which("lmp"):
         sys.exit(f"{Path(sys.argv[0]).name}: LAMMPS is not installed (apt-get install lammps)")
+
+
+def arguments(documentation):
+    """Those of a program that runs it beside a solver."""
+    parser = argparse.ArgumentParser(description=documentation.splitlines()[0])
+    parser.add_argument("build", type=Path)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--ranks", type=int, default=1)
+    parsed = parser.parse_args()
+    require()
+    return parsed
 
 
 def command(script, log, ranks=1, **variables):

@@ -9,7 +9,6 @@ time, LAMMPS on N ranks beside as many threads, and `gain` is how much faster th
 `energy` is how far the kinetic energies in the end are apart; of the monolayers' only the rates can be
 compared.
 """
-import argparse
 import subprocess
 import tempfile
 from pathlib import Path
@@ -35,12 +34,7 @@ def peer(case, ranks, data, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("build", type=Path)
-    parser.add_argument("--quick", action="store_true")
-    parser.add_argument("--ranks", type=int, default=1)
-    arguments = parser.parse_args()
-    lammps.require()
+    arguments = lammps.arguments(__doc__)
     ranks = arguments.ranks
     sizes = [(1000, 20000), (10000, 3000), (100000, 1000)]
     if arguments.quick:

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/stop_scope.h"
@@ -12,6 +11,7 @@
 #include "reference/steps/grain_blocks.h"
 #include "reference/steps/grain_islands.h"
 #include "reference/steps/grain_kernels.h"
+#include "reference/steps/grain_meetings.h"
 #include "reference/steps/grain_neighbours.h"
 #include "reference/steps/grain_scene.h"
 #include "reference/steps/step_solver.h"
@@ -147,10 +147,6 @@ class GrainSolver::Impl {
     GrainPair pair;
   };
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  /// Of a thread's share of the list: near pairs, and one grain of each that is hit.
-  struct Found {
-    std::vector<std::uint32_t> near, hit;
-  };
   /// What a group's steps came to.
   struct Ended {
     std::size_t begun = 0, touching = 0;
@@ -257,8 +253,11 @@ class GrainSolver::Impl {
 
   /// So many steps, or none where a grain got faster than foreseen.
   bool run_block(std::size_t length) {
-    find_near(length);
-    islands_.find(grains_.size(), neighbours_.first(), neighbours_.second(), near_, hit_);
+    meetings_.find(kernels_, grains_, neighbours_, blocks_.margin(length),
+                   step_ * static_cast<double>(length), braking(), step_, team_);
+    for (const Contact& contact : touching_) meetings_.hit_too(contact.pair.a);
+    islands_.find(grains_.size(), neighbours_.first(), neighbours_.second(), meetings_.near(),
+                  meetings_.hit());
     batch_.hold(islands_.grains().size(), islands_.pairs().size(), features());
     // Groups share no grain: whoever takes them, each does the same.
     const std::vector<GrainGroup>& groups = islands_.groups();
@@ -348,57 +347,6 @@ class GrainSolver::Impl {
               [&](std::size_t k) { work(k, count * k / shares, count * (k + 1) / shares); });
   }
 
-  /// Pairs that may meet within `length` steps, in near_, and in hit_ one grain of each that
-  /// touches, or meets if both go straight on.
-  void find_near(std::size_t length) {
-    const std::span<const std::uint32_t> one = neighbours_.first(), other = neighbours_.second();
-    found_.resize(team_.size());
-    share(one.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
-      Found& found = found_[own];
-      found.near.clear();
-      found.hit.clear();
-      kernels_.find_near(grains_, one.subspan(first, last - first),
-                         other.subspan(first, last - first), blocks_.margin(length), found.near);
-      for (std::uint32_t& each : found.near) each += static_cast<std::uint32_t>(first);
-      find_hit(length, found.near, found.hit);
-    });
-    near_.clear();
-    hit_.clear();
-    for (const Contact& contact : touching_) hit_.push_back(contact.pair.a);
-    for (const Found& found : found_) {
-      near_.insert(near_.end(), found.near.begin(), found.near.end());
-      hit_.insert(hit_.end(), found.hit.begin(), found.hit.end());
-    }
-  }
-
-  /// Adds the first grain of each pair that meets within `length` steps if both go straight on.
-  void find_hit(std::size_t length, const std::vector<std::uint32_t>& near,
-                std::vector<std::uint32_t>& hit) const {
-    const double time = step_ * static_cast<double>(length);
-    // What the substrate's friction takes from two grains, and roundings.
-    const double aside = braking() * time * (time + step_) + 1e-9 * radius();
-    const double reach = 2 * radius() + aside;
-    const GrainPlane& plane = kernels_.plane();
-    const GrainArrays& g = grains_;
-    std::size_t hits = hit.size();
-    hit.resize(hits + near.size());
-    for (const std::uint32_t k : near) {
-      const std::uint32_t i = neighbours_.first()[k], j = neighbours_.second()[k];
-      double dx = g.x[i] - g.x[j], dy = g.y[i] - g.y[j];
-      dx -= shift_to_nearest_image(dx, plane.length_x);
-      dy -= shift_to_nearest_image(dy, plane.length_y);
-      const double ux = g.vx[i] - g.vx[j], uy = g.vy[i] - g.vy[j];
-      // Closest to each other at once, in the end, or between.
-      const double speed2 = std::max(ux * ux + uy * uy, std::numeric_limits<double>::min());
-      const double when = std::clamp(-(dx * ux + dy * uy) / speed2, 0.0, time);
-      dx += ux * when;
-      dy += uy * when;
-      hit[hits] = i;
-      hits += dx * dx + dy * dy <= reach * reach ? 1 : 0;
-    }
-    hit.resize(hits);
-  }
-
   /// The first step with its half kick.
   double begin_gliding() {
     GrainBatch batch = batch_of_all();
@@ -418,8 +366,7 @@ class GrainSolver::Impl {
   GrainBlocks blocks_;
   GrainNeighbours neighbours_;
   GrainIslands islands_;
-  std::vector<Found> found_;
-  std::vector<std::uint32_t> near_, hit_;
+  GrainMeetings meetings_;
   std::vector<Ended> ended_;
   ThreadTeam team_;
   GrainBatch batch_;
