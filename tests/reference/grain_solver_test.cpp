@@ -78,9 +78,10 @@ TEST_P(GrainLaws, StepsAsStepSolverDoes) {
   std::vector<StepSolver> beside;
   for (int k = 0; k < 4; ++k) {
     std::vector<BodyState> aside = scene.hard.initial;
-    for (BodyState& state : aside)
-      for (const int axis : {0, 1})
-        state.position[axis] += (uniform(random) < 0.5 ? 1e-12 : -1e-12) * kRadius;
+    for (BodyState& state : aside) {
+      const double angle = 2 * M_PI * uniform(random);
+      state.position.head<2>() += 1e-12 * kRadius * Vector2(std::cos(angle), std::sin(angle));
+    }
     beside.emplace_back(scene, aside, StepSettings{.step = kStep});
   }
   Frame frame;
