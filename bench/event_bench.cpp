@@ -64,7 +64,11 @@ void BM_RoughGas(benchmark::State& state) {
   run_events<CalendarQueue, kHas>(
       state, test::smooth_gas(static_cast<std::size_t>(state.range(0)), 0.2, rough));
 }
-BENCHMARK(BM_RoughGas<kPlane>)->Name("BM_RoughGas")->Arg(10'000)->Iterations(kEvents);
+BENCHMARK(BM_RoughGas<kPlane>)
+    ->Name("BM_RoughGas")
+    ->RangeMultiplier(10)
+    ->Range(1'000, 1'000'000)
+    ->Iterations(kEvents);
 BENCHMARK(BM_RoughGas<PlanarFeatures{}>)
     ->Name("BM_RoughGasGeneral")
     ->Arg(10'000)

@@ -14,6 +14,9 @@ namespace {
 /// that the ends of all lists together stay in a cache.
 constexpr double kGoal = 48;
 
+/// The ends of the lists of fewer bodies do without being asked for.
+constexpr std::size_t kManyLists = 20'000;
+
 /// No finer than what times about `now` can tell apart.
 double finest_width(double now) {
   return 1e3 * std::numeric_limits<double>::epsilon() * std::abs(now);
@@ -38,12 +41,27 @@ void CalendarQueue::place(const QueuedEvent& entry) {
     heap_.push_back(entry);
     std::push_heap(heap_.begin(), heap_.end(), kLater);
   } else if (stretch < static_cast<double>(current_ + lists)) {
-    append(wheel_[static_cast<std::size_t>(static_cast<std::int64_t>(stretch) & (lists - 1))],
-           entry);
+    const auto list = static_cast<std::size_t>(static_cast<std::int64_t>(stretch) & (lists - 1));
+    if (time_.size() < kManyLists) {
+      append(wheel_[list], entry);
+    } else {
+      slipcheck::prefetch(&wheel_[list]);
+      entering_.push_back({entry, list});
+    }
     ++in_wheel_;
   } else if (entry.time < kNever) {
     beyond_.push_back(entry);
   }
+}
+
+/// All that are on their way into their lists, in the order in which they came.
+void CalendarQueue::enter() {
+  for (const auto& [entry, list] : entering_) {
+    const List& to = wheel_[list];
+    if (to.last != kNone) slipcheck::prefetch(&pieces_[to.last].entry[to.count % kInPiece]);
+  }
+  for (const auto& [entry, list] : entering_) append(wheel_[list], entry);
+  entering_.clear();
 }
 
 void CalendarQueue::set(std::uint32_t body, double time) {
@@ -74,6 +92,7 @@ QueuedEvent CalendarQueue::first() {
 }
 
 void CalendarQueue::advance() {
+  enter();
   ++current_;
   ++advances_;
   const auto lists = static_cast<std::int64_t>(wheel_.size());
@@ -105,6 +124,7 @@ void CalendarQueue::rebuild(double base, double width) {
   free_.clear();
   heap_.clear();
   beyond_.clear();
+  entering_.clear();
   in_wheel_ = 0;
   base_ = base;
   per_width_ = 1 / width;

@@ -51,8 +51,14 @@ class CalendarQueue {
     else
       for_each_in(list_of(current_ + k), look);
   }
-  /// Into the caches: what tells which entries of the k-th stretch from there hold.
-  void prefetch(std::int64_t k) const {
+  // Into the caches, in this order as time comes nearer: the entries of the k-th stretch from
+  // there, and what tells which of them hold.
+  void prefetch_entries(std::int64_t k) const {
+    for (std::uint32_t at = list_of(current_ + k).last; at != kNone; at = pieces_[at].before)
+      for (std::size_t i = 0; i < kInPiece; i += 64 / sizeof(QueuedEvent))
+        slipcheck::prefetch(&pieces_[at].entry[i]);
+  }
+  void prefetch_times(std::int64_t k) const {
     for_each_in(list_of(current_ + k),
                 [&](const QueuedEvent& entry) { slipcheck::prefetch(&time_[entry.body]); });
   }
@@ -70,6 +76,11 @@ class CalendarQueue {
   struct List {
     std::uint32_t last = kNone;  ///< piece
     std::uint32_t count = 0;     ///< of entries in it
+  };
+
+  struct Entering {
+    QueuedEvent entry;
+    std::size_t list;
   };
 
   const List& list_of(std::int64_t stretch) const {
@@ -97,6 +108,7 @@ class CalendarQueue {
     pieces_[list.last].entry[list.count++] = entry;
   }
   void clear(List& list);
+  void enter();
   bool holds(const QueuedEvent& entry) const { return time_[entry.body] == entry.time; }
   /// Of a time in stretches since `base_`; as a double, for it may be huge.
   double stretch_of(double time) const { return (time - base_) * per_width_; }
@@ -113,6 +125,9 @@ class CalendarQueue {
   std::vector<Piece, HugePages<Piece>> pieces_;
   std::vector<std::uint32_t> free_;  ///< pieces; the last that became empty last
   std::vector<QueuedEvent> beyond_, moved_;
+  /// Placed since the present stretch began, and not yet in their lists, which are on their way
+  /// into the caches meanwhile.
+  std::vector<Entering> entering_;
   std::size_t in_wheel_ = 0;
   double base_ = 0, per_width_ = 1;
   std::int64_t current_ = 0;  ///< the stretch that the heap holds, with all earlier ones

@@ -129,7 +129,7 @@ class EventScheduler {
   static constexpr std::uint32_t kNobody = EventPlan::kNobody;
 
   /// Caches hold so many bodies without help, and so many with little (slipcheck_bench).
-  static constexpr std::size_t kFew = 20'000, kMany = 300'000;
+  static constexpr std::size_t kFew = 20'000, kMany = 30'000;
   static constexpr bool kLooksAhead = KeepsPlans<World> && std::is_same_v<Queue, CalendarQueue>;
 
   /// Asks for what the events of the next stretches of time will need, each from what the stretch
@@ -138,7 +138,8 @@ class EventScheduler {
   void look_ahead() {
     if (queue_.stretch() == stretch_ || world_->size() < kFew) return;
     stretch_ = queue_.stretch();
-    queue_.prefetch(3);
+    queue_.prefetch_entries(4);
+    queue_.prefetch_times(3);
     queue_.for_each_in_stretch(2, [&](std::uint32_t i) { world_->prefetch(i); });
     queue_.for_each_in_stretch(1, [&](std::uint32_t i) {
       world_->prefetch_cells(i);
@@ -202,7 +203,7 @@ class EventScheduler {
       plan(i).collision = plan(j).collision = first.collision;
       plan(i).partner = j;
       plan(j).partner = i;
-      queue(j);
+      if (first.collision < plan(j).own) queue(j);  // else its time stays
     }
     queue(i);
   }

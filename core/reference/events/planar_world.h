@@ -133,7 +133,9 @@ class PlanarWorld {
   Step next_step(std::uint32_t i) const {
     static constexpr std::array<Step, 9> kStep{{{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
     const EventPlan& plan = bodies_[i].plan;
-    return kStep[plan.own <= plan.collision ? static_cast<std::size_t>(matter_[i].own) : 0];
+    // A coin toss: no branch.
+    return kStep[static_cast<std::size_t>(matter_[i].own) *
+                 static_cast<std::size_t>(plan.own <= plan.collision)];
   }
   template <PlanarFeatures kHas>
   Body& moved_to(std::uint32_t i, double now) {
