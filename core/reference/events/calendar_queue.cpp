@@ -14,9 +14,6 @@ namespace {
 /// that the ends of all lists together stay in a cache.
 constexpr double kGoal = 48;
 
-/// The ends of the lists of fewer bodies do without being asked for.
-constexpr std::size_t kManyLists = 20'000;
-
 /// No finer than what times about `now` can tell apart.
 double finest_width(double now) {
   return 1e3 * std::numeric_limits<double>::epsilon() * std::abs(now);
@@ -42,7 +39,7 @@ void CalendarQueue::place(const QueuedEvent& entry) {
     std::push_heap(heap_.begin(), heap_.end(), kLater);
   } else if (stretch < static_cast<double>(current_ + lists)) {
     const auto list = static_cast<std::size_t>(static_cast<std::int64_t>(stretch) & (lists - 1));
-    if (time_.size() < kManyLists) {
+    if (time_.size() < kManyForCaches) {
       append(wheel_[list], entry);
     } else {
       slipcheck::prefetch(&wheel_[list]);

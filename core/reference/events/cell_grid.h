@@ -57,10 +57,19 @@ class CellGrid {
   std::uint32_t cells_x() const { return nx_; }
   std::uint32_t cells_y() const { return ny_; }
   const Shift& period() const { return period_; }  ///< [m]; 0 where the plane does not repeat
+  // The folded cell that a body is in.
+  std::uint32_t x_of(std::uint32_t body) const { return nodes_[body].x; }
+  std::uint32_t y_of(std::uint32_t body) const { return nodes_[body].y; }
 
   /// The unfolded cell that a coordinate lies in.
   static std::int32_t cell_of(double coordinate, double width) {
     return static_cast<std::int32_t>(std::floor(coordinate / width));
+  }
+
+  /// How often the fold after n cells lies below an unfolded one.
+  static std::int32_t folds_below(std::int32_t cell, std::uint32_t n) {
+    const auto m = static_cast<std::int32_t>(n);
+    return cell >= 0 ? cell / m : -((-cell + m - 1) / m);
   }
 
   void insert(std::uint32_t body, std::int32_t ix, std::int32_t iy) {

@@ -11,6 +11,7 @@
 #include "base/stop_scope.h"
 #include "physics/numbers.h"
 #include "reference/events/calendar_queue.h"
+#include "reference/events/prefetch.h"
 
 namespace slipcheck {
 
@@ -28,6 +29,7 @@ struct EventPlan {
   double collision = kNever;        ///< [s], absolute
   double own = kNever;              ///< [s], absolute
   std::uint32_t partner = kNobody;  ///< in the collision
+  std::uint32_t own_kind = 0;       ///< what its own event is, in numbers of the world's
 };
 
 /// The neighbours that a search for a collision looks at.
@@ -128,15 +130,13 @@ class EventScheduler {
  private:
   static constexpr std::uint32_t kNobody = EventPlan::kNobody;
 
-  /// Caches hold so many bodies without help, and so many with little (slipcheck_bench).
-  static constexpr std::size_t kFew = 20'000, kMany = 30'000;
   static constexpr bool kLooksAhead = KeepsPlans<World> && std::is_same_v<Queue, CalendarQueue>;
 
   /// Asks for what the events of the next stretches of time will need, each from what the stretch
-  /// before has brought: bodies, then their partners and the cells around them, and of many bodies
-  /// those in these cells, too. Changes nothing.
+  /// before has brought: the queue's entries, what tells which of them hold, their bodies, these
+  /// bodies' partners and the cells around them, and the bodies in these. Changes nothing.
   void look_ahead() {
-    if (queue_.stretch() == stretch_ || world_->size() < kFew) return;
+    if (queue_.stretch() == stretch_ || world_->size() < kManyForCaches) return;
     stretch_ = queue_.stretch();
     queue_.prefetch_entries(4);
     queue_.prefetch_times(3);
@@ -145,7 +145,6 @@ class EventScheduler {
       world_->prefetch_cells(i);
       if (const std::uint32_t j = plan(i).partner; j != kNobody) world_->prefetch(j);
     });
-    if (world_->size() < kMany) return;
     queue_.for_each_in_stretch(0, [&](std::uint32_t i) { world_->prefetch_neighbours(i); });
   }
 

@@ -39,11 +39,6 @@ CellGrid plane_grid(const Scene& scene, std::span<const BodyState> initial) {
           scene.periodic.y() > 0};
 }
 
-std::int32_t floored_quotient(std::int32_t i, std::uint32_t n) {
-  const auto m = static_cast<std::int32_t>(n);
-  return i >= 0 ? i / m : -((-i + m - 1) / m);
-}
-
 /// When d = v t + ½ a t² first comes true while it grows, d >= 0, t >= 0; or infinity.
 double time_to_reach(double d, double v, double a) {
   if (v > 0) {
@@ -61,8 +56,8 @@ PlaneCells::PlaneCells(const Scene& scene, std::span<const BodyState> initial)
     Place& place = places_[i];
     place.ix = CellGrid::cell_of(initial[i].position.x(), grid_.width_x());
     place.iy = CellGrid::cell_of(initial[i].position.y(), grid_.width_y());
-    if (grid_.period().x > 0) place.image_x = floored_quotient(place.ix, grid_.cells_x());
-    if (grid_.period().y > 0) place.image_y = floored_quotient(place.iy, grid_.cells_y());
+    if (grid_.period().x > 0) place.image_x = CellGrid::folds_below(place.ix, grid_.cells_x());
+    if (grid_.period().y > 0) place.image_y = CellGrid::folds_below(place.iy, grid_.cells_y());
     grid_.insert(i, place.ix, place.iy);
   }
 }
@@ -126,8 +121,8 @@ void PlaneCells::cross(std::uint32_t i) {
   // NOLINTEND(bugprone-signed-char-misuse)
   place.ix += moved_x_;
   place.iy += moved_y_;
-  if (grid_.period().x > 0) place.image_x = floored_quotient(place.ix, grid_.cells_x());
-  if (grid_.period().y > 0) place.image_y = floored_quotient(place.iy, grid_.cells_y());
+  if (grid_.period().x > 0) place.image_x = CellGrid::folds_below(place.ix, grid_.cells_x());
+  if (grid_.period().y > 0) place.image_y = CellGrid::folds_below(place.iy, grid_.cells_y());
   grid_.move(i, moved_x_, moved_y_);
 }
 

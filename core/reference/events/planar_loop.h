@@ -45,21 +45,21 @@ class PlanarLoop {
 
 template <PlanarFeatures kHas>
 double PlanarWorld::own_event_time(std::uint32_t i, double now) {
-  const Body& body = moved_to<kHas>(i, now);
-  Matter& matter = matter_[i];
+  Body& body = moved_to<kHas>(i, now);
+  const std::int32_t ix = column(i), iy = row(i);
   Own own = Own::none;
   double earliest = kNever;
   const auto consider = [&](double after, Own what) {
     const double t = now + std::max(after, 0.0);
     if (t < earliest) earliest = t, own = what;
   };
-  if (body.vx < 0 && !(kHas.box && upright_ && matter.ix == 0))
-    consider((matter.ix * grid_.width_x() - body.x) / body.vx, Own::left);
-  else if (body.vx > 0 && !(kHas.box && upright_ && matter.ix == last_column_))
-    consider(((matter.ix + 1) * grid_.width_x() - body.x) / body.vx, Own::right);
+  if (body.vx < 0 && !(kHas.box && upright_ && ix == 0))
+    consider((ix * grid_.width_x() - body.x) / body.vx, Own::left);
+  else if (body.vx > 0 && !(kHas.box && upright_ && ix == last_column_))
+    consider(((ix + 1) * grid_.width_x() - body.x) / body.vx, Own::right);
 
-  const double above = std::max((matter.iy + 1) * grid_.width_y() - body.y, 0.0);
-  const double below = std::max(body.y - matter.iy * grid_.width_y(), 0.0);
+  const double above = std::max((iy + 1) * grid_.width_y() - body.y, 0.0);
+  const double below = std::max(body.y - iy * grid_.width_y(), 0.0);
   if constexpr (kHas.box) {
     const double square = body.vy * body.vy - 2 * gravity_ * above;
     if (body.vy > 0 && square >= 0) {
@@ -77,34 +77,30 @@ double PlanarWorld::own_event_time(std::uint32_t i, double now) {
     else if (body.vy < 0)
       consider(below / -body.vy, Own::down);
   }
-  matter.own = own;
+  body.plan.own_kind = static_cast<std::uint32_t>(own);
   return earliest;
 }
 
 template <PlanarFeatures kHas>
 BodyChange PlanarWorld::do_own_event(std::uint32_t i, double now) {
   Body& body = moved_to<kHas>(i, now);
-  Matter& matter = matter_[i];
-  const CellGrid::Shift& period = grid_.period();
-  const auto cross = [&](std::int32_t& cell, int step, double& coordinate, double length,
-                         std::uint32_t cells, std::int32_t& image) {
-    cell += step;
-    if (length == 0) return;
-    const auto n = static_cast<std::int32_t>(cells);
-    if (cell < 0) cell += n, coordinate += length, --image;
-    if (cell >= n) cell -= n, coordinate -= length, ++image;
+  const auto cross = [&](int step, std::uint32_t cell, std::uint32_t cells, double& coordinate,
+                         double period, std::int32_t Matter::*image) {
+    if (step < 0 ? cell > 0 : cell + 1 < cells) return;
+    matter_[i].*image += step;
+    coordinate -= step * period;
   };
   const auto cross_x = [&](int step) {
-    cross(matter.ix, step, body.x, period.x, grid_.cells_x(), matter.image_x);
+    cross(step, grid_.x_of(i), grid_.cells_x(), body.x, grid_.period().x, &Matter::image_x);
     grid_.move(i, moved_x_ = step, moved_y_ = 0);
     return BodyChange::cell;
   };
   const auto cross_y = [&](int step) {
-    cross(matter.iy, step, body.y, period.y, grid_.cells_y(), matter.image_y);
+    cross(step, grid_.y_of(i), grid_.cells_y(), body.y, grid_.period().y, &Matter::image_y);
     grid_.move(i, moved_x_ = 0, moved_y_ = step);
     return BodyChange::cell;
   };
-  switch (matter.own) {
+  switch (own(i)) {
     case Own::left:
       return cross_x(-1);
     case Own::right:

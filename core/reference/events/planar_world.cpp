@@ -58,7 +58,7 @@ PlanarWorld::PlanarWorld(const Scene& scene, std::span<const BodyState> initial,
       around_(initial.size()) {
   if (scene.box)
     last_column_ = static_cast<std::int32_t>(std::lround(scene.box->width / grid_.width_x())) - 1;
-  const CellGrid::Shift& period = grid_.period();
+  std::vector<std::array<std::int32_t, 2>> cell(initial.size());
   std::vector<std::uint64_t> key(initial.size());
   std::vector<Body> bodies(initial.size());
   std::vector<Matter> matter(initial.size());
@@ -69,24 +69,26 @@ PlanarWorld::PlanarWorld(const Scene& scene, std::span<const BodyState> initial,
     const int up = upright_ ? 2 : 1;
     body = {state.position.x(), state.position[up], state.velocity.x(), state.velocity[up], 0, {}};
     of.spin = upright_ ? -state.angular_velocity.y() : state.angular_velocity.z();
-    const auto fold = [](double& coordinate, double length) {
-      if (length == 0) return 0;
-      const double image = std::floor(coordinate / length);
-      coordinate -= image * length;
-      return static_cast<std::int32_t>(image);
-    };
-    of.image_x = fold(body.x, period.x);
-    of.image_y = fold(body.y, period.y);
-    of.ix = CellGrid::cell_of(body.x, grid_.width_x());
-    of.iy = CellGrid::cell_of(body.y, grid_.width_y());
-    if (upright_) of.ix = std::clamp(of.ix, 0, last_column_);
+    std::int32_t ix = CellGrid::cell_of(body.x, grid_.width_x());
+    const std::int32_t iy = CellGrid::cell_of(body.y, grid_.width_y());
+    if (upright_) ix = std::clamp(ix, 0, last_column_);
+    cell[i] = {ix, iy};
+    of.image_x = CellGrid::folds_below(ix, grid_.cells_x());
+    of.image_y = CellGrid::folds_below(iy, grid_.cells_y());
+    body.x -= of.image_x * grid_.period().x;
+    body.y -= of.image_y * grid_.period().y;
     of.mass = scene.bodies[i].mass;
     of.shape_factor = scene.bodies[i].shape_factor;
     of.material = static_cast<std::uint32_t>(scene.material[i]);
     of.last_collision = -kNever;
     of.hardest_impact = 0;
-    key[i] = morton_number(static_cast<std::uint32_t>(of.ix) & 0xFFFF,
-                           static_cast<std::uint32_t>(of.iy) & 0xFFFF);
+    const auto number = [](double period, std::int32_t at, std::int32_t image, std::uint32_t n) {
+      return static_cast<std::uint32_t>(period > 0 ? at - image * static_cast<std::int32_t>(n)
+                                                   : at) &
+             0xFFFF;
+    };
+    key[i] = morton_number(number(grid_.period().x, ix, of.image_x, grid_.cells_x()),
+                           number(grid_.period().y, iy, of.image_y, grid_.cells_y()));
   }
   std::iota(body_at_.begin(), body_at_.end(), 0u);
   std::ranges::stable_sort(body_at_, {}, [&](std::uint32_t i) { return key[i]; });
@@ -96,28 +98,28 @@ PlanarWorld::PlanarWorld(const Scene& scene, std::span<const BodyState> initial,
     bodies_[at] = bodies[i];
     matter_[at] = matter[i];
     radii_[at] = scene.bodies[i].radius;
-    grid_.insert(at, matter_[at].ix, matter_[at].iy);
+    grid_.insert(at, cell[i][0], cell[i][1]);
   }
 }
 
 void PlanarWorld::find_wall_event(std::uint32_t i, double now, double& earliest, Own& own) const {
   const Box& box = *scene_->box;
   const Body& body = bodies_[i];
-  const Matter& matter = matter_[i];
+  const std::int32_t ix = column(i), iy = row(i);
   const double radius = radii_[i];
   const auto consider = [&](double after, Own what) {
     const double t = now + std::max(after, 0.0);
     if (t < earliest) earliest = t, own = what;
   };
-  if (matter.ix == 0 && body.vx < 0) consider((radius - body.x) / body.vx, Own::left_wall);
-  if (matter.ix == last_column_ && body.vx > 0)
+  if (ix == 0 && body.vx < 0) consider((radius - body.x) / body.vx, Own::left_wall);
+  if (ix == last_column_ && body.vx > 0)
     consider((box.width - radius - body.x) / body.vx, Own::right_wall);
   // In a cell that starts above its reach the floor cannot be met.
   const double A = box.floor.is_still() ? 0 : box.floor.amplitude;
-  if (matter.iy * grid_.width_y() <= A + radius)
+  if (iy * grid_.width_y() <= A + radius)
     consider(floor_contact(box.floor, now, body.y - radius, body.vy, gravity_, earliest - now),
              Own::floor);
-  if (box.lid && (matter.iy + 1) * grid_.width_y() >= *box.lid - A - radius) {
+  if (box.lid && (iy + 1) * grid_.width_y() >= *box.lid - A - radius) {
     // Seen upside down the lid is a floor that things fall up to.
     const double gap = *box.lid - radius - body.y;
     const ShakenFloor lid = box.moving_walls ? box.floor : ShakenFloor{};
@@ -129,7 +131,7 @@ BodyChange PlanarWorld::meet_wall(std::uint32_t i, double now) {
   const Box& box = *scene_->box;
   const double shaken = box.floor.velocity(now) * (box.floor.is_still() ? 0 : 1);
   const double walls = box.moving_walls ? shaken : 0;
-  switch (matter_[i].own) {
+  switch (own(i)) {
     case Own::left_wall:
       meet(i, {1, 0, walls, &box.on_wall}, now);
       break;

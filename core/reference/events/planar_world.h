@@ -53,15 +53,17 @@ class PlanarWorld {
   // --- for EventScheduler; planar_loop.h has what is not here ---
   std::size_t size() const { return bodies_.size(); }
   EventPlan& plan(std::uint32_t i) { return bodies_[i].plan; }
-  // Into the caches: a body, and the cells and bodies that its next event will look at.
+  // Into the caches: a body; once it is there, what its next event changes, and the cells that this
+  // looks at; and the bodies in these.
   void prefetch(std::uint32_t i) const {
     slipcheck::prefetch(&bodies_[i]);
-    slipcheck::prefetch(&matter_[i]);
     grid_.prefetch(i);
   }
   void prefetch_cells(std::uint32_t i) const {
     const auto [dx, dy] = next_step(i);
     grid_.prefetch_cells(i, dx, dy);
+    const EventPlan& plan = bodies_[i].plan;
+    slipcheck::prefetch(plan.own <= plan.collision ? static_cast<const void*>(&plan) : &matter_[i]);
   }
   void prefetch_neighbours(std::uint32_t i) const {
     const auto [dx, dy] = next_step(i);
@@ -98,7 +100,7 @@ class PlanarWorld {
   Vector2 momentum_at(double now) const;
 
  private:
-  enum class Own : std::uint8_t { none, left, right, down, up, left_wall, right_wall, floor, lid };
+  enum class Own : std::uint32_t { none, left, right, down, up, left_wall, right_wall, floor, lid };
 
   struct alignas(64) Body {
     double x, y, vx, vy;
@@ -106,16 +108,14 @@ class PlanarWorld {
     EventPlan plan;
   };
   static_assert(sizeof(Body) == 64);
-  /// What only events of the body itself ask for.
+  /// What only its collisions ask for, and borders where the cells' numbers begin again.
   struct alignas(64) Matter {
     double spin;
     double mass, shape_factor;
     double last_collision;                  ///< [s]
     double hardest_impact;                  ///< with another body so far, its normal speed [m/s]
-    std::int32_t ix, iy;                    ///< cell; folded where the plane repeats itself
-    std::int32_t image_x = 0, image_y = 0;  ///< periods that were folded away
+    std::int32_t image_x = 0, image_y = 0;  ///< how often its cell's numbers were folded
     std::uint32_t material;
-    Own own = Own::none;  ///< what its next own event is
   };
   static_assert(sizeof(Matter) == 64);
   /// Collisions that do not dissipate, as the TC model has them.
@@ -134,8 +134,21 @@ class PlanarWorld {
     static constexpr std::array<Step, 9> kStep{{{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
     const EventPlan& plan = bodies_[i].plan;
     // A coin toss: no branch.
-    return kStep[static_cast<std::size_t>(matter_[i].own) *
-                 static_cast<std::size_t>(plan.own <= plan.collision)];
+    return kStep[plan.own_kind * static_cast<std::uint32_t>(plan.own <= plan.collision)];
+  }
+  Own own(std::uint32_t i) const { return static_cast<Own>(bodies_[i].plan.own_kind); }
+  // The cell that a body is in, as its position counts them.
+  std::int32_t column(std::uint32_t i) const {
+    const auto x = static_cast<std::int32_t>(grid_.x_of(i));
+    return grid_.period().x > 0
+               ? x
+               : x + matter_[i].image_x * static_cast<std::int32_t>(grid_.cells_x());
+  }
+  std::int32_t row(std::uint32_t i) const {
+    const auto y = static_cast<std::int32_t>(grid_.y_of(i));
+    return grid_.period().y > 0
+               ? y
+               : y + matter_[i].image_y * static_cast<std::int32_t>(grid_.cells_y());
   }
   template <PlanarFeatures kHas>
   Body& moved_to(std::uint32_t i, double now) {

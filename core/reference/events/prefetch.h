@@ -1,6 +1,11 @@
 #pragma once
 
+#include <cstddef>
+
 namespace slipcheck {
+
+/// Caches hold what the events of fewer bodies ask for without help (slipcheck_bench).
+inline constexpr std::size_t kManyForCaches = 20'000;
 
 /// Asks for a cache line, to be there when it is read. Changes nothing.
 inline void prefetch(const void* address) {
