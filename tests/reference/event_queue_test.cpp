@@ -6,6 +6,7 @@
 #include "physics/numbers.h"
 #include "reference/events/calendar_queue.h"
 #include "reference/events/indexed_heap.h"
+#include "reference/events/prefetch.h"
 
 namespace slipcheck {
 namespace {
@@ -76,6 +77,30 @@ TYPED_TEST(EventQueue, FollowsARateThatChangesByManyOrders) {
     scale *= 0.9998;  // a collapse: 6e-6 in the end
     return scale * wait(random);
   });
+}
+
+/// Entries of many wait for their lists to come into the caches.
+TEST(CalendarQueue, ServesManyAsAHeapDoes) {
+  constexpr std::uint32_t n = kManyForCaches + 500;
+  CalendarQueue calendar(n);
+  HeapQueue heap(n);
+  std::mt19937_64 random(7);
+  double scale = 1;
+  std::exponential_distribution<double> wait(1);
+  const auto set = [&](std::uint32_t i, double now) {
+    const double time = random() % 50 == 0 ? kNever : now + scale * wait(random);
+    calendar.set(i, time);
+    heap.set(i, time);
+  };
+  for (std::uint32_t i = 0; i < n; ++i) set(i, 0);
+  for (int k = 0; k < 400'000; ++k) {
+    const QueuedEvent expected = heap.first(), found = calendar.first();
+    ASSERT_EQ(found.time, expected.time) << "event " << k;
+    ASSERT_EQ(found.body, expected.body) << "event " << k;
+    scale *= 0.99999;
+    set(found.body, found.time);
+    set(static_cast<std::uint32_t>(random() % n), found.time);
+  }
 }
 
 }  // namespace
