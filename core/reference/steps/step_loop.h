@@ -5,15 +5,16 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "base/flatten.h"
 #include "base/stop_scope.h"
+#include "physics/numbers.h"
 #include "reference/steps/step_contact.h"
 #include "reference/steps/step_laws.h"
-#include "reference/steps/step_motion.h"
 #include "reference/steps/step_neighbours.h"
 #include "reference/steps/step_shares.h"
 
@@ -33,7 +34,6 @@ class StepLoop final : public StepKernel {
   using Law = typename Pair::Law;
   using Push = typename Pair::Push;
   using Share = StepShare<Push>;
-  using Motion = StepMotion<Substrate>;
 
   /// neighbours: null: all pairs.
   StepLoop(StepLaws<Normal, Tangential> laws, std::size_t bodies,
@@ -82,24 +82,27 @@ class StepLoop final : public StepKernel {
     around.velocity = velocity_of_substrate(world, world.time());
     if (neighbours_)
       shares_.run(neighbours_->team(), [&](Share&, std::size_t begin, std::size_t end) {
-        Motion::show(world, around, begin, end, frame.bodies, impulses_);
+        show(world, around, begin, end, frame.bodies);
       });
     else
-      Motion::show(world, around, 0, bodies, frame.bodies, impulses_);
+      show(world, around, 0, bodies, frame.bodies);
     frame.touches.clear();
     if (!with_touches) return;
     for (std::size_t i = 0; i < bodies; ++i)
       if (impulses_[i] > 0)
         frame.touches.push_back({static_cast<int>(i), kSubstrate, impulses_[i]});
-    const std::size_t of_pairs = frame.touches.size();
+    const auto pairs = static_cast<std::ptrdiff_t>(frame.touches.size());
     for_each_pair(world, [&](std::size_t i, std::size_t j, const Pair& pair) {
       const double impulse = std::abs(pair.normal_force()) * world.step;
       if (pair.touching() && impulse > 0)
         frame.touches.push_back(
             {static_cast<int>(world.number_of(i)), static_cast<int>(world.number_of(j)), impulse});
     });
-    if (!world.number.empty())
-      StepNeighbours::order_touches(std::span(frame.touches).subspan(of_pairs));
+    if (world.number.empty()) return;
+    std::sort(frame.touches.begin() + pairs, frame.touches.end(),
+              [](const Touch& a, const Touch& b) {
+                return std::tie(a.second, a.first) < std::tie(b.second, b.first);
+              });
   }
 
   bool is_met(const StepWorld& world, StepStop stop) const override {
@@ -136,11 +139,28 @@ class StepLoop final : public StepKernel {
       return Vector2::Zero();
   }
 
+  static void forget_forces(StepBody& b) {
+    b.force.setZero();
+    b.torque.setZero();
+  }
+
   static void count(const StepTally& tally, StepWorld& world) {
     world.touching += tally.touching;
     world.collisions += tally.collisions;
   }
 
+  /// Those stored from `begin` to before `end`, and what the substrate does to them.
+  SLIPCHECK_FLATTEN void show(const StepWorld& world, const StepSurroundings& around,
+                              std::size_t begin, std::size_t end, std::vector<BodyState>& shown) {
+    for (std::size_t k = begin; k < end; ++k) {
+      StepBody body = world.bodies[k];
+      const double half =
+          world.n > 0 ? kick<Substrate>(body, *body.kind, around, 0.5 * world.step) : 0;
+      const std::size_t i = world.number_of(k);
+      shown[i] = {body.position, body.velocity, body.angular_velocity};
+      if (!impulses_.empty()) impulses_[i] = 2 * half;
+    }
+  }
   void take_neighbours(const StepWorld& world) {
     laws_.find(*neighbours_, world);
     shares_.divide(*neighbours_, world.bodies.size());
@@ -148,7 +168,7 @@ class StepLoop final : public StepKernel {
 
   void forces_by_neighbours(StepWorld& world) {
     if (!neighbours_->cover()) {
-      neighbours_->find(world, pairs_);
+      neighbours_->find(world, pairs_, [](const Pair& pair) { return pair.touching(); });
       take_neighbours(world);
     }
     shares_.run(neighbours_->team(), [&](Share& share, std::size_t begin, std::size_t end) {
@@ -192,7 +212,7 @@ class StepLoop final : public StepKernel {
   /// Flat, but for what begins and ends, as move() is: in a large unit the compiler leaves calls
   /// for sums of vectors, which pass them through memory.
   SLIPCHECK_FLATTEN void forces(StepWorld& world) {
-    for (StepBody& b : world.bodies) b.forget_forces();
+    for (StepBody& b : world.bodies) forget_forces(b);
     world.touching = 0;
     StepTally tally;
     std::size_t k = 0;
@@ -217,19 +237,48 @@ class StepLoop final : public StepKernel {
       s.velocity_before = s.velocity;
       s.velocity = velocity_of_substrate(world, world.time() + 0.5 * world.step);
     }
-    const typename Motion::Advance advance{s, world.step, world.kick_length(),
-                                           world.slowest_rebound};
+    const Advance advance{s, world.step, world.kick_length(), world.slowest_rebound};
     if (!neighbours_) {
       for (StepBody& b : world.bodies) advance(b);
       return;
     }
     shares_.run(neighbours_->team(), [&](Share& share, std::size_t begin, std::size_t end) {
-      share.longest2 =
-          Motion::advance_all(advance, std::span(world.bodies).subspan(begin, end - begin));
+      share.longest2 = advance_all(advance, std::span(world.bodies).subspan(begin, end - begin));
     });
     double longest2 = 0;
     for (const Share& share : shares_.all()) longest2 = std::max(longest2, share.longest2);
     neighbours_->move(std::sqrt(longest2), world);
+  }
+
+  /// What a step does to a body.
+  struct Advance {
+    const StepSurroundings& around;
+    double step, dt, slowest_rebound;
+
+    void operator()(StepBody& b) const {
+      const StepKind& kind = *b.kind;
+      kick<Substrate>(b, kind, around, dt);
+      b.position += step * b.velocity;
+      if constexpr (std::is_same_v<Substrate, BareSubstrate>) return;
+      if (!b.supported && b.position.z() < b.radius && b.velocity.z() < 0) [[unlikely]]
+        land_after_drift(b, kind, around, slowest_rebound);
+    }
+  };
+
+  /// Advances these and forgets their forces; the longest way of one, squared [m²], or kNever.
+  SLIPCHECK_FLATTEN static double advance_all(const Advance& given, std::span<StepBody> bodies) {
+    // Copies, of which the compiler knows that no body changes them.
+    const StepSurroundings around = given.around;
+    const Advance advance{around, given.step, given.dt, given.slowest_rebound};
+    double longest2 = 0;
+    for (StepBody& b : bodies) {
+      const Vector3 before = b.position;
+      advance(b);
+      forget_forces(b);  // here, where they lie in the nearest cache
+      const double way2 = (b.position - before).squaredNorm();
+      longest2 = way2 <= longest2 ? longest2 : std::isnan(way2) ? kNever : way2;
+    }
+    return longest2;
   }
 
   std::vector<std::string> features_;

@@ -112,9 +112,4 @@ void StepNeighbours::search(StepWorld& world) {
   left_ = skin;
 }
 
-void StepNeighbours::order_touches(std::span<Touch> touches) {
-  std::ranges::sort(touches, {},
-                    [](const Touch& touch) { return std::pair(touch.second, touch.first); });
-}
-
 }  // namespace slipcheck

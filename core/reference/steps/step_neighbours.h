@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,9 +25,6 @@ struct StepNeighbour {
 /// which those that are near are stored near each other, and again after some searches.
 class StepNeighbours {
  public:
-  /// Puts touches of two bodies into the order in which all pairs are gone over.
-  static void order_touches(std::span<Touch> touches);
-
   /// periodic: after which the plane repeats itself [m], 0: not.
   /// threads: that look for them.
   StepNeighbours(const Vector2& periodic, std::size_t threads)
@@ -45,17 +41,17 @@ class StepNeighbours {
   /// largest radius, or no number.
   void move(double way, const StepWorld& world);
 
-  /// Finds them anew, and may store the bodies in another order. Of `pairs`, one for each,
-  /// those that are touching() are kept.
-  template <class Pair>
-  void find(StepWorld& world, std::vector<Pair>& pairs) {
+  /// Finds them anew, and may store the bodies in another order. `pairs`, one for each, are kept
+  /// where `is_kept`.
+  template <class Pair, class IsKept>
+  void find(StepWorld& world, std::vector<Pair>& pairs, const IsKept& is_kept) {
     struct Kept {
       std::size_t first, second;  // in the scene
       Pair pair;
     };
     std::vector<Kept> kept;
     for (std::size_t k = 0; k < pairs.size(); ++k)
-      if (pairs[k].touching())
+      if (is_kept(pairs[k]))
         kept.push_back(
             {world.number_of(all_[k].first), world.number_of(all_[k].second), std::move(pairs[k])});
     search(world);
