@@ -71,10 +71,12 @@ class PileLaneContacts {
   }
   void exchange(StateArchive& archive) { archive(lanes_, places_); }
 
-  /// No group is taken on yet.
-  void begin_step() {
-    forces_.resize(lanes_.size() * kLanes);
-    is_taken_on_.assign((forces_.size() + kInGroup - 1) / kInGroup, false);
+  /// No group is taken on yet. forces: where those of the step go, until the next one.
+  void begin_step(std::vector<PileLaneForce>& forces) {
+    const std::size_t contacts = lanes_.size() * kLanes;
+    if (forces.size() < contacts) forces.resize(contacts);
+    forces_ = forces.data();
+    is_taken_on_.assign((contacts + kInGroup - 1) / kInGroup, false);
   }
   bool is_taken_on(std::size_t k) const { return is_taken_on_[k / kInGroup]; }
   /// Whether take_on_lanes() has told its force.
@@ -96,7 +98,7 @@ class PileLaneContacts {
   void put(const PileNear& near, const Contact& contact);
 
   std::vector<PileLanes> lanes_;
-  std::vector<PileLaneForce> forces_;
+  PileLaneForce* forces_ = nullptr;        ///< of one step
   std::vector<std::uint8_t> is_taken_on_;  ///< by group, in this step
   PilePlaces places_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -25,7 +26,7 @@ class PileLoopOf final : public PileLoop {
       : table_(laws, scene), slabs_(ordered_from) {}
 
   void find_forces(PileWorld& world) override {
-    if (!forces_known_) forces(world);
+    if (!forces_known_) forces(world, [](std::size_t) {});
     forces_known_ = true;
   }
 
@@ -33,8 +34,15 @@ class PileLoopOf final : public PileLoop {
     const std::size_t between_looks = 1 + kBodySteps / (1 + world.bodies.size());
     for (std::size_t k = 0; k < steps; ++k) {
       if (k % between_looks == 0) heed_stop();
-      find_forces(world);
-      move(world);
+      const auto move = [&](std::size_t s) {
+        speeds_[s] = move_bodies(world, slabs_.members(s), slabs_.spheres(), slabs_.drift(s));
+      };
+      if (forces_known_)
+        slabs_.sweep(
+            world.team, [](std::size_t) {}, move);
+      else
+        forces(world, move);
+      end_step(world);
     }
   }
 
@@ -88,7 +96,7 @@ class PileLoopOf final : public PileLoop {
   }
 
   void exchange(StateArchive& archive) override {
-    archive(slabs_, shares_, gone_, forces_known_, budget_);
+    archive(slabs_, shares_, gone_, forces_known_, budgets_, approach_);
     if (archive.reads()) find_laws();
   }
 
@@ -142,15 +150,27 @@ class PileLoopOf final : public PileLoop {
 
   // --- the step ----------------------------------------------------------------------------------
 
-  void forces(PileWorld& world) {
-    if (!(budget_ > 0)) find_contacts(world);
+  /// Adds the forces of now; done(s) is called when those on a slab's bodies are known.
+  template <class Done>
+  void forces(PileWorld& world, const Done& done) {
+    if (!std::ranges::all_of(budgets_, &PileBudget::is_left) || budgets_.empty())
+      find_contacts(world);
     // One share goes on with the sums; several begin at zero.
     const bool alone = shares_.size() == 1;
     for (Share& share : shares_) share.begin_sum(alone ? world.ledger : PileLedger());
-    slabs_.for_each(world.team, [&](std::size_t s) {
-      shares_[s].find_forces(world, slabs_.spheres(), slabs_.lists()[s], table_, lane_laws_,
-                             budget_);
-    });
+    failures_.assign(shares_.size(), nullptr);
+    const auto act = [&](std::size_t s) {
+      try {
+        shares_[s].find_forces(world, slabs_.spheres(), slabs_.lists()[s], table_, lane_laws_,
+                               budgets_[s]);
+      } catch (const StepTooLong&) {
+        failures_[s] = std::current_exception();
+      }
+    };
+    slabs_.sweep(world.team, act, done);
+    // The same one, whichever list was taken first.
+    for (const std::exception_ptr& failure : failures_)
+      if (failure) std::rethrow_exception(failure);
     if (alone) world.ledger = {};
     for (const Share& share : shares_) {
       const typename Step::Sum& sum = share.sum();
@@ -161,13 +181,29 @@ class PileLoopOf final : public PileLoop {
     }
   }
 
-  void move(PileWorld& world) {
-    const double speed = mover_.move(world, slabs_.spheres());
-    if (!(speed * world.step < slabs_.largest_radius())) throw_lost(world, speed);
-    budget_ -= world.step * (2 * speed + slabs_.surfaces_speed());
+  /// All bodies have moved.
+  void end_step(PileWorld& world) {
+    double fastest2 = 0;
+    for (const PileSpeed& each : speeds_) fastest2 = std::max(fastest2, each.still);
+    const double fastest = std::sqrt(fastest2);
+    if (!(fastest * world.step < slabs_.largest_radius())) throw_lost(world, fastest);
+    approach_ = fastest + slabs_.surfaces_speed();
+    for (std::size_t s = 0; s < budgets_.size(); ++s) {
+      budgets_[s].surfaces -= world.step * (fastest + slabs_.surfaces_speed());
+      const double nearer = approach_in(s);
+      budgets_[s].bodies -= world.step * nearer;
+      approach_ = std::max(approach_, nearer);
+    }
     world.started = true;
     ++world.n;
     forces_known_ = false;
+  }
+
+  /// How fast two bodies of a slab's list come nearer at most [m/s].
+  double approach_in(std::size_t s) const {
+    const std::size_t t = slabs_.next(s);
+    const double first = std::sqrt(speeds_[s].adrift), second = std::sqrt(speeds_[t].adrift);
+    return std::max(2 * first, first + second + (slabs_.drift(s) - slabs_.drift(t)).norm());
   }
 
   [[noreturn]] static void throw_lost(const PileWorld& world, double speed) {
@@ -181,7 +217,7 @@ class PileLoopOf final : public PileLoop {
   /// Contacts that stay near keep what they remember.
   void find_contacts(PileWorld& world) {
     std::vector<Kept> kept = contacts_in_order();
-    slabs_.find(world, table_);
+    slabs_.find(world, table_, approach_);
     find_lane_laws();
     std::vector<std::uint32_t> from(world.bodies.size() + 1, 0);
     for (const Kept& each : kept) ++from[each.first + 1];
@@ -208,7 +244,8 @@ class PileLoopOf final : public PileLoop {
         if (const double impulse = each.share->impulse(each.before); !each.is_found && impulse > 0)
           gone_.push_back({static_cast<int>(each.first), each.second, impulse});
     shares_ = std::move(found);
-    budget_ = slabs_.skin();
+    budgets_.assign(shares_.size(), {slabs_.skin(), slabs_.skin()});
+    speeds_.resize(shares_.size());
   }
 
   /// Numbers of laws are no state, and pointers to them none of this process.
@@ -221,6 +258,7 @@ class PileLoopOf final : public PileLoop {
       shares_[s].index(slabs_.lists()[s]);
     }
     find_lane_laws();
+    speeds_.resize(shares_.size());
   }
 
   void find_lane_laws() {
@@ -245,11 +283,13 @@ class PileLoopOf final : public PileLoop {
   PileLawTable table_;
   std::vector<PileLaneLaw> lane_laws_;  ///< by number of the table
   PileSlabs slabs_;
-  std::vector<Share> shares_;  ///< by slab
-  std::vector<Touch> gone_;    ///< of contacts that are near no more
-  PileMover mover_;
+  std::vector<Share> shares_;                 ///< by slab
+  std::vector<Touch> gone_;                   ///< of contacts that are near no more
+  std::vector<PileSpeed> speeds_;             ///< by slab, of one step
+  std::vector<std::exception_ptr> failures_;  ///< by slab, of one step
   bool forces_known_ = false;
-  double budget_ = 0;  ///< of the way [m] that two may come nearer before the near ones change
+  std::vector<PileBudget> budgets_;  ///< by slab; the near ones change when one is used up
+  double approach_ = 0;              ///< how fast two came nearer at most in the last step [m/s]
 };
 
 }  // namespace

@@ -1,74 +1,63 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "base/flatten.h"
 #include "reference/near_pairs.h"
 #include "reference/piles/pile_loop.h"
-#include "reference/steps/step_solver.h"
 
 namespace slipcheck {
 
-/// Moves all bodies by a step, in shares for the threads of a team.
-class PileMover {
- public:
-  /// Returns the largest speed [m/s]. spheres: of the bodies, which are moved with them.
-  double move(PileWorld& world, std::span<NearSphere> spheres) {
-    const std::size_t n = world.bodies.size(), shares = (n + kShare - 1) / kShare;
-    fastest_.assign(shares, 0);
-    const auto move_share = [&](std::size_t k) {
-      const std::size_t first = k * kShare, count = std::min(kShare, n - first);
-      fastest_[k] = move_bodies(world, std::span(world.bodies).subspan(first, count),
-                                spheres.subspan(first, count));
-    };
-    if (world.team && shares > 1)
-      world.team->run(shares, move_share);
-    else
-      for (std::size_t k = 0; k < shares; ++k) move_share(k);
-    return std::sqrt(*std::ranges::max_element(fastest_));
-  }
-
- private:
-  /// Bodies that one thread moves in a row.
-  static constexpr std::size_t kShare = 1024;
-
-  /// Returns the largest square of a speed [m²/s²].
-  SLIPCHECK_FLATTEN static double move_bodies(const PileWorld& world, std::span<PileBody> bodies,
-                                              std::span<NearSphere> spheres) {
-    const double h = world.step, kick = world.started ? h : 0.5 * h;
-    const double drag = 0.5 * h * world.drag, keep = (1 - drag) / (1 + drag);
-    double fastest = 0;
-    auto sphere = spheres.begin();
-    for (PileBody& b : bodies) {
-      const Vector3 gain = b.force / b.mass + b.load * world.gravity, turn = b.torque / b.inertia;
-      b.change = h * gain;
-      b.turn_change = h * turn;
-      b.velocity += kick * gain;
-      b.angular_velocity += kick * turn;
-      if (drag > 0) [[unlikely]] {
-        b.velocity *= keep;
-        b.angular_velocity *= keep;
-      }
-      // Summed with what rounding took before: else a slow body stands while its springs stretch.
-      const Vector3 way = h * b.velocity + b.rounded, next = b.position + way;
-      b.rounded = way - (next - b.position);
-      b.position = next;
-      (sphere++)->position = next;
-      b.turned += h * b.angular_velocity;
-      b.force.setZero();
-      b.torque.setZero();
-      fastest = std::max(fastest, b.velocity.squaredNorm());
-    }
-    return fastest;
-  }
-
-  std::vector<double> fastest_;
+/// How fast bodies are at most, as squares [m²/s²].
+struct PileSpeed {
+  double still = 0;   ///< against what stands still
+  double adrift = 0;  ///< against the drift
 };
+
+/// Asks for a body that is moved soon.
+inline void prefetch(const PileBody& body) {
+  const auto* bytes = reinterpret_cast<const char*>(&body);
+  for (std::size_t line = 0; line < sizeof body; line += 64) __builtin_prefetch(bytes + line, 1);
+}
+
+/// Moves bodies, by their places, and their spheres by a step. Returns how fast they are then.
+/// drift: what velocities are measured against [m/s].
+SLIPCHECK_FLATTEN inline PileSpeed move_bodies(PileWorld& world,
+                                               std::span<const std::uint32_t> places,
+                                               std::span<NearSphere> spheres,
+                                               const Vector3& drift) {
+  constexpr std::size_t kAhead = 16;
+  const double h = world.step, kick = world.started ? h : 0.5 * h;
+  const double drag = 0.5 * h * world.drag, keep = (1 - drag) / (1 + drag);
+  PileSpeed fastest;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::uint32_t place = places[k];
+    PileBody& b = world.bodies[place];
+    prefetch(world.bodies[places[std::min(k + kAhead, places.size() - 1)]]);
+    const Vector3 gain = b.force / b.mass + b.load * world.gravity, turn = b.torque / b.inertia;
+    b.change = h * gain;
+    b.turn_change = h * turn;
+    b.velocity += kick * gain;
+    b.angular_velocity += kick * turn;
+    if (drag > 0) [[unlikely]] {
+      b.velocity *= keep;
+      b.angular_velocity *= keep;
+    }
+    // Summed with what rounding took before: else a slow body stands while its springs stretch.
+    const Vector3 way = h * b.velocity + b.rounded, next = b.position + way;
+    b.rounded = way - (next - b.position);
+    b.position = next;
+    spheres[place].position = next;
+    b.turned += h * b.angular_velocity;
+    b.force.setZero();
+    b.torque.setZero();
+    fastest.still = std::max(fastest.still, b.velocity.squaredNorm());
+    fastest.adrift = std::max(fastest.adrift, (b.velocity - drift).squaredNorm());
+  }
+  return fastest;
+}
 
 }  // namespace slipcheck

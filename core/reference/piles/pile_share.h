@@ -19,6 +19,14 @@
 
 namespace slipcheck {
 
+/// Of the ways that two may come nearer before the lists change, what is left [m].
+struct PileBudget {
+  double bodies = 0;    ///< of two bodies
+  double surfaces = 0;  ///< of a body and the substrate or a surface
+
+  bool is_left() const { return bodies > 0 && surfaces > 0; }
+};
+
 /// The contacts within a slab and with the next, and what they do in a step. kLinear: all normal
 /// forces are linear; kTurns: rolling or drilling is resisted; kLanes: pairs that last are taken on
 /// several at once. spheres: the bodies as of PileSlabs.
@@ -40,12 +48,14 @@ class PileShare {
   const typename Step::Sum& sum() const { return sum_; }
   void begin_sum(const PileLedger& ledger) { sum_ = {.ledger = ledger}; }
 
-  /// Adds the forces of now. budget: of the way [m] that two may come nearer before the lists
-  /// change.
-  void find_forces(PileWorld& world, std::span<const NearSphere> spheres, List& list,
-                   const PileLawTable& laws, std::span<const PileLaneLaw> lane_laws,
-                   double budget) {
-    if constexpr (kLanes) lanes_.begin_step();
+  /// Adds the forces of now.
+  SLIPCHECK_FLATTEN void find_forces(PileWorld& world, std::span<const NearSphere> spheres,
+                                     List& list, const PileLawTable& laws,
+                                     std::span<const PileLaneLaw> lane_laws,
+                                     const PileBudget& budget) {
+    // The thread's own, for whichever share it takes: they stay in its cache.
+    thread_local std::vector<PileLaneForce> forces;
+    if constexpr (kLanes) lanes_.begin_step(forces);
     meeting_.clear();
     look_at_far(world, spheres, list, budget);
     meeting_.push_back(kNone);
@@ -67,7 +77,7 @@ class PileShare {
     // No sooner: lanes that hold one are not taken on in the step in which it begins.
     for (const auto& [k, contact] : begun_) {
       keep(list[k], contact, laws);
-      far_above_[k] = -kNever;
+      far_above(list[k], k) = -kNever;
     }
     begun_.clear();
   }
@@ -80,12 +90,17 @@ class PileShare {
   /// After the list or its contacts have changed.
   void index(const List& list) {
     known_.clear();
+    at_surface_.clear();
     far_above_.assign(list.size(), kNever);
-    for (std::uint32_t k = 0; k < list.size(); ++k)
-      if (list[k].contact != PileNear::kNone) {
-        known_.push_back(k);
+    for (std::uint32_t k = 0; k < list.size(); ++k) {
+      if (list[k].second < 0) {
+        at_surface_.push_back({k, kNever});
         far_above_[k] = -kNever;
       }
+      if (list[k].contact == PileNear::kNone) continue;
+      known_.push_back(k);
+      far_above(list[k], k) = -kNever;
+    }
   }
 
   void set_law(const PileNear& near, const PileLawTable& laws) {
@@ -134,6 +149,12 @@ class PileShare {
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
+  /// A body and a surface.
+  struct AtSurface {
+    std::uint32_t entry;  ///< of the list
+    double far_above;     ///< do not touch before the budget of surfaces is so small [m]
+  };
+
   /// What keeps the contact of `near`.
   template <class Share, class Use>
   static decltype(auto) of(Share& share, const PileNear& near, const Use& use) {
@@ -148,7 +169,13 @@ class PileShare {
 
   void drop(PileNear& near, std::uint32_t k) {
     of(*this, near, [&](auto& contacts) { contacts.drop(near); });
-    far_above_[k] = kNever;
+    far_above(near, k) = kNever;
+  }
+
+  /// The budget above which the two of an entry of the list do not touch [m].
+  double& far_above(const PileNear& near, std::uint32_t k) {
+    if (near.second >= 0) return far_above_[k];
+    return std::ranges::lower_bound(at_surface_, k, {}, &AtSurface::entry)->far_above;
   }
 
   // --- a body and another one, or a surface ------------------------------------------------------
@@ -178,13 +205,17 @@ class PileShare {
   /// Looks at those whose way may be used up. Who they are is no branch, and where they lie is
   /// asked for ahead of it.
   void look_at_far(const PileWorld& world, std::span<const NearSphere> spheres, const List& list,
-                   double budget) {
+                   const PileBudget& budget) {
+    for (AtSurface& each : at_surface_)
+      if (budget.surfaces <= each.far_above)
+        look_at_surface(world, spheres, list[each.entry], each, budget.surfaces);
+    const auto of_surfaces = static_cast<std::ptrdiff_t>(meeting_.size());
     constexpr std::size_t kEntries = 16, kSpheres = 8;  // ahead
     far_.resize(far_above_.size() + kEntries);
     std::size_t count = 0;
     for (std::uint32_t k = 0; k < far_above_.size(); ++k) {
       far_[count] = k;
-      count += budget <= far_above_[k];
+      count += budget.bodies <= far_above_[k];
     }
     for (std::size_t i = count; i < count + kEntries; ++i) far_[i] = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -192,31 +223,35 @@ class PileShare {
       const PileNear& ahead = list[far_[i + kSpheres]];
       __builtin_prefetch(&spheres[ahead.first]);
       __builtin_prefetch(&spheres[static_cast<std::size_t>(std::max(ahead.second, 0))]);
-      look(world, spheres, list[far_[i]], far_[i], budget);
+      look(world, spheres, list[far_[i]], far_[i], budget.bodies);
     }
+    std::inplace_merge(meeting_.begin(), meeting_.begin() + of_surfaces, meeting_.end());
   }
 
-  /// Two that did not touch: do they now, or when may they?
+  /// Two bodies that did not touch: do they now, or when may they?
   void look(const PileWorld& world, std::span<const NearSphere> spheres, const PileNear& near,
             std::uint32_t k, double budget) {
-    const NearSphere& first = spheres[near.first];
-    double gap, reach = first.radius;
-    if (near.second >= 0) {
-      const Apart two =
-          apart(world, first, spheres[static_cast<std::size_t>(near.second)], near, 0);
-      reach = two.reach;
-      gap = two.distance2 > reach * reach ? std::sqrt(two.distance2) - reach : -1;
-    } else {
-      const double distance = nearest(world, near, first.position).distance;
-      gap = distance > reach ? distance - reach : -1;
-      if (gap >= 0 && near.second != kSubstrate &&
-          PileSlabs::turns(world.scene->hard.surfaces[touched_surface(near.second)]))
-        return;
-    }
-    if (gap < 0)
-      meeting_.push_back(k);
+    const Apart two =
+        apart(world, spheres[near.first], spheres[static_cast<std::size_t>(near.second)], near, 0);
+    if (two.distance2 > two.reach * two.reach)
+      far_above_[k] = budget_at(std::sqrt(two.distance2) - two.reach, two.reach, budget);
     else
-      far_above_[k] = budget - ((1 - 1e-9) * gap - 1e-12 * reach);  // whatever is rounded
+      meeting_.push_back(k);
+  }
+  /// The same of a body and a surface.
+  void look_at_surface(const PileWorld& world, std::span<const NearSphere> spheres,
+                       const PileNear& near, AtSurface& at, double budget) {
+    const NearSphere& first = spheres[near.first];
+    const double distance = nearest(world, near, first.position).distance;
+    if (!(distance > first.radius))
+      meeting_.push_back(at.entry);
+    else if (near.second == kSubstrate ||
+             !PileSlabs::turns(world.scene->hard.surfaces[touched_surface(near.second)]))
+      at.far_above = budget_at(distance - first.radius, first.radius, budget);
+  }
+  /// At which a gap may be used up, whatever is rounded.
+  static double budget_at(double gap, double reach, double budget) {
+    return budget - ((1 - 1e-9) * gap - 1e-12 * reach);
   }
 
   /// A contact that begins is kept; one that has ended, where somebody watches, until its impulse
@@ -280,7 +315,8 @@ class PileShare {
   [[no_unique_address]] std::conditional_t<kLanes, PileLaneContacts, None> lanes_;
   typename Step::Sum sum_;
   // Of the list:
-  std::vector<double> far_above_;               ///< do not touch before the budget is so small [m]
+  std::vector<double> far_above_;               ///< the same of two bodies; of others never
+  std::vector<AtSurface> at_surface_;           ///< a body and a surface, in order
   std::vector<std::uint32_t> known_;            ///< have a contact, in order
   std::vector<std::uint32_t> far_;              ///< of one step: are looked at
   std::vector<std::uint32_t> meeting_, after_;  ///< of one step: overlap anew, and have one then

@@ -86,6 +86,7 @@ void PileSlabs::share_out(const PileWorld& world, std::vector<std::uint32_t>& sl
   const PileBodies& bodies = world.bodies;
   slab_of.assign(bodies.size(), 0);
   lists_.assign(1, {});
+  is_around_ = false;
   if (!is_ordered(world)) return;
   const Vector2& periodic = world.scene->hard.periodic;
   const CellsAlong row = longest_row(bodies, periodic, 2 * largest_radius_ + skin_);
@@ -114,9 +115,25 @@ void PileSlabs::share_out(const PileWorld& world, std::vector<std::uint32_t>& sl
   }
   for (std::size_t p = 0; p < bodies.size(); ++p) slab_of[p] = slab[cell[p]];
   lists_.assign(last + 1, {});
+  is_around_ = row.repeats && lists_.size() > 2;
 }
 
-void PileSlabs::find(PileWorld& world, PileLawTable& laws) {
+void PileSlabs::find_members(const PileWorld& world, std::span<const std::uint32_t> slab_of) {
+  begins_.assign(lists_.size() + 1, 0);
+  for (const std::uint32_t slab : slab_of) ++begins_[slab + 1];
+  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+  members_.resize(slab_of.size());
+  drifts_.assign(lists_.size(), Vector3::Zero());
+  std::vector<std::uint32_t> next = begins_;
+  for (std::uint32_t p = 0; p < slab_of.size(); ++p) {
+    members_[next[slab_of[p]]++] = p;
+    drifts_[slab_of[p]] += world.bodies[p].velocity;
+  }
+  for (std::size_t s = 0; s < drifts_.size(); ++s)
+    drifts_[s] /= std::max<double>(1, static_cast<double>(members(s).size()));
+}
+
+void PileSlabs::find(PileWorld& world, PileLawTable& laws, double approach) {
   const std::size_t n = world.bodies.size();
   const Scene& scene = world.scene->hard;
   if (bodies_.empty()) {
@@ -131,7 +148,8 @@ void PileSlabs::find(PileWorld& world, PileLawTable& laws) {
     mean += b.radius / static_cast<double>(n);
     fastest2 = std::max(fastest2, b.velocity.squaredNorm());
   }
-  skin_ = is_ordered(world) ? near_skin(std::sqrt(fastest2), world.step, mean) : kSkin * smallest;
+  const double speed = approach > 0 ? 0.5 * approach : std::sqrt(fastest2);
+  skin_ = is_ordered(world) ? near_skin(speed, world.step, mean) : kSkin * smallest;
   if (is_ordered(world) && searches_++ % kSearches == 0) sort_bodies(world);
   surfaces_speed_ = 0;
   for (const Surface& surface : scene.surfaces)
@@ -166,6 +184,7 @@ void PileSlabs::find(PileWorld& world, PileLawTable& laws) {
 
   std::vector<std::uint32_t> slab_of;
   share_out(world, slab_of);
+  find_members(world, slab_of);
   laws.renew(pairs.size() + n);
   const auto slabs = static_cast<std::uint32_t>(lists_.size());
   auto pair = pairs.begin();
@@ -173,7 +192,7 @@ void PileSlabs::find(PileWorld& world, PileLawTable& laws) {
     for (; pair != pairs.end() && pair->first < p; ++pair) {
       auto [a, b] = *pair;
       const std::uint32_t s = slab_of[a], t = slab_of[b];
-      const bool is_around = slabs > 2 && s + t == slabs - 1 && (s == 0 || t == 0);
+      const bool is_around = is_around_ && s + t == slabs - 1 && (s == 0 || t == 0);
       // The first is the one that comes first in the scene, however the bodies are sorted.
       if (bodies_[a] > bodies_[b]) std::swap(a, b);
       PileNear near{a, static_cast<int>(b)};
