@@ -115,6 +115,19 @@ TEST(KeptSolver, GoesOnWithThePileThatItWas) {
   }
 }
 
+/// Several slabs around a period: which of them the last one is beside is kept.
+TEST(KeptSolver, GoesOnWithSlabsAroundAPeriod) {
+  const ContactScene scene = bench::soft_bed({.count = 1500, .ratio = 2, .walls = false});
+  const auto make = [&] {
+    return std::make_unique<PileSolver>(scene, scene.hard.initial,
+                                        PileSettings{.steps_per_contact = 20,
+                                                     .collision_time = 2e-4,
+                                                     .steps_per_frame = 9,
+                                                     .ordered_from = 1});
+  };
+  expect_same(make, until_time(900 * make()->step()), 31);
+}
+
 /// A scene that is loaded before its start is not loaded again.
 TEST(KeptSolver, GoesOnWithAPileThatWasPrepared) {
   ContactScene scene = bench::soft_bed({.count = 40, .gap = 1.0});

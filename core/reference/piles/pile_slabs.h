@@ -77,8 +77,7 @@ class PileSlabs {
   template <class Act, class Done>
   void sweep(ThreadTeam* team, const Act& act, const Done& done) const {
     const std::size_t slabs = lists_.size();
-    const std::size_t most = team ? kBlocksOfThread * team->size() : 1;
-    const std::size_t blocks = std::clamp<std::size_t>(slabs / kLeastInBlock, 1, most);
+    const std::size_t blocks = team ? blocks_for(team->size()) : 1;
     // Slabs that follow each other, from an even one on.
     const auto begin = [&](std::size_t k) {
       return k < blocks ? k * slabs / blocks / 2 * 2 : slabs;
@@ -107,8 +106,12 @@ class PileSlabs {
   }
 
  private:
-  /// Slabs of a block, at least, and blocks for each thread of a team.
-  static constexpr std::size_t kLeastInBlock = 4, kBlocksOfThread = 4;
+  /// Four for each thread are shared out well; of four slabs one list waits for the block beside.
+  std::size_t blocks_for(std::size_t threads) const {
+    const std::size_t slabs = lists_.size();
+    return std::clamp(slabs / 4, std::min(threads, std::max<std::size_t>(1, slabs / 2)),
+                      4 * threads);
+  }
 
   template <class Work>
   static void for_each(ThreadTeam* team, std::size_t count, const Work& work) {
