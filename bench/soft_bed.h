@@ -13,8 +13,9 @@ namespace slipcheck::bench {
 /// Spheres of glass that fall into a container and settle there: soft contacts that remember.
 struct SoftBed {
   std::size_t count = 1000;
-  double ratio = 1;   ///< largest over smallest radius, evenly spread in four sizes, >= 1
-  bool walls = true;  ///< else a periodic plane
+  double ratio = 1;        ///< largest over smallest radius, evenly spread in four sizes, >= 1
+  std::size_t length = 0;  ///< spheres along x; 0: as many as along y
+  bool walls = true;       ///< else a periodic plane
   double collision_time = 1e-3;  ///< of the largest with its like [s]
   double gap = 1.02;             ///< of the lattice on which they start, in largest diameters
   unsigned seed = 1;
@@ -30,9 +31,14 @@ inline ContactScene soft_bed(const SoftBed& bed) {
   ContactScene scene;
   Scene& hard = scene.hard;
   const double spacing = bed.gap * 2 * kLargest;
-  const auto across = static_cast<std::size_t>(
-      std::max(4.0, std::round(std::cbrt(0.7 * static_cast<double>(bed.count)))));
-  const double side = spacing * static_cast<double>(across) + 0.1 * kLargest;
+  const double cube = 0.7 * static_cast<double>(bed.count);
+  const double width =
+      bed.length > 0 ? std::sqrt(cube / static_cast<double>(bed.length)) : std::cbrt(cube);
+  const auto across = static_cast<std::size_t>(std::max(4.0, std::round(width)));
+  const std::size_t along = bed.length > 0 ? bed.length : across;
+  const auto side = [&](std::size_t spheres) {
+    return spacing * static_cast<double>(spheres) + 0.1 * kLargest;
+  };
   for (std::size_t i = 0; i < bed.count; ++i) {
     const auto size = static_cast<double>(random() % 4) / 3;
     const double R = kLargest * (1 - size * (1 - 1 / bed.ratio));
@@ -43,8 +49,8 @@ inline ContactScene soft_bed(const SoftBed& bed) {
       return spacing * (static_cast<double>(k) + 0.5) + 0.05 * kLargest;
     };
     BodyState state;
-    state.position = {cell(i % across), cell(i / across % across),
-                      cell(i / (across * across)) + kLargest};
+    state.position = {cell(i % along), cell(i / along % across),
+                      cell(i / (along * across)) + kLargest};
     for (int k = 0; k < 3; ++k) state.velocity[k] = kSpeed * (2 * uniform() - 1);
     state.velocity.z() -= 0.5;
     hard.initial.push_back(state);
@@ -65,11 +71,11 @@ inline ContactScene soft_bed(const SoftBed& bed) {
   contact.memory->sliding.static_friction = contact.memory->sliding.kinetic_friction = 0.4;
   scene.soft = {contact};
   if (!bed.walls) {
-    hard.periodic = {side, side};
+    hard.periodic = {side(along), side(across)};
     return scene;
   }
   hard.has_substrate = false;
-  const Vector3 far(side, side, 0);
+  const Vector3 far(side(along), side(across), 0);
   for (const auto& [point, normal] : {std::pair{Vector3(0, 0, 0), Vector3(0, 0, 1)},
                                       {Vector3(0, 0, 0), Vector3(1, 0, 0)},
                                       {Vector3(0, 0, 0), Vector3(0, 1, 0)},

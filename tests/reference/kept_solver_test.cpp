@@ -117,7 +117,8 @@ TEST(KeptSolver, GoesOnWithThePileThatItWas) {
 
 /// Several slabs around a period: which of them the last one is beside is kept.
 TEST(KeptSolver, GoesOnWithSlabsAroundAPeriod) {
-  const ContactScene scene = bench::soft_bed({.count = 1500, .ratio = 2, .walls = false});
+  const ContactScene scene =
+      bench::soft_bed({.count = 1600, .ratio = 2, .length = 60, .walls = false});
   const auto make = [&] {
     return std::make_unique<PileSolver>(scene, scene.hard.initial,
                                         PileSettings{.steps_per_contact = 20,

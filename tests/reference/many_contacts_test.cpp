@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "../../bench/soft_bed.h"
 #include "physics/numbers.h"
@@ -65,6 +67,85 @@ TEST(ManyContacts, InSlabsAreThoseOfOneList) {
     for (std::size_t i = 0; i < list.states.size(); ++i)
       ASSERT_NEAR((slabs.states[i].position - list.states[i].position).norm(), 0, 1e-11) << i;
   }
+}
+
+constexpr double kSpacing = 10.2e-3;  // of soft_bed()'s lattice
+
+/// Above the plane and without gravity, in a long row of slabs, at rest.
+ContactScene long_row(bool repeats) {
+  ContactScene scene = soft_bed({.count = 1600, .length = 60, .walls = false});
+  scene.hard.gravity = 0;
+  if (!repeats) scene.hard.periodic.setZero();
+  for (BodyState& state : scene.hard.initial) {
+    state.position.z() += 1;
+    state.velocity.setZero();
+  }
+  return scene;
+}
+
+/// Bodies meet when they do, whatever their slabs do: two that fly at each other among others at
+/// Bodies meet when they do, whatever their slabs do: two that fly at each other among others at
+/// rest; what meets around the period, where the last slab is beside the first; two parts that move
+/// as they are, and wherever one slab ends and the next begins there none moves in its own.
+TEST(ManyContacts, MeetWhateverTheirSlabsDo) {
+  std::vector<ContactScene> scenes = {long_row(false), long_row(true)};
+  const std::size_t one = 60 * 2 + 30, other = one + 60;  // beside each other along y
+  scenes[0].hard.initial[one].velocity.y() = 0.5;
+  scenes[0].hard.initial[other].velocity.y() = -0.5;
+  for (BodyState& state : scenes[1].hard.initial)
+    state.velocity.x() =
+        -1.5 * std::sin(2 * M_PI * state.position.x() / scenes[1].hard.periodic.x());
+  for (int column = 8; column < 14; ++column) {
+    ContactScene& parts = scenes.emplace_back(long_row(false));
+    for (BodyState& state : parts.hard.initial)
+      state.velocity.x() = state.position.x() < (column + 0.1) * kSpacing ? 0.3 : -0.3;
+  }
+  for (const ContactScene& scene : scenes) {
+    const auto end = [&](std::size_t ordered_from, std::size_t threads) {
+      return run(scene, 200,
+                 {.steps_per_contact = 20,
+                  .collision_time = kOnPlane,
+                  .steps_per_frame = 100,
+                  .threads = threads,
+                  .ordered_from = ordered_from});
+    };
+    const Ended slabs = end(1, 1), shared = end(1, 3), list = end(kAlwaysOneList, 1);
+    EXPECT_GT(list.collisions, 0u);
+    EXPECT_EQ(slabs.collisions, list.collisions);
+    for (std::size_t i = 0; i < list.states.size(); ++i) {
+      ASSERT_NEAR((slabs.states[i].position - list.states[i].position).norm(), 0, 1e-11) << i;
+      ASSERT_EQ(shared.states[i].position, slabs.states[i].position) << i;
+    }
+  }
+}
+
+/// All at one velocity come no nearer to each other, but to the floor: the lowest ones touch it at
+/// that speed, no other does in a time shorter than two layers need to meet.
+TEST(ManyContacts, MeetTheFloorAsOne) {
+  ContactScene scene = soft_bed({.count = 300, .gap = 1.1});
+  scene.hard.gravity = 0;
+  for (BodyState& state : scene.hard.initial) state.velocity = {0, 0, -1};
+  const double radius = scene.hard.bodies[0].radius;
+  const double gap = scene.hard.initial[0].position.z() - radius;
+  PileSolver solver(scene, scene.hard.initial, {.steps_per_contact = 40, .prepare = false});
+  const double half_a_contact = 20 * solver.step();
+  ASSERT_TRUE(solver.run(until_time(gap + half_a_contact), nullptr).reached);
+  for (const BodyState& state : solver.states()) EXPECT_GT(state.position.z(), 0.9 * radius);
+  EXPECT_NEAR(solver.states()[0].velocity.z(), 0, 0.5);  // at rest in the middle of its contact
+}
+
+/// A ball that bounces lower than the lists reach, again and again: in time its weight is carried.
+TEST(ManyContacts, BounceBetweenTwoSearches) {
+  ContactScene scene = soft_bed({.count = 1, .walls = true});
+  scene.soft_surfaces[0]->memory->sliding.static_friction = 0;
+  scene.hard.initial[0].velocity.setZero();
+  const Sphere& ball = scene.hard.bodies[0];
+  scene.hard.initial[0].position = {0.02, 0.02, ball.radius + 2e-4};
+  const double time = 0.2;
+  const Ended end = run(scene, static_cast<std::size_t>(time / 1e-5), {.step = 1e-5});
+  EXPECT_GT(end.states[0].position.z(), 0.99 * ball.radius);
+  EXPECT_NEAR(end.impulse, ball.mass * (scene.hard.gravity * time + end.states[0].velocity.z()),
+              1e-6 * end.impulse);
 }
 
 /// Several at once in the lanes of vectors are the same as one by one by the laws that leave out
