@@ -93,8 +93,7 @@ TEST(ManyContacts, MeetWhateverTheirSlabsDo) {
   scenes[0].hard.initial[one].velocity.y() = 0.5;
   scenes[0].hard.initial[other].velocity.y() = -0.5;
   for (BodyState& state : scenes[1].hard.initial)
-    state.velocity.x() =
-        -1.5 * std::sin(2 * M_PI * state.position.x() / scenes[1].hard.periodic.x());
+    state.velocity.x() = -6 * std::sin(2 * M_PI * state.position.x() / scenes[1].hard.periodic.x());
   for (int column = 8; column < 14; ++column) {
     ContactScene& parts = scenes.emplace_back(long_row(false));
     for (BodyState& state : parts.hard.initial)
