@@ -80,7 +80,12 @@ PileLaneContacts::Contact PileLaneContacts::get(std::size_t k, const PileLaw& la
 
 void PileLaneContacts::keep(PileNear& near, const Contact& contact, const PileLawTable&) {
   near.contact = places_.take();
-  if (near.contact == kLanes * lanes_.size()) lanes_.push_back({});
+  if (near.contact == kLanes * lanes_.size()) {
+    // Lanes without a contact look at bodies too: at these, as another thread may be moving others.
+    PileLanes& added = lanes_.emplace_back();
+    added.first.fill(near.first);
+    added.second.fill(static_cast<std::uint32_t>(near.second));
+  }
   put(near, contact);
 }
 
