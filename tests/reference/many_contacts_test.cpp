@@ -84,7 +84,6 @@ ContactScene long_row(bool repeats) {
 }
 
 /// Bodies meet when they do, whatever their slabs do: two that fly at each other among others at
-/// Bodies meet when they do, whatever their slabs do: two that fly at each other among others at
 /// rest; what meets around the period, where the last slab is beside the first; two parts that move
 /// as they are, and wherever one slab ends and the next begins there none moves in its own.
 TEST(ManyContacts, MeetWhateverTheirSlabsDo) {

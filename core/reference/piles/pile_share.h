@@ -315,8 +315,8 @@ class PileShare {
   [[no_unique_address]] std::conditional_t<kLanes, PileLaneContacts, None> lanes_;
   typename Step::Sum sum_;
   // Of the list:
-  std::vector<double> far_above_;               ///< the same of two bodies; of others never
-  std::vector<AtSurface> at_surface_;           ///< a body and a surface, in order
+  std::vector<AtSurface> at_surface_;           ///< its entries of a surface, in order
+  std::vector<double> far_above_;               ///< as AtSurface's, by entry of two bodies
   std::vector<std::uint32_t> known_;            ///< have a contact, in order
   std::vector<std::uint32_t> far_;              ///< of one step: are looked at
   std::vector<std::uint32_t> meeting_, after_;  ///< of one step: overlap anew, and have one then
