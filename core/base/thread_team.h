@@ -39,6 +39,14 @@ class ThreadTeam {
         const_cast<void*>(static_cast<const void*>(&work)));
   }
 
+  /// Calls work(k, first, last) for the shares of 0 … count − 1, one for each thread k: what lies
+  /// side by side is the same thread's every time.
+  template <class Work>
+  void run_shares(std::size_t count, Work&& work) {
+    const std::size_t shares = size();
+    run(shares, [&](std::size_t k) { work(k, count * k / shares, count * (k + 1) / shares); });
+  }
+
  private:
   using Call = void (*)(void*, std::size_t);
 

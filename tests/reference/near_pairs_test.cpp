@@ -6,25 +6,12 @@
 #include <cmath>
 #include <random>
 
+#include "all_near.h"
 #include "reference/overlaps.h"
 #include "soft_scenes.h"
 
 namespace slipcheck {
 namespace {
-
-/// By looking at all.
-std::vector<NearPair> all_near(const std::vector<NearSphere>& spheres, double skin,
-                               const Vector2& periodic) {
-  std::vector<NearPair> found;
-  for (std::uint32_t i = 0; i < spheres.size(); ++i)
-    for (std::uint32_t j = i + 1; j < spheres.size(); ++j) {
-      Vector3 apart = spheres[i].position - spheres[j].position;
-      for (int k = 0; k < 2; ++k)
-        if (periodic[k] > 0) apart[k] -= periodic[k] * std::round(apart[k] / periodic[k]);
-      if (apart.norm() <= spheres[i].radius + spheres[j].radius + skin) found.push_back({i, j});
-    }
-  return found;
-}
 
 /// Radii from 1/ratio to 1, as many of each size on a logarithmic scale, in a box of these lengths.
 std::vector<NearSphere> random_spheres(std::size_t n, double ratio, const Vector3& lengths,

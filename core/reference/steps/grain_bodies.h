@@ -39,7 +39,7 @@ struct GrainLaw {
 };
 
 /// Grains in the plane, each quantity in an array of its own; velocities lie half a step before the
-/// positions, as in StepBody.
+/// positions, as in StepBody. What is not of for_each_changing() may lie in another order.
 struct GrainArrays {
   std::vector<double> x, y;           ///< [m]
   std::vector<double> vx, vy;         ///< [m/s]

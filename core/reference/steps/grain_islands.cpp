@@ -8,6 +8,8 @@ namespace {
 
 /// Grains of a group: with their pairs some 30 kB.
 constexpr std::size_t kGroup = 128;
+/// Groups that each thread has at least, of so many grains.
+constexpr std::size_t kForThread = 8, kSmallGroup = 8;
 
 }  // namespace
 
@@ -24,7 +26,7 @@ void GrainIslands::join(std::uint32_t a, std::uint32_t b) {
 
 void GrainIslands::find(std::size_t grains, std::span<const std::uint32_t> first,
                         std::span<const std::uint32_t> second, std::span<const std::uint32_t> near,
-                        std::span<const std::uint32_t> hit) {
+                        std::span<const std::uint32_t> hit, std::size_t threads) {
   forget();
   while (parent_.size() < grains) parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
   island_.resize(grains, kNone);
@@ -66,7 +68,7 @@ void GrainIslands::find(std::size_t grains, std::span<const std::uint32_t> first
     place_[grain] = next_[place_[grain]]++;
     grains_[place_[grain]] = grain;
   }
-  make_groups();
+  make_groups(threads);
 }
 
 void GrainIslands::forget() {
@@ -78,13 +80,16 @@ void GrainIslands::forget() {
   kept_.clear();
 }
 
-void GrainIslands::make_groups() {
+void GrainIslands::make_groups(std::size_t threads) {
+  const std::size_t most =
+      threads > 1 ? std::clamp(grains_.size() / (kForThread * threads), kSmallGroup, kGroup)
+                  : kGroup;
   groups_.clear();
   GrainGroup group;
   for (std::size_t k = 1; k < grain_start_.size(); ++k) {
     group.last_grain = grain_start_[k];
     group.last_pair = pair_start_[k];
-    if (group.last_grain - group.first_grain < kGroup && k + 1 < grain_start_.size()) continue;
+    if (group.last_grain - group.first_grain < most && k + 1 < grain_start_.size()) continue;
     groups_.push_back(group);
     group = {group.last_grain, group.last_grain, group.last_pair, group.last_pair};
   }

@@ -10,15 +10,15 @@
 namespace slipcheck {
 
 /// Sorts near pairs into islands, which share no grain, and those into groups of about so many
-/// grains as the nearest cache holds. Islands of which no grain is hit are left out: all of them go
-/// on as if alone.
+/// grains as the nearest cache holds, or fewer where threads share them. Islands of which no grain
+/// is hit are left out: all of them go on as if alone.
 class GrainIslands {
  public:
   /// `near` are indices into first and second, which tell grains below `grains`. hit: of each pair
   /// that touches or is to meet unless others intervene, one grain.
   void find(std::size_t grains, std::span<const std::uint32_t> first,
             std::span<const std::uint32_t> second, std::span<const std::uint32_t> near,
-            std::span<const std::uint32_t> hit);
+            std::span<const std::uint32_t> hit, std::size_t threads);
 
   const std::vector<std::uint32_t>& grains() const { return grains_; }  ///< island by island
   /// Those of `near`, island by island.
@@ -31,7 +31,7 @@ class GrainIslands {
   std::uint32_t root(std::uint32_t grain);
   void join(std::uint32_t a, std::uint32_t b);
   void forget();
-  void make_groups();
+  void make_groups(std::size_t threads);
 
   static constexpr std::uint32_t kNone = ~std::uint32_t{0}, kHit = kNone - 1;
   // Of each grain of the scene; between two calls it is its own parent, in no island.

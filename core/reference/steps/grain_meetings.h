@@ -25,13 +25,11 @@ class GrainMeetings {
     const double aside = braking * time * (time + step) + 1e-9 * kernels.plane().radius;
     const std::span<const std::uint32_t> first = listed.first(), second = listed.second();
     found_.resize(team.size());
-    team.run(found_.size(), [&](std::size_t own) {
-      const std::size_t from = first.size() * own / found_.size();
-      const std::size_t count = first.size() * (own + 1) / found_.size() - from;
+    team.run_shares(first.size(), [&](std::size_t own, std::size_t from, std::size_t to) {
       Found& found = found_[own];
       found.near.clear();
-      kernels.find_near(grains, first.subspan(from, count), second.subspan(from, count), margin,
-                        found.near);
+      kernels.find_near(grains, first.subspan(from, to - from), second.subspan(from, to - from),
+                        margin, found.near);
       for (std::uint32_t& each : found.near) each += static_cast<std::uint32_t>(from);
       find_hit(kernels.plane(), grains, first, second, aside, time, found);
     });

@@ -1,6 +1,7 @@
 #include "reference/steps/grain_neighbours.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -33,37 +34,39 @@ struct Axis {
 }  // namespace
 
 const std::vector<std::uint32_t>& GrainNeighbours::sort(const GrainArrays& grains,
-                                                        const GrainPlane& plane, double width) {
+                                                        const GrainPlane& plane, double width,
+                                                        ThreadTeam& team) {
   const Axis x(grains.x, plane.length_x, width), y(grains.y, plane.length_y, width);
   columns_ = x.cells;
   rows_ = y.cells;
   const std::size_t n = grains.size();
   cell_.resize(n);
-  start_.assign(std::size_t{columns_} * rows_ + 1, 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    cell_[i] = y.cell_of(grains.y[i]) * columns_ + x.cell_of(grains.x[i]);
-    ++start_[cell_[i] + 1];
-  }
+  team.run_shares(n, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      cell_[i] = y.cell_of(grains.y[i]) * columns_ + x.cell_of(grains.x[i]);
+  });
+  // One place further than a cell's grains begin, which taking them makes up for.
+  start_.assign(std::size_t{columns_} * rows_ + 2, 0);
+  for (const std::uint32_t cell : cell_) ++start_[cell + 2];
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   order_.resize(n);
-  std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-  for (std::uint32_t i = 0; i < n; ++i) order_[next[cell_[i]]++] = i;
+  for (std::uint32_t i = 0; i < n; ++i) order_[start_[cell_[i] + 1]++] = i;
   return order_;
 }
 
 void GrainNeighbours::find(const GrainArrays& grains, const GrainPlane& plane, double skin,
                            ThreadTeam& team) {
   found_.resize(team.size());
-  const std::size_t shares = found_.size();
-  team.run(shares, [&](std::size_t k) {
-    find_in(grains, plane, skin, static_cast<std::int64_t>(rows_ * k / shares),
-            static_cast<std::int64_t>(rows_ * (k + 1) / shares), found_[k]);
+  team.run_shares(rows_, [&](std::size_t own, std::size_t first, std::size_t last) {
+    find_in(grains, plane, skin, static_cast<std::uint32_t>(first),
+            static_cast<std::uint32_t>(last), found_[own]);
   });
   first_.clear();
   second_.clear();
   for (const Found& found : found_) {
-    first_.insert(first_.end(), found.first.begin(), found.first.end());
-    second_.insert(second_.end(), found.second.begin(), found.second.end());
+    const auto count = static_cast<std::ptrdiff_t>(found.count);
+    first_.insert(first_.end(), found.first.begin(), found.first.begin() + count);
+    second_.insert(second_.end(), found.second.begin(), found.second.begin() + count);
   }
 }
 
@@ -75,45 +78,82 @@ std::uint32_t GrainNeighbours::place_of(std::uint32_t i, std::uint32_t j) const 
   return static_cast<std::uint32_t>(at - second);
 }
 
+class GrainNeighbours::Beside {
+ public:
+  Beside(const GrainNeighbours& cells, const GrainPlane& plane)
+      : start_(cells.start_),
+        columns_(cells.columns_),
+        rows_(cells.rows_),
+        // A cell of few columns or rows would meet itself around the plane.
+        is_round_x_(plane.length_x > 0 && columns_ > 2),
+        is_round_y_(plane.length_y > 0 && rows_ > 2) {}
+
+  /// The cell itself and those beside it that come later in the order: each pair is found once.
+  std::span<Stretch> find(std::uint32_t row, std::uint32_t column) {
+    count_ = 0;
+    column_ = column;
+    const std::uint32_t last = columns_ - 1;
+    add(row, column, std::min(column + 1, last));
+    if (is_round_x_ && column == 0) add(row, last, last);
+    if (row + 1 < rows_) add_row(row + 1);
+    if (is_round_y_ && row == 0) add_row(rows_ - 1);
+    return {found_.data(), count_};
+  }
+
+ private:
+  void add_row(std::uint32_t row) {
+    const std::uint32_t last = columns_ - 1;
+    if (is_round_x_ && column_ == last) add(row, 0, 0);
+    add(row, column_ > 0 ? column_ - 1 : 0, std::min(column_ + 1, last));
+    if (is_round_x_ && column_ == 0) add(row, last, last);
+  }
+  void add(std::uint32_t row, std::uint32_t first, std::uint32_t last) {
+    const std::size_t before = std::size_t{row} * columns_;
+    found_[count_++] = {start_[before + first], start_[before + last + 1]};
+  }
+
+  std::span<const std::uint32_t> start_;
+  std::uint32_t columns_, rows_;
+  bool is_round_x_, is_round_y_;
+  std::uint32_t column_ = 0;
+  std::array<Stretch, 6> found_;
+  std::size_t count_ = 0;
+};
+
 void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane, double skin,
-                              std::int64_t first_row, std::int64_t last_row, Found& found) const {
-  found.first.clear();
-  found.second.clear();
+                              std::uint32_t first_row, std::uint32_t last_row, Found& found) const {
   const double reach = 2 * plane.radius + skin;
-  const auto take = [&](std::uint32_t i, std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t j = begin; j < end; ++j) {
-      double dx = grains.x[i] - grains.x[j], dy = grains.y[i] - grains.y[j];
-      dx -= shift_to_nearest_image(dx, plane.length_x);
-      dy -= shift_to_nearest_image(dy, plane.length_y);
-      if (dx * dx + dy * dy <= reach * reach) found.beside.push_back(j);
-    }
-  };
-  const auto columns = static_cast<std::int64_t>(columns_), rows = static_cast<std::int64_t>(rows_);
-  // A cell of few columns or rows would meet itself around the plane.
-  const bool round_x = plane.length_x > 0 && columns > 2;
-  const bool round_y = plane.length_y > 0 && rows > 2;
-  const bool all_x = columns <= 2, all_y = rows <= 2;
-  for (std::int64_t row = first_row; row < last_row; ++row)
-    for (std::int64_t column = 0; column < columns; ++column) {
-      const std::size_t cell = static_cast<std::size_t>(row * columns + column);
-      for (std::uint32_t i = start_[cell]; i < start_[cell + 1]; ++i) {
-        found.beside.clear();
-        for (std::int64_t r = all_y ? 0 : row - 1; r <= (all_y ? rows - 1 : row + 1); ++r) {
-          if (!round_y && (r < 0 || r >= rows)) continue;
-          const std::int64_t row_beside = (r + rows) % rows * columns;
-          for (std::int64_t c = all_x ? 0 : column - 1; c <= (all_x ? columns - 1 : column + 1);
-               ++c) {
-            if (!round_x && (c < 0 || c >= columns)) continue;
-            const auto other = static_cast<std::size_t>(row_beside + (c + columns) % columns);
-            if (other < cell) continue;
-            take(i, other == cell ? i + 1 : start_[other], start_[other + 1]);
+  const double* x = grains.x.data();
+  const double* y = grains.y.data();
+  Beside cells(*this, plane);
+  std::size_t count = 0;
+  for (std::uint32_t row = first_row; row < last_row; ++row)
+    for (std::uint32_t column = 0; column < columns_; ++column) {
+      const std::size_t cell = std::size_t{row} * columns_ + column;
+      const std::uint32_t begin = start_[cell], end = start_[cell + 1];
+      if (begin == end) continue;
+      const std::span<Stretch> beside = cells.find(row, column);
+      std::size_t most = count;
+      for (const Stretch& s : beside) most += std::size_t{end - begin} * (s.end - s.begin);
+      if (found.first.size() < most) {
+        found.first.resize(2 * most);
+        found.second.resize(2 * most);
+      }
+      for (std::uint32_t i = begin; i < end; ++i) {
+        beside.front().begin = i + 1;
+        // Each is written down, and stays where it is near: no branch that nobody foresees.
+        for (const Stretch& s : beside)
+          for (std::uint32_t j = s.begin; j < s.end; ++j) {
+            double dx = x[i] - x[j], dy = y[i] - y[j];
+            dx -= shift_to_nearest_image(dx, plane.length_x);
+            dy -= shift_to_nearest_image(dy, plane.length_y);
+            found.first[count] = i;
+            found.second[count] = j;
+            count += dx * dx + dy * dy <= reach * reach ? 1 : 0;
           }
-        }
-        std::sort(found.beside.begin(), found.beside.end());
-        found.first.insert(found.first.end(), found.beside.size(), i);
-        found.second.insert(found.second.end(), found.beside.begin(), found.beside.end());
       }
     }
+  found.count = count;
 }
 
 }  // namespace slipcheck

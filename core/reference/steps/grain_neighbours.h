@@ -14,9 +14,9 @@ namespace slipcheck {
 class GrainNeighbours {
  public:
   /// The order, old index by new one, in which grains lie cell by cell. Cells are at least
-  /// `width` [m] wide.
+  /// `width` [m] wide. The team shares the work.
   const std::vector<std::uint32_t>& sort(const GrainArrays& grains, const GrainPlane& plane,
-                                         double width);
+                                         double width, ThreadTeam& team);
   /// The pairs of grains that sort() has ordered, no further from each other's surface than `skin`
   /// [m] and in ascending order. The width given to sort() must be that of skin and two radii. The
   /// team shares the work.
@@ -30,12 +30,19 @@ class GrainNeighbours {
   std::uint32_t place_of(std::uint32_t i, std::uint32_t j) const;
 
  private:
-  /// Pairs by the rows of cells that one thread looks at.
+  /// Grains that follow each other.
+  struct Stretch {
+    std::uint32_t begin = 0, end = 0;
+  };
+  /// Those of cells beside one, in the order of the cells.
+  class Beside;
+  /// Pairs by the rows of cells that one thread looks at: the first `count` of them.
   struct Found {
-    std::vector<std::uint32_t> first, second, beside;
+    std::vector<std::uint32_t> first, second;
+    std::size_t count = 0;
   };
   void find_in(const GrainArrays& grains, const GrainPlane& plane, double skin,
-               std::int64_t first_row, std::int64_t last_row, Found& found) const;
+               std::uint32_t first_row, std::uint32_t last_row, Found& found) const;
 
   std::uint32_t columns_ = 1, rows_ = 1;
   std::vector<std::uint32_t> cell_;   ///< of each grain, in the order before sort()

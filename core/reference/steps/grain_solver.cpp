@@ -1,6 +1,7 @@
 #include "reference/steps/grain_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -20,7 +21,7 @@ namespace slipcheck {
 namespace {
 
 double folded(double x, double length, std::int64_t& image) {
-  if (!(length > 0)) return x;
+  if (!(length > 0) || (x >= 0 && x < length)) return x;
   const double turns = std::floor(x / length);
   image += static_cast<std::int64_t>(turns);
   return x - turns * length;
@@ -96,12 +97,12 @@ class GrainSolver::Impl {
 
   bool all_stick(bool rests) const {
     for (std::size_t i = 0; i < grains_.size(); ++i) {
-      const double wx = grains_.wx[i], wy = grains_.wy[i];
+      const auto [wx, wy, wz] = spin(grains_, i);
       const bool sticks = features().on_plane
                               ? grains_.sticks[i] > 0
                               : grains_.vx[i] == radius() * wy && grains_.vy[i] == -radius() * wx;
       if (!sticks) return false;
-      if (rests && (grains_.vx[i] != 0 || grains_.vy[i] != 0 || grains_.wz[i] != 0)) return false;
+      if (rests && (grains_.vx[i] != 0 || grains_.vy[i] != 0 || wz != 0)) return false;
     }
     return true;
   }
@@ -119,17 +120,14 @@ class GrainSolver::Impl {
     frame.bodies.resize(grains_.size());
     frame.touches.clear();
     const GrainArrays& g = batch.grains;
-    const bool rolls = features().on_plane;
     for (std::size_t i = 0; i < grains_.size(); ++i) {
       const double x = grains_.x[i] + static_cast<double>(image_x_[i]) * kernels_.plane().length_x;
       const double y = grains_.y[i] + static_cast<double>(image_y_[i]) * kernels_.plane().length_y;
-      frame.bodies[body_[i]] = {{x, y, radius()},
-                                {g.vx[i], g.vy[i], 0},
-                                {rolls ? g.wx[i] : grains_.wx[i], rolls ? g.wy[i] : grains_.wy[i],
-                                 features().rubs ? g.wz[i] : grains_.wz[i]}};
-      const double impulse = rolls    ? 2 * batch.load[i]
-                             : n_ > 0 ? kernels_.kinds()[grains_.kind[i]].weight * step_
-                                      : 0;
+      const auto [wx, wy, wz] = spin(g, i);
+      frame.bodies[body_[i]] = {{x, y, radius()}, {g.vx[i], g.vy[i], 0}, {wx, wy, wz}};
+      const double impulse = features().on_plane ? 2 * batch.load[i]
+                             : n_ > 0            ? kernels_.kinds()[grains_.kind[i]].weight * step_
+                                                 : 0;
       if (impulse > 0) frame.touches.push_back({static_cast<int>(body_[i]), kSubstrate, impulse});
     }
     for (const GrainPair& pair : batch.pairs) {
@@ -156,6 +154,14 @@ class GrainSolver::Impl {
 
   double radius() const { return kernels_.plane().radius; }
 
+  /// Ω of grain `i`, of which `now` has what changes [rad/s].
+  std::array<double, 3> spin(const GrainArrays& now, std::size_t i) const {
+    const std::uint32_t body = body_[i];  // what does not change stays in the scene's order
+    return {features().on_plane ? now.wx[i] : grains_.wx[body],
+            features().on_plane ? now.wy[i] : grains_.wy[body],
+            features().rubs ? now.wz[i] : grains_.wz[body]};
+  }
+
   /// The largest μ_k g of a grain on the plane [m/s²].
   double braking() const {
     double most = 0;
@@ -174,13 +180,13 @@ class GrainSolver::Impl {
   void find_neighbours(std::size_t length) {
     blocks_.renew(length, 2 * radius(), density());
     GrainArrays& g = grains_;
-    for (std::size_t i = 0; i < g.size(); ++i) {
-      g.x[i] = folded(g.x[i], kernels_.plane().length_x, image_x_[i]);
-      g.y[i] = folded(g.y[i], kernels_.plane().length_y, image_y_[i]);
-    }
-    const std::vector<std::uint32_t>& order =
-        neighbours_.sort(g, kernels_.plane(), 2 * radius() + blocks_.skin());
-    reorder(order);
+    team_.run_shares(g.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        g.x[i] = folded(g.x[i], kernels_.plane().length_x, image_x_[i]);
+        g.y[i] = folded(g.y[i], kernels_.plane().length_y, image_y_[i]);
+      }
+    });
+    reorder(neighbours_.sort(g, kernels_.plane(), 2 * radius() + blocks_.skin(), team_));
     neighbours_.find(g, kernels_.plane(), blocks_.skin(), team_);
     for (Contact& contact : touching_)
       contact.listed = neighbours_.place_of(contact.pair.a, contact.pair.b);
@@ -201,19 +207,21 @@ class GrainSolver::Impl {
   }
 
   void reorder(const std::vector<std::uint32_t>& order) {
-    std::vector<std::uint32_t> place;
     const auto apply = [&](auto& values, auto& moved) {
       moved.resize(values.size());
-      for (std::size_t k = 0; k < order.size(); ++k) moved[k] = values[order[k]];
+      team_.run_shares(order.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) moved[k] = values[order[k]];
+      });
       values.swap(moved);
     };
-    grains_.for_each_real([&](std::vector<double>& values) { apply(values, moved_); });
+    grains_.for_each_changing(features(),
+                              [&](std::vector<double>& values) { apply(values, moved_); });
+    std::vector<std::uint32_t>& place = moved_numbers_;
     if (kernels_.kinds().size() > 1) apply(grains_.kind, place);
-    std::vector<std::int64_t> image;
-    apply(image_x_, image);
-    apply(image_y_, image);
+    apply(image_x_, moved_images_);
+    apply(image_y_, moved_images_);
     apply(body_, place);
-    place.resize(order.size());
+    if (touching_.empty()) return;
     for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
     for (Contact& contact : touching_) {
       GrainPair& pair = contact.pair;
@@ -257,12 +265,12 @@ class GrainSolver::Impl {
                    step_ * static_cast<double>(length), braking(), step_, team_);
     for (const Contact& contact : touching_) meetings_.hit_too(contact.pair.a);
     islands_.find(grains_.size(), neighbours_.first(), neighbours_.second(), meetings_.near(),
-                  meetings_.hit());
+                  meetings_.hit(), team_.size());
     batch_.hold(islands_.grains().size(), islands_.pairs().size(), features());
     // Groups share no grain: whoever takes them, each does the same.
     const std::vector<GrainGroup>& groups = islands_.groups();
     ended_.resize(groups.size());
-    share(groups.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+    team_.run_shares(groups.size(), [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k) ended_[k] = run_group(groups[k], length);
     });
     Ended all;
@@ -312,13 +320,13 @@ class GrainSolver::Impl {
     const bool begins = n_ == 0 && features().on_plane;
     std::vector<double> still2(team_.size(), begins ? begin_gliding() : 0);
     const std::vector<std::uint32_t>& active = islands_.grains();
-    share(grains_.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
+    team_.run_shares(grains_.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
       if (!begins) still2[own] = kernels_.glide(grains_, first, last, step_, length);
       for (std::size_t k = 0; k < active.size(); ++k)
         if (first <= active[k] && active[k] < last)
           grains_.take(active[k], batch_.grains, k, features());
     });
-    share(ended_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+    team_.run_shares(ended_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k) keep_contacts(k);
     });
     return *std::max_element(still2.begin(), still2.end());
@@ -338,15 +346,6 @@ class GrainSolver::Impl {
     }
   }
 
-  /// Calls work(k, first, last) for shares of 0 … count − 1, one for each thread: what lies side by
-  /// side is the same thread's in each block.
-  template <class Work>
-  void share(std::size_t count, const Work& work) {
-    const std::size_t shares = team_.size();
-    team_.run(shares,
-              [&](std::size_t k) { work(k, count * k / shares, count * (k + 1) / shares); });
-  }
-
   /// The first step with its half kick.
   double begin_gliding() {
     GrainBatch batch = batch_of_all();
@@ -361,7 +360,10 @@ class GrainSolver::Impl {
   GrainKernels kernels_;
   std::vector<std::int64_t> image_x_, image_y_;  ///< cells between a grain's path and its place
   std::vector<std::uint32_t> body_;              ///< of the scene
-  std::vector<double> moved_;                    ///< one quantity's, for reorder()
+  // One quantity's, for reorder():
+  std::vector<double> moved_;
+  std::vector<std::int64_t> moved_images_;
+  std::vector<std::uint32_t> moved_numbers_;
   std::size_t n_ = 0, collisions_ = 0;
   GrainBlocks blocks_;
   GrainNeighbours neighbours_;
