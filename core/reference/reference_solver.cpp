@@ -198,9 +198,10 @@ void ReferenceSolver::choose_piles() {
 }
 
 bool ReferenceSolver::shares_steps() const {
-  const std::size_t bodies = scene_->hard.bodies.size();
-  return is_piled() ? bodies >= PileSettings{}.ordered_from
-                    : is_stepped() && bodies >= StepSettings{}.shared_from;
+  const Scene& hard = scene_->hard;
+  if (is_piled()) return hard.bodies.size() >= PileSettings{}.ordered_from;
+  const StepSettings two = {.general = settings_.general, .threads = 2};
+  return is_stepped() && sharing_threads(*scene_, hard.initial, two) > 1;
 }
 
 std::vector<std::string> ReferenceSolver::loop() const {

@@ -127,5 +127,17 @@ TEST(ManyThreads, GiveTheBitsOfOneToContactsOfTheirOwn) {
   for (const std::size_t threads : kThreads) EXPECT_EQ(hash(threads), alone) << threads;
 }
 
+/// Where telling each other of it takes longer than a step, one thread has them all.
+TEST(ManyThreads, ShareNoFewBodies) {
+  const auto sharing = [](std::size_t count, bool general) {
+    const ContactScene scene = bench::grain_gas(count, 0.2, false);
+    return sharing_threads(scene, scene.hard.initial, {.general = general, .threads = 3});
+  };
+  EXPECT_EQ(sharing(3999, false), 1u);
+  EXPECT_EQ(sharing(4000, false), 3u);
+  EXPECT_EQ(sharing(999, true), 1u);
+  EXPECT_EQ(sharing(1000, true), 3u);
+}
+
 }  // namespace
 }  // namespace slipcheck

@@ -8,8 +8,9 @@ namespace {
 
 /// Grains of a group: with their pairs some 30 kB.
 constexpr std::size_t kGroup = 128;
-/// Groups that each thread has at least, of so many grains.
-constexpr std::size_t kForThread = 8, kSmallGroup = 8;
+/// Where threads share them: groups for each thread, of at least so many grains, and what of a
+/// group's numbers begins lines of the cache that no other thread writes.
+constexpr std::size_t kForThread = 8, kSmallGroup = 16, kApart = 16;
 
 }  // namespace
 
@@ -62,13 +63,11 @@ void GrainIslands::find(std::size_t grains, std::span<const std::uint32_t> first
   pairs_.resize(kept_.size());
   next_ = pair_start_;
   for (const std::uint32_t k : kept_) pairs_[next_[place_[first[k]]]++] = k;
-  grains_.resize(met_.size());
-  next_ = grain_start_;
+  make_groups(threads);
   for (const std::uint32_t grain : met_) {
     place_[grain] = next_[place_[grain]]++;
     grains_[place_[grain]] = grain;
   }
-  make_groups(threads);
 }
 
 void GrainIslands::forget() {
@@ -81,18 +80,23 @@ void GrainIslands::forget() {
 }
 
 void GrainIslands::make_groups(std::size_t threads) {
-  const std::size_t most =
-      threads > 1 ? std::clamp(grains_.size() / (kForThread * threads), kSmallGroup, kGroup)
-                  : kGroup;
+  const bool shared = threads > 1;
+  const std::size_t grains =
+      shared ? std::clamp(met_.size() / (kForThread * threads), kSmallGroup, kGroup) : kGroup;
   groups_.clear();
+  next_.clear();  // where the grains of each island begin
   GrainGroup group;
+  std::uint32_t moved = 0;  // by what lies between groups
   for (std::size_t k = 1; k < grain_start_.size(); ++k) {
-    group.last_grain = grain_start_[k];
+    next_.push_back(grain_start_[k - 1] + moved);
+    group.last_grain = grain_start_[k] + moved;
     group.last_pair = pair_start_[k];
-    if (group.last_grain - group.first_grain < most && k + 1 < grain_start_.size()) continue;
+    if (group.last_grain - group.first_grain < grains && k + 1 < grain_start_.size()) continue;
     groups_.push_back(group);
-    group = {group.last_grain, group.last_grain, group.last_pair, group.last_pair};
+    if (shared) moved += static_cast<std::uint32_t>(-group.last_grain % kApart);
+    group = {grain_start_[k] + moved, grain_start_[k] + moved, group.last_pair, group.last_pair};
   }
+  grains_.assign(met_.size() + moved, kNone);
 }
 
 }  // namespace slipcheck

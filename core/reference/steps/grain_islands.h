@@ -14,13 +14,17 @@ namespace slipcheck {
 /// is hit are left out: all of them go on as if alone.
 class GrainIslands {
  public:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
   /// `near` are indices into first and second, which tell grains below `grains`. hit: of each pair
   /// that touches or is to meet unless others intervene, one grain.
   void find(std::size_t grains, std::span<const std::uint32_t> first,
             std::span<const std::uint32_t> second, std::span<const std::uint32_t> near,
             std::span<const std::uint32_t> hit, std::size_t threads);
 
-  const std::vector<std::uint32_t>& grains() const { return grains_; }  ///< island by island
+  /// Island by island; kNone between groups.
+  const std::vector<std::uint32_t>& grains() const { return grains_; }
+  std::size_t grain_count() const { return met_.size(); }
   /// Those of `near`, island by island.
   const std::vector<std::uint32_t>& pairs() const { return pairs_; }
   /// Of a grain in grains(): its place there.
@@ -33,12 +37,12 @@ class GrainIslands {
   void forget();
   void make_groups(std::size_t threads);
 
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0}, kHit = kNone - 1;
+  static constexpr std::uint32_t kHit = kNone - 1;
   // Of each grain of the scene; between two calls it is its own parent, in no island.
   std::vector<std::uint32_t> parent_;
   std::vector<std::uint32_t> island_;  ///< of a root; kHit before it has a number
   std::vector<std::uint32_t> place_;
-  std::vector<std::uint32_t> met_, kept_;  ///< grains_ and pairs_ in the order of the pairs
+  std::vector<std::uint32_t> met_, kept_;  ///< grains and pairs in the order of the pairs
   std::vector<std::uint32_t> grain_start_, pair_start_, next_;
   std::vector<std::uint32_t> grains_, pairs_;
   std::vector<GrainGroup> groups_;

@@ -209,13 +209,16 @@ class GrainSolver::Impl {
   void reorder(const std::vector<std::uint32_t>& order) {
     const auto apply = [&](auto& values, auto& moved) {
       moved.resize(values.size());
-      team_.run_shares(order.size(), [&](std::size_t, std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) moved[k] = values[order[k]];
-      });
+      for (std::size_t k = 0; k < order.size(); ++k) moved[k] = values[order[k]];
       values.swap(moved);
     };
+    std::vector<std::vector<double>*> all;
     grains_.for_each_changing(features(),
-                              [&](std::vector<double>& values) { apply(values, moved_); });
+                              [&](std::vector<double>& values) { all.push_back(&values); });
+    moved_.resize(team_.size());
+    team_.run_shares(all.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) apply(*all[k], moved_[own]);
+    });
     std::vector<std::uint32_t>& place = moved_numbers_;
     if (kernels_.kinds().size() > 1) apply(grains_.kind, place);
     apply(image_x_, moved_images_);
@@ -286,7 +289,7 @@ class GrainSolver::Impl {
     }
     const double still2 = end_block(length, all.touching);
     collisions_ += all.begun;
-    blocks_.took(length, islands_.grains().size(), all.touching,
+    blocks_.took(length, islands_.grain_count(), all.touching,
                  std::sqrt(std::max(all.fastest2, still2)));
     return true;
   }
@@ -360,8 +363,8 @@ class GrainSolver::Impl {
   GrainKernels kernels_;
   std::vector<std::int64_t> image_x_, image_y_;  ///< cells between a grain's path and its place
   std::vector<std::uint32_t> body_;              ///< of the scene
-  // One quantity's, for reorder():
-  std::vector<double> moved_;
+  // One quantity's, for reorder(), of each thread:
+  std::vector<std::vector<double>> moved_;
   std::vector<std::int64_t> moved_images_;
   std::vector<std::uint32_t> moved_numbers_;
   std::size_t n_ = 0, collisions_ = 0;

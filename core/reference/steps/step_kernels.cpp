@@ -84,8 +84,11 @@ const char* name_of(const Tangential& law) {
   return kNames[law.index()];
 }
 
-std::size_t threads_for(const Scene& scene, const StepSettings& settings) {
-  return scene.bodies.size() >= settings.shared_from ? settings.threads : 1;
+bool is_of_grains(const ContactScene& scene, std::span<const BodyState> initial,
+                  const StepSettings& settings) {
+  const bool many = scene.hard.bodies.size() > settings.most_in_all_pairs;
+  return !settings.general && (many || !scene.hard.periodic.isZero(0)) &&
+         grain_refusal(scene, initial).empty();
 }
 
 template <class Normal, class Tangential_>
@@ -95,7 +98,8 @@ std::unique_ptr<StepKernel> make(StepLaws<Normal, Tangential_> laws, const Conta
   const Scene& scene = contacts.hard;
   std::unique_ptr<StepNeighbours> neighbours;
   if (scene.bodies.size() > settings.most_in_all_pairs || contacts.own || !scene.periodic.isZero(0))
-    neighbours = std::make_unique<StepNeighbours>(scene.periodic, threads_for(scene, settings));
+    neighbours = std::make_unique<StepNeighbours>(scene.periodic,
+                                                  sharing_threads(contacts, initial, settings));
   const auto loop = [&](auto substrate, const char* name) -> std::unique_ptr<StepKernel> {
     features.emplace_back(name);
     if (neighbours) features.emplace_back("many bodies: neighbours in cells by radius");
@@ -112,6 +116,13 @@ std::unique_ptr<StepKernel> make(StepLaws<Normal, Tangential_> laws, const Conta
 }
 
 }  // namespace
+
+std::size_t sharing_threads(const ContactScene& scene, std::span<const BodyState> initial,
+                            const StepSettings& settings) {
+  const std::size_t many =
+      is_of_grains(scene, initial, settings) ? settings.grains_shared_from : settings.shared_from;
+  return scene.hard.bodies.size() >= many ? settings.threads : 1;
+}
 
 std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
                                              std::span<const BodyState> initial,
@@ -141,11 +152,8 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
                         tangential_of(*some).index() != tangential_of(*contact).index());
       some = &*contact;
     }
-  const std::string not_grains = grain_refusal(scene, initial);
-  const bool periodic = !hard.periodic.isZero(0);
-  if (not_grains.empty() && !general &&
-      (periodic || hard.bodies.size() > settings.most_in_all_pairs))
-    return std::make_unique<GrainLoop>(scene, threads_for(hard, settings));
+  if (is_of_grains(scene, initial, settings))
+    return std::make_unique<GrainLoop>(scene, sharing_threads(scene, initial, settings));
   // One body alone: any law will do.
   const SoftContact none{LinearForce{}, ContactEnd::zero_overlap, NoTangentialForce{}};
   if (!some) some = &none;

@@ -25,8 +25,13 @@ struct StepSettings {
   std::size_t most_in_all_pairs = 24;
   /// That share each step of many bodies; 0: one for each core. The results are the same bits.
   std::size_t threads = 1;
-  std::size_t shared_from = 1000;  ///< so many bodies are many
+  std::size_t shared_from = 1000;         ///< so many bodies are many
+  std::size_t grains_shared_from = 4000;  ///< the same of GrainLoop's, which are done sooner
 };
+
+/// Of the threads, those that share the steps of the scene.
+std::size_t sharing_threads(const ContactScene& scene, std::span<const BodyState> initial,
+                            const StepSettings& settings);
 
 /// The steps are too long for what the bodies do.
 class StepTooLong : public std::runtime_error {
