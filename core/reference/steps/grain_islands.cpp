@@ -14,6 +14,35 @@ constexpr std::size_t kForThread = 8, kSmallGroup = 16, kApart = 16;
 
 }  // namespace
 
+std::size_t GrainIslands::grain_count() const {
+  std::size_t count = 0;
+  for (const Share& share : shares_) count += share.met.size();
+  return count;
+}
+
+void GrainIslands::find(std::size_t grains, const GrainNear& pairs,
+                        std::span<const std::uint32_t> hit, ThreadTeam& team) {
+  while (parent_.size() < grains) parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
+  island_.resize(grains, kNone);
+  place_.resize(grains, kNone);
+  shares_.resize(team.size() + 1);
+  // Between two of these all threads have done the first.
+  const auto each = [&](const auto& work) {
+    team.run_shares(grains, [&](std::size_t own, std::size_t first, std::size_t last) {
+      work(Stretch{first, last}, shares_[own]);
+    });
+  };
+  forget(shares_.back());
+  each([&](const Stretch& own, Share& share) { join_within(pairs, own, share); });
+  each([&](const Stretch& own, Share& share) { sort_within(pairs, hit, own, share); });
+  sort_between(pairs);
+  make_groups(team.size());
+  each([&](const Stretch&, Share& share) { place(pairs, share); });
+  place(pairs, shares_.back());
+}
+
+// --- islands -------------------------------------------------------------------------------------
+
 std::uint32_t GrainIslands::root(std::uint32_t grain) {
   while (parent_[grain] != grain) grain = parent_[grain] = parent_[parent_[grain]];
   return grain;
@@ -25,78 +54,156 @@ void GrainIslands::join(std::uint32_t a, std::uint32_t b) {
   parent_[std::max(a, b)] = std::min(a, b);
 }
 
-void GrainIslands::find(std::size_t grains, std::span<const std::uint32_t> first,
-                        std::span<const std::uint32_t> second, std::span<const std::uint32_t> near,
-                        std::span<const std::uint32_t> hit, std::size_t threads) {
-  forget();
-  while (parent_.size() < grains) parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
-  island_.resize(grains, kNone);
-  place_.resize(grains, kNone);
-  for (const std::uint32_t k : near) join(first[k], second[k]);
-  for (const std::uint32_t grain : hit) island_[root(grain)] = kHit;
-  for (const std::uint32_t k : near) {
-    if (island_[root(first[k])] == kHit)
-      kept_.push_back(k);
+void GrainIslands::part(std::uint32_t grain) {
+  parent_[grain] = grain;
+  island_[grain] = kNone;
+}
+
+void GrainIslands::forget(Share& share) {
+  for (const std::uint32_t grain : share.met) {
+    part(grain);
+    place_[grain] = kNone;
+  }
+  share.met.clear();
+  share.kept.clear();
+}
+
+namespace {
+
+/// Those of the near pairs whose first grain is one of first … last − 1.
+std::span<const std::uint32_t> near_of(const GrainNear& pairs, std::size_t first,
+                                       std::size_t last) {
+  const auto at = [&](std::size_t grain) {
+    return std::ranges::lower_bound(pairs.near, grain, {},
+                                    [&](std::uint32_t k) { return pairs.first[k]; });
+  };
+  return {at(first), at(last)};
+}
+
+}  // namespace
+
+void GrainIslands::join_within(const GrainNear& pairs, const Stretch& own, Share& share) {
+  forget(share);
+  share.across.clear();
+  for (const std::uint32_t k : near_of(pairs, own.first, own.last)) {
+    if (own.has(pairs.second[k]))
+      join(pairs.first[k], pairs.second[k]);
     else
-      parent_[first[k]] = first[k], parent_[second[k]] = second[k];
-  }
-  // Number and count, then place.
-  grain_start_.assign(1, 0);
-  pair_start_.assign(1, 0);
-  for (const std::uint32_t k : kept_) {
-    std::uint32_t& island = island_[root(first[k])];
-    if (island == kHit) {
-      island = static_cast<std::uint32_t>(grain_start_.size() - 1);
-      grain_start_.push_back(0);
-      pair_start_.push_back(0);
-    }
-    ++pair_start_[island + 1];
-    for (const std::uint32_t grain : {first[k], second[k]}) {
-      if (place_[grain] != kNone) continue;
-      place_[grain] = island;
-      met_.push_back(grain);
-      ++grain_start_[island + 1];
-    }
-  }
-  std::partial_sum(grain_start_.begin(), grain_start_.end(), grain_start_.begin());
-  std::partial_sum(pair_start_.begin(), pair_start_.end(), pair_start_.begin());
-  pairs_.resize(kept_.size());
-  next_ = pair_start_;
-  for (const std::uint32_t k : kept_) pairs_[next_[place_[first[k]]]++] = k;
-  make_groups(threads);
-  for (const std::uint32_t grain : met_) {
-    place_[grain] = next_[place_[grain]]++;
-    grains_[place_[grain]] = grain;
+      share.across.push_back(k);
   }
 }
 
-void GrainIslands::forget() {
-  for (const std::uint32_t grain : met_) {
-    parent_[grain] = grain;
-    island_[grain] = place_[grain] = kNone;
+void GrainIslands::sort_within(const GrainNear& pairs, std::span<const std::uint32_t> hit,
+                               const Stretch& own, Share& share) {
+  share.reached.clear();
+  share.hit.clear();
+  for (const Share& other : shares_)
+    for (const std::uint32_t k : other.across)
+      for (const std::uint32_t grain : {pairs.first[k], pairs.second[k]})
+        if (own.has(grain)) island_[root(grain)] = kReached;
+  for (const std::uint32_t grain : hit) {
+    if (!own.has(grain)) continue;
+    std::uint32_t& island = island_[root(grain)];
+    if (island == kReached)
+      share.hit.push_back(grain);
+    else
+      island = kHit;
   }
-  met_.clear();
-  kept_.clear();
+  for (const std::uint32_t k : near_of(pairs, own.first, own.last)) {
+    if (!own.has(pairs.second[k])) continue;
+    const std::uint32_t island = island_[root(pairs.first[k])];
+    if (island == kHit)
+      share.kept.push_back(k);
+    else if (island == kReached)
+      share.reached.push_back(k);
+    else
+      part(pairs.first[k]), part(pairs.second[k]);
+  }
+  count(pairs, share);
 }
+
+void GrainIslands::sort_between(const GrainNear& pairs) {
+  Share& between = shares_.back();
+  std::vector<std::uint32_t>& all = between.reached;
+  all.clear();
+  for (const Share& share : shares_) {
+    if (&share == &between) break;
+    all.insert(all.end(), share.across.begin(), share.across.end());
+    all.insert(all.end(), share.reached.begin(), share.reached.end());
+    for (const std::uint32_t k : share.across) join(pairs.first[k], pairs.second[k]);
+  }
+  std::ranges::sort(all);
+  for (const Share& share : shares_)
+    for (const std::uint32_t grain : share.hit) island_[root(grain)] = kHit;
+  for (const std::uint32_t k : all) {
+    if (island_[root(pairs.first[k])] == kHit)
+      between.kept.push_back(k);
+    else
+      part(pairs.first[k]), part(pairs.second[k]);
+  }
+  count(pairs, between);
+}
+
+/// Numbers the islands, and counts what they have.
+void GrainIslands::count(const GrainNear& pairs, Share& share) {
+  share.grain_start.assign(1, 0);
+  share.pair_start.assign(1, 0);
+  for (const std::uint32_t k : share.kept) {
+    std::uint32_t& island = island_[root(pairs.first[k])];
+    if (island == kHit) {
+      island = static_cast<std::uint32_t>(share.grain_start.size() - 1);
+      share.grain_start.push_back(0);
+      share.pair_start.push_back(0);
+    }
+    ++share.pair_start[island + 1];
+    for (const std::uint32_t grain : {pairs.first[k], pairs.second[k]}) {
+      if (place_[grain] != kNone) continue;
+      place_[grain] = island;
+      share.met.push_back(grain);
+      ++share.grain_start[island + 1];
+    }
+  }
+  std::partial_sum(share.grain_start.begin(), share.grain_start.end(), share.grain_start.begin());
+  std::partial_sum(share.pair_start.begin(), share.pair_start.end(), share.pair_start.begin());
+}
+
+// --- where they lie ------------------------------------------------------------------------------
 
 void GrainIslands::make_groups(std::size_t threads) {
   const bool shared = threads > 1;
-  const std::size_t grains =
-      shared ? std::clamp(met_.size() / (kForThread * threads), kSmallGroup, kGroup) : kGroup;
+  const std::size_t most =
+      shared ? std::clamp(grain_count() / (kForThread * threads), kSmallGroup, kGroup) : kGroup;
   groups_.clear();
-  next_.clear();  // where the grains of each island begin
-  GrainGroup group;
-  std::uint32_t moved = 0;  // by what lies between groups
-  for (std::size_t k = 1; k < grain_start_.size(); ++k) {
-    next_.push_back(grain_start_[k - 1] + moved);
-    group.last_grain = grain_start_[k] + moved;
-    group.last_pair = pair_start_[k];
-    if (group.last_grain - group.first_grain < grains && k + 1 < grain_start_.size()) continue;
-    groups_.push_back(group);
-    if (shared) moved += static_cast<std::uint32_t>(-group.last_grain % kApart);
-    group = {grain_start_[k] + moved, grain_start_[k] + moved, group.last_pair, group.last_pair};
+  std::size_t grains = 0, pairs = 0;
+  for (Share& share : shares_) {
+    share.first_pair = pairs;
+    share.placed.clear();
+    GrainGroup group = {grains, grains, pairs, pairs};
+    for (std::size_t k = 1; k < share.grain_start.size(); ++k) {
+      share.placed.push_back(static_cast<std::uint32_t>(group.last_grain));
+      group.last_grain += share.grain_start[k] - share.grain_start[k - 1];
+      group.last_pair += share.pair_start[k] - share.pair_start[k - 1];
+      if (group.last_grain - group.first_grain < most && k + 1 < share.grain_start.size()) continue;
+      groups_.push_back(group);
+      if (shared) group.last_grain += -group.last_grain % kApart;
+      group.first_grain = group.last_grain;
+      group.first_pair = group.last_pair;
+    }
+    grains = group.last_grain;
+    pairs = group.last_pair;
   }
-  grains_.assign(met_.size() + moved, kNone);
+  grains_.assign(grains, kNone);
+  pairs_.resize(pairs);
+}
+
+void GrainIslands::place(const GrainNear& pairs, Share& share) {
+  share.next = share.pair_start;
+  for (const std::uint32_t k : share.kept)
+    pairs_[share.first_pair + share.next[place_[pairs.first[k]]]++] = k;
+  for (const std::uint32_t grain : share.met) {
+    place_[grain] = share.placed[place_[grain]]++;
+    grains_[place_[grain]] = grain;
+  }
 }
 
 }  // namespace slipcheck

@@ -267,8 +267,8 @@ class GrainSolver::Impl {
     meetings_.find(kernels_, grains_, neighbours_, blocks_.margin(length),
                    step_ * static_cast<double>(length), braking(), step_, team_);
     for (const Contact& contact : touching_) meetings_.hit_too(contact.pair.a);
-    islands_.find(grains_.size(), neighbours_.first(), neighbours_.second(), meetings_.near(),
-                  meetings_.hit(), team_.size());
+    islands_.find(grains_.size(), {neighbours_.first(), neighbours_.second(), meetings_.near()},
+                  meetings_.hit(), team_);
     batch_.hold(islands_.grains().size(), islands_.pairs().size(), features());
     // Groups share no grain: whoever takes them, each does the same.
     const std::vector<GrainGroup>& groups = islands_.groups();

@@ -1,0 +1,117 @@
+#include "reference/steps/grain_islands.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace slipcheck {
+namespace {
+
+constexpr std::uint32_t kGrains = 400;
+
+struct Pairs {
+  std::vector<std::uint32_t> first, second, near;
+};
+
+/// A list of pairs, by the first, some of which are near. reach: between the numbers of the two.
+Pairs random_pairs(std::mt19937& dice, std::uint32_t reach) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  Pairs pairs;
+  for (std::uint32_t i = 0; i + 1 < kGrains; ++i)
+    for (std::uint32_t j = i + 1; j < std::min(kGrains, i + 1 + reach); ++j) {
+      if (unit(dice) * reach > 2) continue;
+      if (unit(dice) < 0.35) pairs.near.push_back(static_cast<std::uint32_t>(pairs.first.size()));
+      pairs.first.push_back(i);
+      pairs.second.push_back(j);
+    }
+  return pairs;
+}
+
+/// The least grain of each grain's island, by following pairs until nothing changes.
+std::vector<std::uint32_t> least_of_island(const Pairs& pairs) {
+  std::vector<std::uint32_t> least(kGrains);
+  for (std::uint32_t i = 0; i < kGrains; ++i) least[i] = i;
+  for (bool changes = true; changes;) {
+    changes = false;
+    for (const std::uint32_t k : pairs.near) {
+      std::uint32_t &a = least[pairs.first[k]], &b = least[pairs.second[k]];
+      changes = changes || a != b;
+      a = b = std::min(a, b);
+    }
+  }
+  return least;
+}
+
+/// Checks all that is told of the pairs. Returns how many islands were hit.
+std::size_t expect_islands(const GrainIslands& islands, const Pairs& pairs,
+                           const std::vector<std::uint32_t>& hit, std::size_t threads) {
+  const std::vector<std::uint32_t> least = least_of_island(pairs);
+  std::set<std::uint32_t> hit_islands, grains;
+  for (const std::uint32_t grain : hit) hit_islands.insert(least[grain]);
+  std::map<std::uint32_t, std::vector<std::uint32_t>> expected;  // pairs by island
+  for (const std::uint32_t k : pairs.near) {
+    if (!hit_islands.contains(least[pairs.first[k]])) continue;
+    expected[least[pairs.first[k]]].push_back(k);
+    grains.insert({pairs.first[k], pairs.second[k]});
+  }
+  EXPECT_EQ(islands.grain_count(), grains.size());
+  std::map<std::uint32_t, std::vector<std::uint32_t>> found;
+  std::map<std::uint32_t, std::size_t> group_of;
+  std::size_t told = 0, group = 0;
+  for (const GrainGroup& each : islands.groups()) {
+    EXPECT_TRUE(threads == 1 || each.first_grain % 16 == 0);
+    for (std::size_t place = each.first_grain; place < each.last_grain; ++place) {
+      const std::uint32_t grain = islands.grains()[place];
+      EXPECT_TRUE(grains.contains(grain));
+      EXPECT_EQ(islands.place(grain), place);
+      EXPECT_EQ(group_of.try_emplace(least[grain], group).first->second, group);
+      ++told;
+    }
+    for (std::size_t p = each.first_pair; p < each.last_pair; ++p) {
+      const std::uint32_t k = islands.pairs()[p];
+      found[least[pairs.first[k]]].push_back(k);
+      EXPECT_EQ(group_of.at(least[pairs.first[k]]), group);
+    }
+    ++group;
+  }
+  EXPECT_EQ(told, grains.size());
+  EXPECT_EQ(found, expected);  // of each island in the order of the list
+  return expected.size();
+}
+
+/// Islands within the stretches that threads have, over one edge of these and over all of them.
+TEST(GrainIslands, AreThoseOfFollowingPairs) {
+  for (const std::size_t threads : {1, 2, 3, 8}) {
+    std::mt19937 dice(9);
+    ThreadTeam team(threads);
+    GrainIslands islands;
+    std::size_t count = 0;
+    for (int turn = 0; turn < 30; ++turn) {
+      const Pairs pairs = random_pairs(dice, turn % 3 == 0 ? 300 : 5);
+      std::vector<std::uint32_t> hit;
+      for (const std::uint32_t k : pairs.near)
+        if (dice() % 8 == 0) hit.push_back(pairs.first[k]);
+      islands.find(kGrains, {pairs.first, pairs.second, pairs.near}, hit, team);
+      count += expect_islands(islands, pairs, hit, threads);
+      ASSERT_FALSE(HasFailure()) << "threads: " << threads << ", turn " << turn;
+    }
+    EXPECT_GT(count, 300u);
+  }
+}
+
+TEST(GrainIslands, WithoutPairsThereAreNone) {
+  for (const std::size_t threads : {1, 3}) {
+    ThreadTeam team(threads);
+    GrainIslands islands;
+    islands.find(kGrains, {}, {}, team);
+    EXPECT_TRUE(islands.groups().empty());
+    EXPECT_EQ(islands.grain_count(), 0u);
+  }
+}
+
+}  // namespace
+}  // namespace slipcheck
