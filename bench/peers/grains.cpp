@@ -1,7 +1,7 @@
 // grains N AREA_FRACTION gas|monolayer WARM STEPS THREADS DATA: writes the grains of a peer's run
 // as its data file, runs them for WARM and then STEPS steps, three times, and prints
 // "particle_steps_per_second kinetic_energy_per_grain"; of CPU time on one thread, of wall time on
-// several.
+// several. Few grains are one thread's, as they are in a run.
 #include <time.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 
 #include "bench/grain_gas.h"
 #include "reference/steps/grain_solver.h"
+#include "reference/steps/step_solver.h"
 
 namespace slipcheck::bench {
 namespace {
@@ -58,7 +59,8 @@ int run(int count, char** arguments) {
   write_data(scene, on_plane, arguments[7]);
   double least = 1e300, energy = 0;
   for (int repeat = 0; repeat < 3; ++repeat) {
-    GrainSolver solver(scene, scene.hard.initial, kStep, threads);
+    GrainSolver solver(scene, scene.hard.initial, kStep,
+                       sharing_threads(scene, scene.hard.initial, {.threads = threads}));
     solver.advance(warm);
     const double begin = seconds(clock);
     solver.advance(steps);
