@@ -3,13 +3,17 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "../support/extremes.h"
 #include "planar_scenes.h"
+#include "reference/steps/grain_blocks.h"
 #include "reference/steps/grain_scene.h"
 #include "reference/steps/step_solver.h"
 #include "step_scenes.h"
@@ -332,6 +336,28 @@ TEST(GrainSolver, SameBitsOnEveryInstructionSet) {
 
 /// Beyond the limit of the linear contact, 2/ω0 = (2/π) t_col, energy grows until grains jump over
 /// each other; that is told and does not go on for ever.
+/// A block looks at all pairs, however short it is: a list is used up by none that is much shorter
+/// than the others.
+TEST(GrainSolver, BlocksUseUpTheListInEqualParts) {
+  for (const std::size_t covered : {5, 13, 14, 27, 33, 100}) {  // steps
+    constexpr double kStep = 1e-3, kFastest = 1, kFaster = 1.1;
+    GrainBlocks blocks(kStep, 0);
+    blocks.took(10, 600, 100, kFastest);
+    // The thickest skin, 0.6 diameters: the ways of two in so many steps and a half.
+    const double ways = 2 * kFaster * kFastest * kStep * (static_cast<double>(covered) + 0.5);
+    blocks.renew(10, ways / 0.6, 1e-9);
+    std::vector<std::size_t> lengths;
+    while (const std::size_t length = blocks.next(1000, 10000, 10000, 100)) {
+      lengths.push_back(length);
+      blocks.took(length, 200 + 40 * length, 100, kFastest);
+    }
+    EXPECT_EQ(std::accumulate(lengths.begin(), lengths.end(), std::size_t{0}), covered);
+    const auto [least, most] = std::ranges::minmax(lengths);
+    EXPECT_GE(2 * least, most) << covered;
+    EXPECT_LE(most, 13u);  // √((10⁴ + 10⁴ + 40·200)/(4·40)), what costs least
+  }
+}
+
 TEST(GrainSolver, StepsBeyondTheLimitOfStabilityEnd) {
   const ContactScene scene = periodic_gas(100, 0.6, false, 1.0);
   GrainSolver stable(scene, scene.hard.initial, 0.3 * 1e-2);

@@ -43,10 +43,12 @@ class GrainBlocks {
     const double all = static_cast<double>(grains) + kLook * static_cast<double>(listed) +
                        kIsland * 2 * static_cast<double>(touching);
     const double best = std::sqrt(all / (kSteps * std::max(joining_, 1e-6)));
-    auto length = static_cast<std::size_t>(
+    const auto length = static_cast<std::size_t>(
         std::clamp(best, 1.0, static_cast<double>(std::min(steps, kLongest))));
-    while (length > 0 && !cover(length)) length /= 2;
-    return length;
+    // Where the list covers less than two such, what it covers goes in equal parts.
+    std::size_t covered = 2 * length;
+    while (covered > 0 && !cover(covered)) --covered;
+    return covered > length ? (covered + 1) / 2 : covered;
   }
 
   /// Chooses the skin of a new list. density: grains over area [1/m²].
