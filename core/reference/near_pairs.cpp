@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <span>
 
 namespace slipcheck {
 namespace {
@@ -16,10 +17,29 @@ constexpr std::size_t kShare = 2048;
 constexpr std::size_t kLevels = 16;
 
 Vector3 to_nearest_image(Vector3 apart, const Vector2& periodic) {
-  for (int k = 0; k < 2; ++k)
+  for (int k = 0; k < 2; ++k) {
+    if (std::abs(apart[k]) < 0.49 * periodic[k]) continue;  // most
     if (periodic[k] > 0) apart[k] -= periodic[k] * std::round(apart[k] / periodic[k]);
+  }
   return apart;
 }
+
+/// Spheres of a level that follow each other.
+struct Stretch {
+  std::uint32_t begin = 0, end = 0;
+};
+
+/// Those of cells beside one, along z in one piece or at an edge in three.
+class Beside {
+ public:
+  void clear() { count_ = 0; }
+  void add(std::uint32_t begin, std::uint32_t end) { all_[count_++] = {begin, end}; }
+  std::span<Stretch> all() { return {all_.data(), count_}; }
+
+ private:
+  std::array<Stretch, 27> all_;
+  std::size_t count_ = 0;
+};
 
 /// Of all spheres, in each direction.
 struct Extent {
@@ -34,10 +54,12 @@ struct CellAxis {
   bool has_neighbours = true;  ///< one cell on either side, neither the same
 
   std::int64_t cell_of(double x) const {
+    const double cell = (x - low) * per_cell;
+    if (cell >= 0 && cell < static_cast<double>(count)) return static_cast<std::int64_t>(cell);
     // Beyond these cells, where 2^62 ends, distance tells all the same.
     constexpr double kMost = 4e18;
-    const double cell = std::clamp(std::floor((x - low) * per_cell), -kMost, kMost);
-    const auto whole = static_cast<std::int64_t>(cell) % count;
+    const auto whole =
+        static_cast<std::int64_t>(std::clamp(std::floor(cell), -kMost, kMost)) % count;
     return whole < 0 ? whole + count : whole;
   }
 };
@@ -101,29 +123,53 @@ class Level {
   std::uint32_t body(std::size_t place) const { return members_[place]; }
   const NearSphere& sphere(std::size_t place) const { return sorted_[place]; }
 
-  /// Calls take(begin, end) with the places of all in the cells around that of `x`.
-  template <class Take>
-  void around(const Vector3& x, const Take& take) const {
+  /// Those of all in the cells around that of `x`.
+  std::span<const Stretch> around(const Vector3& x, Beside& found) const {
     const auto [cx, cy, cz] = cells_of(x);
+    found.clear();
     for_each(axes_[0], cx, -1, [&](std::int64_t ix) {
-      for_each(axes_[1], cy, -1, [&](std::int64_t iy) { rows(ix, iy, cz, -1, take); });
+      for_each(axes_[1], cy, -1, [&](std::int64_t iy) { add_row(ix, iy, cz, -1, found); });
     });
+    return found.all();
   }
 
-  /// The same with those behind its own place and in half of the cells: each pair comes once.
-  template <class Take>
-  void behind(std::size_t place, const Vector3& x, const Take& take) const {
-    const auto [cx, cy, cz] = cells_of(x);
-    const std::size_t own = index(cx, cy, cz);
-    take(static_cast<std::uint32_t>(place + 1), start_[own + 1]);
-    rows(cx, cy, cz, 1, take);
-    if (axes_[1].has_neighbours) rows(cx, wrapped(cy + 1, axes_[1]), cz, -1, take);
-    if (!axes_[0].has_neighbours) return;
-    for_each(axes_[1], cy, -1,
-             [&](std::int64_t iy) { rows(wrapped(cx + 1, axes_[0]), iy, cz, -1, take); });
+  /// Calls visit(own, beside) for the cells of the places first … last − 1, with its places of
+  /// these, and a stretch that goes on with the rest of the cell and those of half of the cells
+  /// beside it: with what follows it in the first, each pair comes once.
+  template <class Visit>
+  void for_cells(std::size_t first, std::size_t last, const Visit& visit) const {
+    const auto after = std::upper_bound(start_.begin(), start_.end() - 1, first);
+    auto cell = static_cast<std::size_t>(after - start_.begin()) - 1;
+    const auto rest = static_cast<std::int64_t>(cell);
+    std::int64_t cz = rest % axes_[2].count, cy = rest / axes_[2].count % axes_[1].count,
+                 cx = rest / axes_[2].count / axes_[1].count;
+    Beside found;
+    for (; start_[cell] < last; ++cell) {
+      const Stretch own = {std::max(start_[cell], static_cast<std::uint32_t>(first)),
+                           std::min(start_[cell + 1], static_cast<std::uint32_t>(last))};
+      if (own.begin < own.end) {
+        found.clear();
+        found.add(own.begin, start_[cell + 1]);
+        add_behind(cx, cy, cz, found);
+        visit(own, found.all());
+      }
+      if (++cz < axes_[2].count) continue;
+      cz = 0;
+      if (++cy < axes_[1].count) continue;
+      cy = 0;
+      ++cx;
+    }
   }
 
  private:
+  /// Half of the cells beside one.
+  void add_behind(std::int64_t cx, std::int64_t cy, std::int64_t cz, Beside& found) const {
+    add_row(cx, cy, cz, 1, found);
+    if (axes_[1].has_neighbours) add_row(cx, wrapped(cy + 1, axes_[1]), cz, -1, found);
+    if (axes_[0].has_neighbours)
+      for_each(axes_[1], cy, -1,
+               [&](std::int64_t iy) { add_row(wrapped(cx + 1, axes_[0]), iy, cz, -1, found); });
+  }
   static std::int64_t wrapped(std::int64_t cell, const CellAxis& axis) {
     return cell < 0 ? cell + axis.count : cell >= axis.count ? cell - axis.count : cell;
   }
@@ -136,19 +182,18 @@ class Level {
     }
     for (int d = first; d <= 1; ++d) visit(wrapped(cell + d, axis));
   }
-  /// Cells along z that follow each other are one range.
-  template <class Take>
-  void rows(std::int64_t ix, std::int64_t iy, std::int64_t cz, int first, const Take& take) const {
+  /// Adds cells along z, those that follow each other as one stretch.
+  void add_row(std::int64_t ix, std::int64_t iy, std::int64_t cz, int first, Beside& found) const {
     const std::size_t row = index(ix, iy, 0);
     const auto last = axes_[2].count - 1;
     if (axes_[2].has_neighbours && cz + first >= 0 && cz + 1 <= last) {
-      take(start_[row + static_cast<std::size_t>(cz + first)],
-           start_[row + static_cast<std::size_t>(cz + 2)]);
+      found.add(start_[row + static_cast<std::size_t>(cz + first)],
+                start_[row + static_cast<std::size_t>(cz + 2)]);
       return;
     }
     for_each(axes_[2], cz, first, [&](std::int64_t iz) {
       const std::size_t cell = row + static_cast<std::size_t>(iz);
-      take(start_[cell], start_[cell + 1]);
+      found.add(start_[cell], start_[cell + 1]);
     });
   }
 
@@ -175,7 +220,8 @@ std::vector<Level> levels_of(const NearSpheres& spheres, const Extent& extent, d
   for (std::size_t i = 0; i < spheres.size(); ++i) largest = std::max(largest, spheres[i].radius);
   std::array<std::vector<std::uint32_t>, kLevels> members;
   for (std::uint32_t i = 0; i < spheres.size(); ++i) {
-    const int halvings = std::ilogb(largest / spheres[i].radius);
+    const double radius = spheres[i].radius;
+    const int halvings = radius == largest ? 0 : std::ilogb(largest / radius);
     members[static_cast<std::size_t>(std::clamp(halvings, 0, static_cast<int>(kLevels) - 1))]
         .push_back(i);
   }
@@ -212,36 +258,48 @@ class Search {
 
   std::size_t shares() const { return shares_.size(); }
 
-  /// Those of one share, in any order.
-  void find(std::size_t share, std::vector<NearPair>& found) const {
-    const auto& [level, first, last] = shares_[share];
-    const bool repeats = !periodic_.isZero(0);
-    for (std::size_t p = first; p < last; ++p) {
-      const NearSphere& own = levels_[level].sphere(p);
-      const std::uint32_t i = levels_[level].body(p);
-      const auto look_at = [&](const Level& others) {
-        return [&](std::uint32_t begin, std::uint32_t end) {
-          for (std::uint32_t q = begin; q < end; ++q) {
-            const NearSphere& other = others.sphere(q);
-            Vector3 apart = own.position - other.position;
-            if (repeats) apart = to_nearest_image(apart, periodic_);
-            const double reach = own.radius + other.radius + skin_;
-            if (!(apart.squaredNorm() <= reach * reach)) continue;
-            const std::uint32_t j = others.body(q);
-            found.push_back({std::min(i, j), std::max(i, j)});
-          }
-        };
-      };
-      levels_[level].behind(p, own.position, look_at(levels_[level]));
-      for (std::size_t coarse = 0; coarse < level; ++coarse)
-        levels_[coarse].around(own.position, look_at(levels_[coarse]));
-    }
+  /// Those of one share, in any order; until the thread's next call.
+  std::span<const NearPair> find(std::size_t share) const {
+    return periodic_.isZero(0) ? find_in<false>(shares_[share]) : find_in<true>(shares_[share]);
   }
 
  private:
   struct Share {
     std::size_t level, first, last;
   };
+
+  template <bool kRepeats>
+  std::span<const NearPair> find_in(const Share& share) const {
+    thread_local std::vector<NearPair> found;
+    const Level& own = levels_[share.level];
+    found.clear();
+    const auto look_at = [&](std::size_t p, const Level& others, std::span<const Stretch> beside) {
+      const NearSphere sphere = own.sphere(p);
+      const std::uint32_t i = own.body(p);
+      for (const Stretch& each : beside)
+        for (std::uint32_t q = each.begin; q < each.end; ++q) {
+          const NearSphere& other = others.sphere(q);
+          Vector3 apart = sphere.position - other.position;
+          if constexpr (kRepeats) apart = to_nearest_image(apart, periodic_);
+          const double reach = sphere.radius + other.radius + skin_;
+          if (!(apart.squaredNorm() <= reach * reach)) continue;
+          const std::uint32_t j = others.body(q);
+          found.push_back({std::min(i, j), std::max(i, j)});
+        }
+    };
+    own.for_cells(share.first, share.last, [&](const Stretch& cell, std::span<Stretch> beside) {
+      for (std::uint32_t p = cell.begin; p < cell.end; ++p) {
+        beside[0].begin = p + 1;
+        look_at(p, own, beside);
+      }
+    });
+    Beside around;
+    for (std::size_t coarse = 0; coarse < share.level; ++coarse)
+      for (std::size_t p = share.first; p < share.last; ++p)
+        look_at(p, levels_[coarse], levels_[coarse].around(own.sphere(p).position, around));
+    return found;
+  }
+
   std::vector<Level> levels_;
   std::vector<Share> shares_;
   double skin_;
@@ -275,7 +333,10 @@ std::vector<NearPair> near_pairs(const NearSpheres& spheres, double skin, const 
   if (spheres.size() < 2) return {};
   const Search search(spheres, skin, periodic);
   std::vector<std::vector<NearPair>> parts(search.shares());
-  const auto look = [&](std::size_t share) { search.find(share, parts[share]); };
+  const auto look = [&](std::size_t share) {
+    const std::span<const NearPair> found = search.find(share);
+    parts[share].assign(found.begin(), found.end());
+  };
   if (team)
     team->run(search.shares(), look);
   else
@@ -287,12 +348,7 @@ void near_pairs_in_shares(const NearSpheres& spheres, double skin, const Vector2
                           const std::function<void(std::span<const NearPair>)>& take) {
   if (spheres.size() < 2) return;
   const Search search(spheres, skin, periodic);
-  std::vector<NearPair> found;
-  for (std::size_t share = 0; share < search.shares(); ++share) {
-    found.clear();
-    search.find(share, found);
-    take(found);
-  }
+  for (std::size_t share = 0; share < search.shares(); ++share) take(search.find(share));
 }
 
 }  // namespace slipcheck

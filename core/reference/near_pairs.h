@@ -56,7 +56,7 @@ std::vector<NearPair> near_pairs(const NearSpheres& spheres, double skin,
                                  ThreadTeam* team = nullptr);
 
 /// The same pairs in any order, without a list of all: take() has some thousands of bodies' at a
-/// time.
+/// time, and makes no search itself.
 void near_pairs_in_shares(const NearSpheres& spheres, double skin, const Vector2& periodic,
                           const std::function<void(std::span<const NearPair>)>& take);
 
