@@ -340,7 +340,7 @@ TEST(GrainSolver, SameBitsOnEveryInstructionSet) {
 /// than the others.
 TEST(GrainSolver, BlocksUseUpTheListInEqualParts) {
   for (const std::size_t covered : {5, 13, 14, 27, 33, 100}) {  // steps
-    constexpr double kStep = 1e-3, kFastest = 1, kFaster = 1.1;
+    constexpr double kFastest = 1, kFaster = 1.1;
     GrainBlocks blocks(kStep, 0);
     blocks.took(10, 600, 100, kFastest);
     // The thickest skin, 0.6 diameters: the ways of two in so many steps and a half.
