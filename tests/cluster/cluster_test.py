@@ -59,9 +59,9 @@ class Cluster(unittest.TestCase):
     def tearDown(self):
         self.directory.cleanup()
 
-    def kill_shard(self, written, patience=60):
+    def kill_shard(self, written, patience=240):
         """Kills it at work, once it has made a run. It stands while that is looked at, so that it
-        cannot be done before."""
+        cannot be done before. patience [s]: schedulers start slowly where much else runs."""
         store = self.path / written
         end = time.monotonic() + patience
         while time.monotonic() < end:
