@@ -8,8 +8,8 @@ namespace {
 
 /// Grains of a group: with their pairs some 30 kB.
 constexpr std::size_t kGroup = 128;
-/// Where threads share them: groups for each thread, of at least so many grains, and what of a
-/// group's numbers begins lines of the cache that no other thread writes.
+/// Where threads share them: groups for each thread, of at least so many grains; each begins at a
+/// multiple of kApart, so that no line of the cache has numbers of two.
 constexpr std::size_t kForThread = 8, kSmallGroup = 16, kApart = 16;
 
 }  // namespace

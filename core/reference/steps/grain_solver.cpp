@@ -322,7 +322,7 @@ class GrainSolver::Impl {
     // The first kick is half as long, and without friction there is none.
     const bool begins = n_ == 0 && features().on_plane;
     std::vector<double> still2(team_.size(), begins ? begin_gliding() : 0);
-    const std::vector<std::uint32_t>& active = islands_.grains();
+    const std::vector<std::uint32_t>& active = islands_.grains();  // what is none is in no share
     team_.run_shares(grains_.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
       if (!begins) still2[own] = kernels_.glide(grains_, first, last, step_, length);
       for (std::size_t k = 0; k < active.size(); ++k)
