@@ -72,4 +72,13 @@ class ThreadTeam {
   std::vector<std::jthread> others_;
 };
 
+/// As ThreadTeam::run; without a team one after the other.
+template <class Work>
+void run_each(ThreadTeam* team, std::size_t count, Work&& work) {
+  if (team)
+    team->run(count, work);
+  else
+    for (std::size_t k = 0; k < count; ++k) work(k);
+}
+
 }  // namespace slipcheck

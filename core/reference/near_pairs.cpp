@@ -337,10 +337,7 @@ std::vector<NearPair> near_pairs(const NearSpheres& spheres, double skin, const 
     const std::span<const NearPair> found = search.find(share);
     parts[share].assign(found.begin(), found.end());
   };
-  if (team)
-    team->run(search.shares(), look);
-  else
-    for (std::size_t share = 0; share < search.shares(); ++share) look(share);
+  run_each(team, search.shares(), look);
   return sorted(parts, spheres.size());
 }
 

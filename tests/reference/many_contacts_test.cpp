@@ -83,9 +83,35 @@ ContactScene long_row(bool repeats) {
   return scene;
 }
 
+/// Two sheets of spheres that fly at each other through the holes of a third one at rest: a slab of
+/// its own, which without a second skin would be as thin as two bodies that are near.
+ContactScene through_a_sheet() {
+  constexpr std::size_t kRow = 17, kSheet = kRow * kRow;
+  ContactScene scene = soft_bed({.count = 3 * kSheet + 2, .walls = false});
+  scene.hard.gravity = 0;
+  scene.hard.periodic.setZero();
+  const double radius = scene.hard.bodies[0].radius, skin = 0.1 * radius;
+  const double cell = 1.0001 * (2 * radius + skin);
+  const auto put = [&](std::size_t i, double x, double y, double z, double speed) {
+    scene.hard.initial[i] = {Vector3(x, y, 1 + z), Vector3(speed, 0, 0), Vector3::Zero()};
+  };
+  for (std::size_t k = 0; k < kSheet; ++k) {
+    const double y = 6 * radius * static_cast<double>(k / kRow),
+                 z = 6 * radius * static_cast<double>(k % kRow);
+    put(3 * k, 29.999 * cell, y, z, 1);
+    put(3 * k + 1, 30.5 * cell, y + 3 * radius, z + 3 * radius, 0);
+    put(3 * k + 2, 31.001 * cell, y, z, -1);
+  }
+  // Slabs lie along the longest way.
+  put(3 * kSheet, 0, 3 * radius, 3 * radius, 1);
+  put(3 * kSheet + 1, 60 * cell, 3 * radius, 3 * radius, -1);
+  return scene;
+}
+
 /// Bodies meet when they do, whatever their slabs do: two that fly at each other among others at
-/// rest; what meets around the period, where the last slab is beside the first; two parts that move
-/// as they are, and wherever one slab ends and the next begins there none moves in its own.
+/// rest; what meets around the period, where the last slab is beside the first; two slabs through a
+/// third one; two parts that move as they are, and wherever one slab ends and the next begins there
+/// none moves in its own.
 TEST(ManyContacts, MeetWhateverTheirSlabsDo) {
   std::vector<ContactScene> scenes = {long_row(false), long_row(true)};
   const std::size_t one = 60 * 2 + 30, other = one + 60;  // beside each other along y
@@ -93,6 +119,7 @@ TEST(ManyContacts, MeetWhateverTheirSlabsDo) {
   scenes[0].hard.initial[other].velocity.y() = -0.5;
   for (BodyState& state : scenes[1].hard.initial)
     state.velocity.x() = -6 * std::sin(2 * M_PI * state.position.x() / scenes[1].hard.periodic.x());
+  scenes.push_back(through_a_sheet());
   for (int column = 8; column < 14; ++column) {
     ContactScene& parts = scenes.emplace_back(long_row(false));
     for (BodyState& state : parts.hard.initial)
@@ -172,6 +199,38 @@ TEST(ManyContacts, InLanesHaveTheBitsOfOneByOne) {
     for (std::size_t i = 0; i < lanes.states.size(); ++i) {
       ASSERT_EQ(lanes.states[i].position, one_by_one.states[i].position) << i;
       ASSERT_EQ(lanes.states[i].angular_velocity, one_by_one.states[i].angular_velocity) << i;
+    }
+  }
+}
+
+/// Several steps that go through the slabs at once are those that come one by one, as somebody
+/// looks at each: on a floor that shakes, and on a plane that swings and repeats.
+TEST(ManyContacts, InWavesHaveTheBitsOfStepByStep) {
+  for (const bool walls : {true, false}) {
+    ContactScene scene = soft_bed({.count = 1800, .ratio = 2, .walls = walls});
+    const SubstrateMotion shaking = SubstrateMotion::oscillation({1e-3, 0}, 60, 0.3);
+    if (walls)
+      scene.hard.surfaces[0].motion = SurfaceMotion::moving(shaking, kUp, Vector3::UnitX());
+    else
+      scene.hard.motion = shaking;
+    const auto end = [&](std::size_t steps_per_frame, std::size_t threads) {
+      return run(scene, 960,
+                 {.steps_per_contact = 20,
+                  .collision_time = kOnPlane,
+                  .steps_per_frame = steps_per_frame,
+                  .threads = threads,
+                  .ordered_from = 1});
+    };
+    const Ended one_by_one = end(1, 1), waves = end(96, 1), shared = end(96, 2);
+    EXPECT_GT(one_by_one.collisions, 100u);
+    for (const Ended* each : {&waves, &shared}) {
+      EXPECT_EQ(each->collisions, one_by_one.collisions);
+      EXPECT_EQ(each->balance.dissipated, one_by_one.balance.dissipated);
+      EXPECT_EQ(each->balance.work, one_by_one.balance.work);
+      for (std::size_t i = 0; i < waves.states.size(); ++i) {
+        ASSERT_EQ(each->states[i].position, one_by_one.states[i].position) << i;
+        ASSERT_EQ(each->states[i].angular_velocity, one_by_one.states[i].angular_velocity) << i;
+      }
     }
   }
 }

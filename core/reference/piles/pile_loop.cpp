@@ -26,23 +26,29 @@ class PileLoopOf final : public PileLoop {
       : table_(laws, scene), slabs_(ordered_from) {}
 
   void find_forces(PileWorld& world) override {
-    if (!forces_known_) forces(world, [](std::size_t) {});
+    if (forces_known_) return;
+    keep_near(world);
+    sweep<true, false>(world, 1);
     forces_known_ = true;
   }
 
   void advance(PileWorld& world, std::size_t steps) override {
     const std::size_t between_looks = 1 + kBodySteps / (1 + world.bodies.size());
-    for (std::size_t k = 0; k < steps; ++k) {
-      if (k % between_looks == 0) heed_stop();
-      const auto move = [&](std::size_t s) {
-        speeds_[s] = move_bodies(world, slabs_.members(s), slabs_.spheres(), slabs_.drift(s));
-      };
-      if (forces_known_)
-        slabs_.sweep(
-            world.team, [](std::size_t) {}, move);
-      else
-        forces(world, move);
-      end_step(world);
+    std::size_t taken = 0;
+    for (std::size_t k = 0, look = 0; k < steps; k += taken) {
+      if (k >= look) {
+        heed_stop();
+        look = k + between_looks;
+      }
+      if (forces_known_) {
+        taken = 1;
+        sweep<false, true>(world, 1);
+      } else {
+        keep_near(world);
+        taken = std::min(steps - k, steps_until_near(world));
+        sweep<true, true>(world, taken);
+      }
+      end_steps(world, taken);
     }
   }
 
@@ -150,30 +156,79 @@ class PileLoopOf final : public PileLoop {
 
   // --- the step ----------------------------------------------------------------------------------
 
-  /// Adds the forces of now; done(s) is called when those on a slab's bodies are known.
-  template <class Done>
-  void forces(PileWorld& world, const Done& done) {
-    if (!std::ranges::all_of(budgets_, &PileBudget::is_left) || budgets_.empty())
+  /// What has come of a slab and its list in one step.
+  struct SlabStep {
+    PileSpeed speed;             ///< of its bodies in the end
+    typename Step::Sum sum;      ///< of its contacts
+    std::exception_ptr failure;  ///< of its contacts
+  };
+  SlabStep& at(std::size_t slab, std::size_t j) { return of_steps_[j * shares_.size() + slab]; }
+
+  void keep_near(PileWorld& world) {
+    if (budgets_.empty() || !std::ranges::all_of(budgets_, &PileBudget::is_left))
       find_contacts(world);
-    // One share goes on with the sums; several begin at zero.
-    const bool alone = shares_.size() == 1;
-    for (Share& share : shares_) share.begin_sum(alone ? world.ledger : PileLedger());
-    failures_.assign(shares_.size(), nullptr);
-    const auto act = [&](std::size_t s) {
-      try {
-        shares_[s].find_forces(world, slabs_.spheres(), slabs_.lists()[s], table_, lane_laws_,
-                               budgets_[s]);
-      } catch (const StepTooLong&) {
-        failures_[s] = std::current_exception();
-      }
+  }
+
+  /// Steps, >= 1, within which no list is used up, though all be twice as fast and gain in each
+  /// twice of what they gained in the last one.
+  std::size_t steps_until_near(const PileWorld& world) const {
+    if (!world.started) return 1;
+    double left = kNever;
+    for (const PileBudget& each : budgets_) left = std::min({left, each.bodies, each.surfaces});
+    std::size_t steps = slabs_.waves(world.team).most_steps();
+    const double speed = approach_ + slabs_.turning_speed();
+    const auto way = [&](double ahead) { return 2 * ahead * world.step * (speed + ahead * gain_); };
+    while (steps > 1 && !(left > way(static_cast<double>(steps - 1)))) --steps;
+    return steps;
+  }
+
+  /// Adds the forces of now, and moves, so many times; without either where they are not to.
+  template <bool kForces, bool kMoves>
+  void sweep(PileWorld& world, std::size_t steps) {
+    of_steps_.assign(steps * shares_.size(), {});
+    const auto act = [&](std::size_t s, std::size_t j) {
+      if constexpr (kForces) find_forces_in(world, s, j);
     };
-    slabs_.sweep(world.team, act, done);
-    // The same one, whichever list was taken first.
-    for (const std::exception_ptr& failure : failures_)
-      if (failure) std::rethrow_exception(failure);
-    if (alone) world.ledger = {};
-    for (const Share& share : shares_) {
-      const typename Step::Sum& sum = share.sum();
+    const auto done = [&](std::size_t s, std::size_t j) {
+      if constexpr (kMoves)
+        at(s, j).speed = move_bodies(world, slabs_.members(s), slabs_.spheres(), slabs_.drift(s));
+    };
+    const auto each = [&](std::size_t count, const auto& work) {
+      run_each(world.team, count, work);
+    };
+    slabs_.waves(world.team).run(each, steps, act, done);
+    for (std::size_t j = 0; j < steps; ++j) {
+      // The same one, whichever list was taken first.
+      for (std::size_t s = 0; s < shares_.size(); ++s)
+        if (at(s, j).failure) std::rethrow_exception(at(s, j).failure);
+      if constexpr (kForces) add_sums(world, j);
+      if constexpr (kMoves) check_speed(world, j);
+    }
+  }
+
+  void find_forces_in(PileWorld& world, std::size_t s, std::size_t j) {
+    SlabStep& own = at(s, j);
+    if (j > 0 && at(s, j - 1).failure) {
+      own.failure = at(s, j - 1).failure;
+      return;
+    }
+    try {
+      if (j > 0) spend(world, s, j - 1);
+      if (!budgets_[s].is_left()) throw_too_fast(world, j);
+      // One share goes on with the sums; several begin at zero.
+      shares_[s].begin_sum(shares_.size() == 1 ? world.ledger : PileLedger());
+      shares_[s].find_forces(world, world.time(j), slabs_.spheres(), slabs_.lists()[s], table_,
+                             lane_laws_, budgets_[s]);
+      own.sum = shares_[s].sum();
+    } catch (const StepTooLong&) {
+      own.failure = std::current_exception();
+    }
+  }
+
+  void add_sums(PileWorld& world, std::size_t j) {
+    if (shares_.size() == 1) world.ledger = {};
+    for (std::size_t s = 0; s < shares_.size(); ++s) {
+      const typename Step::Sum& sum = at(s, j).sum;
       world.ledger.dissipated += sum.ledger.dissipated;
       world.ledger.work += sum.ledger.work;
       world.collisions += sum.collisions;
@@ -181,35 +236,54 @@ class PileLoopOf final : public PileLoop {
     }
   }
 
-  /// All bodies have moved.
-  void end_step(PileWorld& world) {
+  void check_speed(const PileWorld& world, std::size_t j) {
     double fastest2 = 0;
-    for (const PileSpeed& each : speeds_) fastest2 = std::max(fastest2, each.still);
+    for (std::size_t s = 0; s < shares_.size(); ++s)
+      fastest2 = std::max(fastest2, at(s, j).speed.still);
     const double fastest = std::sqrt(fastest2);
-    if (!(fastest * world.step < slabs_.largest_radius())) throw_lost(world, fastest);
-    approach_ = fastest + slabs_.surfaces_speed();
+    if (!(fastest * world.step < slabs_.largest_radius())) throw_lost(world, j, fastest);
+  }
+
+  /// All bodies have moved so often.
+  void end_steps(PileWorld& world, std::size_t steps) {
+    approach_ = gain_ = 0;
+    const std::size_t last = steps - 1;
     for (std::size_t s = 0; s < budgets_.size(); ++s) {
-      budgets_[s].surfaces -= world.step * (fastest + slabs_.surfaces_speed());
-      const double nearer = approach_in(s);
-      budgets_[s].bodies -= world.step * nearer;
-      approach_ = std::max(approach_, nearer);
+      spend(world, s, last);
+      approach_ = std::max({approach_, approach_in(s, last), nearing(s, last)});
+      gain_ = std::max(gain_, std::sqrt(at(s, last).speed.gain));
     }
     world.started = true;
-    ++world.n;
+    world.n += steps;
     forces_known_ = false;
   }
 
+  /// The ways that a list's bodies had in step j.
+  void spend(const PileWorld& world, std::size_t s, std::size_t j) {
+    budgets_[s].surfaces -= world.step * nearing(s, j);
+    budgets_[s].bodies -= world.step * approach_in(s, j);
+  }
+
+  /// How fast a body of a slab and a surface come nearer at most [m/s].
+  double nearing(std::size_t s, std::size_t j) {
+    return std::sqrt(at(s, j).speed.still) + slabs_.surfaces_speed();
+  }
   /// How fast two bodies of a slab's list come nearer at most [m/s].
-  double approach_in(std::size_t s) const {
+  double approach_in(std::size_t s, std::size_t j) {
     const std::size_t t = slabs_.next(s);
-    const double first = std::sqrt(speeds_[s].adrift), second = std::sqrt(speeds_[t].adrift);
+    const double first = std::sqrt(at(s, j).speed.adrift),
+                 second = std::sqrt(at(t, j).speed.adrift);
     return std::max(2 * first, first + second + (slabs_.drift(s) - slabs_.drift(t)).norm());
   }
 
-  [[noreturn]] static void throw_lost(const PileWorld& world, double speed) {
+  [[noreturn]] static void throw_too_fast(const PileWorld& world, std::size_t j) {
+    throw StepTooLong(fmt::format("bodies get more than twice as fast within {} steps, at {:.9g} s",
+                                  j, world.time(j)));
+  }
+  [[noreturn]] static void throw_lost(const PileWorld& world, std::size_t j, double speed) {
     throw StepTooLong(
         fmt::format("a body moves by more than a radius in a step, at {:.3g} m/s, at {:.9g} s",
-                    speed, world.time()));
+                    speed, world.time(j)));
   }
 
   // --- who is near -------------------------------------------------------------------------------
@@ -235,17 +309,13 @@ class PileLoopOf final : public PileLoop {
       }
       found[s].index(slabs_.lists()[s]);
     };
-    if (world.team)
-      world.team->run(found.size(), take);
-    else
-      for (std::size_t s = 0; s < found.size(); ++s) take(s);
+    run_each(world.team, found.size(), take);
     if (world.watched)
       for (const Kept& each : kept)
         if (const double impulse = each.share->impulse(each.before); !each.is_found && impulse > 0)
           gone_.push_back({static_cast<int>(each.first), each.second, impulse});
     shares_ = std::move(found);
     budgets_.assign(shares_.size(), {slabs_.skin(), slabs_.skin()});
-    speeds_.resize(shares_.size());
   }
 
   /// Numbers of laws are no state, and pointers to them none of this process.
@@ -258,7 +328,6 @@ class PileLoopOf final : public PileLoop {
       shares_[s].index(slabs_.lists()[s]);
     }
     find_lane_laws();
-    speeds_.resize(shares_.size());
   }
 
   void find_lane_laws() {
@@ -283,13 +352,13 @@ class PileLoopOf final : public PileLoop {
   PileLawTable table_;
   std::vector<PileLaneLaw> lane_laws_;  ///< by number of the table
   PileSlabs slabs_;
-  std::vector<Share> shares_;                 ///< by slab
-  std::vector<Touch> gone_;                   ///< of contacts that are near no more
-  std::vector<PileSpeed> speeds_;             ///< by slab, of one step
-  std::vector<std::exception_ptr> failures_;  ///< by slab, of one step
+  std::vector<Share> shares_;       ///< by slab
+  std::vector<Touch> gone_;         ///< of contacts that are near no more
+  std::vector<SlabStep> of_steps_;  ///< of one sweep, by step and slab
   bool forces_known_ = false;
   std::vector<PileBudget> budgets_;  ///< by slab; the near ones change when one is used up
   double approach_ = 0;              ///< how fast two came nearer at most in the last step [m/s]
+  double gain_ = kNever;  ///< of a body's speed at most in the last step [m/s]; not known: any
 };
 
 }  // namespace

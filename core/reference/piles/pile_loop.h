@@ -35,7 +35,8 @@ struct PileWorld {
   std::size_t collisions = 0;  ///< contacts of two bodies that have begun
   bool slid = false;           ///< a contact slid, since somebody looked
 
-  double time() const { return static_cast<double>(n) * step; }
+  /// So many steps from now [s].
+  double time(std::size_t later = 0) const { return static_cast<double>(n + later) * step; }
   PileBody& add() {
     place.push_back(static_cast<std::uint32_t>(bodies.size()));
     return bodies.emplace_back();

@@ -15,6 +15,7 @@ namespace slipcheck {
 struct PileSpeed {
   double still = 0;   ///< against what stands still
   double adrift = 0;  ///< against the drift
+  double gain = 0;    ///< by the step
 };
 
 /// Asks for a body that is moved soon.
@@ -56,6 +57,7 @@ SLIPCHECK_FLATTEN inline PileSpeed move_bodies(PileWorld& world,
     b.torque.setZero();
     fastest.still = std::max(fastest.still, b.velocity.squaredNorm());
     fastest.adrift = std::max(fastest.adrift, (b.velocity - drift).squaredNorm());
+    fastest.gain = std::max(fastest.gain, b.change.squaredNorm());
   }
   return fastest;
 }

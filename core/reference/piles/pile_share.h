@@ -48,21 +48,22 @@ class PileShare {
   const typename Step::Sum& sum() const { return sum_; }
   void begin_sum(const PileLedger& ledger) { sum_ = {.ledger = ledger}; }
 
-  /// Adds the forces of now.
-  SLIPCHECK_FLATTEN void find_forces(PileWorld& world, std::span<const NearSphere> spheres,
-                                     List& list, const PileLawTable& laws,
+  /// Adds the forces of now, which is `time` [s].
+  SLIPCHECK_FLATTEN void find_forces(PileWorld& world, double time,
+                                     std::span<const NearSphere> spheres, List& list,
+                                     const PileLawTable& laws,
                                      std::span<const PileLaneLaw> lane_laws,
                                      const PileBudget& budget) {
     // The thread's own, for whichever share it takes: they stay in its cache.
     thread_local std::vector<PileLaneForce> forces;
     if constexpr (kLanes) lanes_.begin_step(forces);
     meeting_.clear();
-    look_at_far(world, spheres, list, budget);
+    look_at_far(world, time, spheres, list, budget);
     meeting_.push_back(kNone);
     after_.clear();
     auto next = meeting_.begin();
     for (const std::uint32_t k : known_) {
-      while (*next < k) act(world, laws, list, *next++);
+      while (*next < k) act(world, time, laws, list, *next++);
       if constexpr (kLanes)
         if (const PileNear& near = list[k];
             near.second >= 0 && lasts(world, lane_laws, near.contact)) {
@@ -70,9 +71,9 @@ class PileShare {
           after_.push_back(k);
           continue;
         }
-      act(world, laws, list, k);
+      act(world, time, laws, list, k);
     }
-    while (*next != kNone) act(world, laws, list, *next++);
+    while (*next != kNone) act(world, time, laws, list, *next++);
     known_.swap(after_);
     // No sooner: lanes that hold one are not taken on in the step in which it begins.
     for (const auto& [k, contact] : begun_) {
@@ -119,7 +120,8 @@ class PileShare {
   /// Calls visit(near) for those that touch, or have touched and are to be told.
   template <class Visit>
   void for_each(const List& list, const Visit& visit) const {
-    for (const std::uint32_t k : known_) visit(list[k]);
+    for (const std::uint32_t k : known_)
+      if (list[k].contact != PileNear::kNone) visit(list[k]);  // but for what a failed step dropped
   }
   /// Lets `what` change those that touch.
   template <class What>
@@ -197,18 +199,19 @@ class PileShare {
     return {by, a.radius + b.radius + offset, by.squaredNorm()};
   }
 
-  static NearestPoint nearest(const PileWorld& world, const PileNear& near, const Vector3& x) {
+  static NearestPoint nearest(const PileWorld& world, double time, const PileNear& near,
+                              const Vector3& x) {
     if (near.second == kSubstrate) return {.point = {x.x(), x.y(), 0}, .distance = x.z()};
-    return world.scene->hard.surfaces[touched_surface(near.second)].nearest(world.time(), x);
+    return world.scene->hard.surfaces[touched_surface(near.second)].nearest(time, x);
   }
 
   /// Looks at those whose way may be used up. Who they are is no branch, and where they lie is
   /// asked for ahead of it.
-  void look_at_far(const PileWorld& world, std::span<const NearSphere> spheres, const List& list,
-                   const PileBudget& budget) {
+  void look_at_far(const PileWorld& world, double time, std::span<const NearSphere> spheres,
+                   const List& list, const PileBudget& budget) {
     for (AtSurface& each : at_surface_)
       if (budget.surfaces <= each.far_above)
-        look_at_surface(world, spheres, list[each.entry], each, budget.surfaces);
+        look_at_surface(world, time, spheres, list[each.entry], each, budget.surfaces);
     const auto of_surfaces = static_cast<std::ptrdiff_t>(meeting_.size());
     constexpr std::size_t kEntries = 16, kSpheres = 8;  // ahead
     far_.resize(far_above_.size() + kEntries);
@@ -239,10 +242,10 @@ class PileShare {
       meeting_.push_back(k);
   }
   /// The same of a body and a surface.
-  void look_at_surface(const PileWorld& world, std::span<const NearSphere> spheres,
+  void look_at_surface(const PileWorld& world, double time, std::span<const NearSphere> spheres,
                        const PileNear& near, AtSurface& at, double budget) {
     const NearSphere& first = spheres[near.first];
-    const double distance = nearest(world, near, first.position).distance;
+    const double distance = nearest(world, time, near, first.position).distance;
     if (!(distance > first.radius))
       meeting_.push_back(at.entry);
     else if (near.second == kSubstrate ||
@@ -256,20 +259,21 @@ class PileShare {
 
   /// A contact that begins is kept; one that has ended, where somebody watches, until its impulse
   /// has been asked for.
-  [[gnu::noinline]] SLIPCHECK_FLATTEN void act(PileWorld& world, const PileLawTable& laws,
-                                               List& list, std::uint32_t k) {
+  [[gnu::noinline]] SLIPCHECK_FLATTEN void act(PileWorld& world, double time,
+                                               const PileLawTable& laws, List& list,
+                                               std::uint32_t k) {
     PileNear& near = list[k];
-    Step step(world, sum_);
+    Step step(world, time, sum_);
     if (near.contact == PileNear::kNone) {
       Contact made;
       made.first = near.first;
       made.second = near.second;
       made.law = &laws[near.law];
-      act_on(world, step, near, made);
+      act_on(world, time, step, near, made);
       if (!made.touching) return;
       begun_.emplace_back(k, made);
     } else {
-      change(near, laws, [&](Contact& c) { act_on(world, step, near, c); });
+      change(near, laws, [&](Contact& c) { act_on(world, time, step, near, c); });
       if (!world.watched && !touches(near)) {
         drop(near, k);
         return;
@@ -278,7 +282,7 @@ class PileShare {
     after_.push_back(k);
   }
 
-  static void act_on(PileWorld& world, Step& step, const PileNear& near, Contact& c) {
+  static void act_on(PileWorld& world, double time, Step& step, const PileNear& near, Contact& c) {
     const PileBody& a = world.bodies[near.first];
     if (near.second >= 0) {
       const PileBody& b = world.bodies[static_cast<std::size_t>(near.second)];
@@ -286,7 +290,7 @@ class PileShare {
       if (two.distance2 > two.reach * two.reach && !c.touching) return;
       step.act_on_bodies(c, two.by, two.reach, std::sqrt(two.distance2));
     } else {
-      const NearestPoint at = nearest(world, near, a.position);
+      const NearestPoint at = nearest(world, time, near, a.position);
       if (at.distance > a.radius && !c.touching) return;
       step.act_on_surface(c, at);
     }

@@ -89,7 +89,7 @@ void PileSlabs::share_out(const PileWorld& world, std::vector<std::uint32_t>& sl
   is_around_ = false;
   if (!is_ordered(world)) return;
   const Vector2& periodic = world.scene->hard.periodic;
-  const CellsAlong row = longest_row(bodies, periodic, 2 * largest_radius_ + skin_);
+  const CellsAlong row = longest_row(bodies, periodic, 2 * (largest_radius_ + skin_));
   std::vector<std::uint32_t> cell(bodies.size());
   std::vector<std::size_t> in_cell(row.count);
   for (std::size_t p = 0; p < bodies.size(); ++p) {
@@ -151,10 +151,15 @@ void PileSlabs::find(PileWorld& world, PileLawTable& laws, double approach) {
   const double speed = approach > 0 ? 0.5 * approach : std::sqrt(fastest2);
   skin_ = is_ordered(world) ? near_skin(speed, world.step, mean) : kSkin * smallest;
   if (is_ordered(world) && searches_++ % kSearches == 0) sort_bodies(world);
-  surfaces_speed_ = 0;
-  for (const Surface& surface : scene.surfaces)
+  surfaces_speed_ = turning_speed_ = 0;
+  for (const Surface& surface : scene.surfaces) {
     if (!surface.motion.is_belt())
       surfaces_speed_ = std::max(surfaces_speed_, surface.motion.course().largest_speed());
+    if (!turns(surface)) continue;
+    for (const PileBody& b : world.bodies)
+      turning_speed_ =
+          std::max(turning_speed_, surface.motion.velocity(world.time(), b.position).norm());
+  }
 
   spheres_.resize(n);
   for (std::size_t p = 0; p < n; ++p)
@@ -177,10 +182,7 @@ void PileSlabs::find(PileWorld& world, PileLawTable& laws, double approach) {
         by_share[share].push_back({p, kSubstrate});
     }
   };
-  if (world.team)
-    world.team->run(by_share.size(), look_at_surfaces);
-  else
-    for (std::size_t share = 0; share < by_share.size(); ++share) look_at_surfaces(share);
+  run_each(world.team, by_share.size(), look_at_surfaces);
 
   std::vector<std::uint32_t> slab_of;
   share_out(world, slab_of);

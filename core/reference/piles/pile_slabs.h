@@ -9,6 +9,7 @@
 #include "reference/near_pairs.h"
 #include "reference/piles/pile_law_table.h"
 #include "reference/piles/pile_loop.h"
+#include "reference/piles/pile_waves.h"
 
 namespace slipcheck {
 
@@ -25,10 +26,11 @@ struct PileNear {
 
 /// What can touch within the next steps: Verlet's lists, shared out into slabs of space.
 ///
-/// A slab is as wide as the largest two bodies and the skin, or wider. Its list has the pairs
-/// within it and those with the next slab. A body is in two lists, an even one and an odd one: what
-/// acts on it is added in that order, whichever thread takes which list and when. What the slabs
-/// are follows from the bodies alone.
+/// A slab is as wide as the largest two bodies and two skins, or wider: bodies of two slabs beside
+/// it do not meet before one of the lists between is used up. Its list has the pairs within it and
+/// those with the next slab. A body is in two lists, an even one and an odd one: what acts on it is
+/// added in that order, whichever thread takes which list and when (PileWaves). What the slabs are
+/// follows from the bodies alone.
 ///
 /// Few bodies are one slab, in the scene's order. Many are sorted by their slabs and within these
 /// along a curve through space every few searches, so that neighbours share cache lines.
@@ -50,7 +52,7 @@ class PileSlabs {
   std::vector<NearSphere>& spheres() { return spheres_; }
   void exchange(StateArchive& archive) {
     archive(lists_, bodies_, spheres_, members_, begins_, drifts_, is_around_, searches_, skin_,
-            surfaces_speed_, largest_radius_);
+            surfaces_speed_, turning_speed_, largest_radius_);
   }
   /// Whether it may come nearer to a body than surfaces_speed() tells.
   static bool turns(const Surface& surface) {
@@ -58,6 +60,8 @@ class PileSlabs {
   }
   double skin() const { return skin_; }                      ///< [m]
   double surfaces_speed() const { return surfaces_speed_; }  ///< of the fastest [m/s]
+  /// Of what turns, where a body is, when they were found [m/s].
+  double turning_speed() const { return turning_speed_; }
   double largest_radius() const { return largest_radius_; }  ///< [m]
 
   /// The places of a slab's bodies, and their mean velocity when they were found [m/s].
@@ -71,56 +75,11 @@ class PileSlabs {
     return is_around_ ? 0 : slab;
   }
 
-  /// Calls act(s) for each list, for even ones before the odd ones beside them, and done(s) for
-  /// each slab as soon as what acts on its bodies has: they are in the caches still. Neither
-  /// throws.
-  template <class Act, class Done>
-  void sweep(ThreadTeam* team, const Act& act, const Done& done) const {
-    const std::size_t slabs = lists_.size();
-    const std::size_t blocks = team ? blocks_for(team->size()) : 1;
-    // Slabs that follow each other, from an even one on.
-    const auto begin = [&](std::size_t k) {
-      return k < blocks ? k * slabs / blocks / 2 * 2 : slabs;
-    };
-    const auto inner = [&](std::size_t k) {
-      const std::size_t first = begin(k), end = begin(k + 1);
-      act(first);
-      if (first == 0 && !is_around_) done(first);
-      for (std::size_t s = first + 2; s < end; s += 2) {
-        act(s);
-        act(s - 1);
-        done(s - 1);
-        done(s);
-      }
-    };
-    // The odd list at its end, which may reach into the next one.
-    const auto outer = [&](std::size_t k) {
-      const std::size_t last = begin(k + 1) - 1;
-      if (last % 2 == 0) return;
-      act(last);
-      done(last);
-      if (const std::size_t beside = next(last); beside != last) done(beside);
-    };
-    for_each(team, blocks, inner);
-    for_each(team, blocks, outer);
+  PileWaves waves(const ThreadTeam* team) const {
+    return {lists_.size(), is_around_, team ? team->size() : 1};
   }
 
  private:
-  /// Four for each thread are shared out well; of four slabs one list waits for the block beside.
-  std::size_t blocks_for(std::size_t threads) const {
-    const std::size_t slabs = lists_.size();
-    return std::clamp(slabs / 4, std::min(threads, std::max<std::size_t>(1, slabs / 2)),
-                      4 * threads);
-  }
-
-  template <class Work>
-  static void for_each(ThreadTeam* team, std::size_t count, const Work& work) {
-    if (team && count > 1)
-      team->run(count, work);
-    else
-      for (std::size_t k = 0; k < count; ++k) work(k);
-  }
-
   void sort_bodies(PileWorld& world);
   void share_out(const PileWorld& world, std::vector<std::uint32_t>& slab_of);
   void find_members(const PileWorld& world, std::span<const std::uint32_t> slab_of);
@@ -133,7 +92,7 @@ class PileSlabs {
   std::vector<Vector3> drifts_;                  ///< by slab
   bool is_around_ = false;                       ///< the last slab is beside the first
   std::uint64_t searches_ = 0;
-  double skin_ = 0, surfaces_speed_ = 0, largest_radius_ = 0;
+  double skin_ = 0, surfaces_speed_ = 0, turning_speed_ = 0, largest_radius_ = 0;
 };
 
 }  // namespace slipcheck

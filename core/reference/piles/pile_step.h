@@ -42,7 +42,7 @@ class PileStep {
     bool slid = false;
   };
 
-  PileStep(PileWorld& world, Sum& sum) : world_(&world), sum_(&sum) {}
+  PileStep(PileWorld& world, double time, Sum& sum) : world_(&world), time_(time), sum_(&sum) {}
 
   /// Two bodies that are `apart` from each other [m], by no more than `reach` or in contact.
   void act_on_bodies(Contact& c, const Vector3& apart, double reach, double distance) {
@@ -300,7 +300,7 @@ class PileStep {
         fmt::format("body {} is {:.3g} m deep in {} at {:.9g} s, more than {:.3g} m: what presses "
                     "them together "
                     "is too much for the contact's stiffness",
-                    number(c.first), overlap, other, world_->time(), most_overlap(c)));
+                    number(c.first), overlap, other, time_, most_overlap(c)));
   }
 
   // --- how the two move --------------------------------------------------------------------------
@@ -346,7 +346,7 @@ class PileStep {
     const Scene& scene = world_->scene->hard;
     PileMotion m;
     m.overlap = a.radius + c.offset - at.distance;
-    const double t = world_->time(), half = t - (world_->started ? 0.5 * world_->step : 0);
+    const double t = time_, half = t - (world_->started ? 0.5 * world_->step : 0);
     Vector3 matter = Vector3::Zero(), turned = Vector3::Zero();
     if (c.second == kSubstrate) {
       if (!scene.motion.is_still()) {
@@ -370,6 +370,7 @@ class PileStep {
   }
 
   PileWorld* world_;
+  double time_;  ///< now [s]
   Sum* sum_;
 };
 
