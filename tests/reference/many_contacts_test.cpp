@@ -144,6 +144,78 @@ TEST(ManyContacts, MeetWhateverTheirSlabsDo) {
   }
 }
 
+/// `rows` of so many spheres along x, far above the plane and from each other, without gravity.
+ContactScene spheres_in_rows(std::size_t rows, std::size_t in_row) {
+  ContactScene scene = soft_bed({.count = rows * in_row, .walls = false});
+  scene.hard.gravity = 0;
+  scene.hard.periodic.setZero();
+  const double radius = scene.hard.bodies[0].radius;
+  for (std::size_t i = 0; i < rows * in_row; ++i)
+    scene.hard.initial[i] = {Vector3(0, 5 * radius * static_cast<double>(i / in_row), 1),
+                             Vector3::Zero(), Vector3::Zero()};
+  return scene;
+}
+
+constexpr double kRebound = 0.5;  // of soft_bed()'s contacts
+
+/// Pairs of equal spheres that are less than a skin apart at first all part at e of the speed at
+/// which they met: each contact begins when it does. Rebounds are known to 1e-3 in such steps.
+TEST(ManyContacts, BeginWhereverInASkin) {
+  constexpr std::size_t kPairs = 48;
+  constexpr double kSpeed = 0.2;
+  ContactScene scene = spheres_in_rows(kPairs, 2);
+  const double radius = scene.hard.bodies[0].radius, skin = 0.1 * radius;
+  for (std::size_t k = 0; k < kPairs; ++k) {
+    BodyState &one = scene.hard.initial[2 * k], &other = scene.hard.initial[2 * k + 1];
+    one.velocity.x() = kSpeed;
+    other.velocity.x() = -kSpeed;
+    other.position.x() = 2 * radius + skin * (static_cast<double>(k) + 0.5) / kPairs;
+  }
+  PileSolver solver(scene, scene.hard.initial, {.step = 2.5e-5});
+  const SolvedRun run = solver.run(until_time(skin / (2 * kSpeed) + 2e-3), nullptr);
+  ASSERT_TRUE(run.reached) << run.reason;
+  EXPECT_EQ(run.collisions, kPairs);
+  const std::vector<BodyState> ended = solver.states();
+  for (std::size_t k = 0; k < kPairs; ++k) {
+    EXPECT_NEAR(ended[2 * k].velocity.x(), -kRebound * kSpeed, 2e-3 * kSpeed) << k;
+    EXPECT_NEAR(ended[2 * k + 1].velocity.x(), kRebound * kSpeed, 2e-3 * kSpeed) << k;
+  }
+}
+
+/// One sphere meets the next, parts from it, is hit from behind and meets it again, while they are
+/// a thousandth of a radius apart: velocities are those of central collisions one after the other.
+TEST(ManyContacts, BeginAgainSoon) {
+  constexpr std::size_t kRows = 32;
+  constexpr double kSpeed = 5e-4, kDuration = 1e-3;
+  ContactScene scene = spheres_in_rows(kRows, 3);
+  const double diameter = 2 * scene.hard.bodies[0].radius;
+  for (std::size_t k = 0; k < kRows; ++k) {
+    BodyState* row = &scene.hard.initial[3 * k];
+    row[0].velocity.x() = 3 * kSpeed;
+    row[1].velocity.x() = kSpeed;
+    // When the second meets the third, about when an eighth of the skin is used up by the first
+    // ones; they come when that is over.
+    const double meets = (36.6 + 0.8 * static_cast<double>(k) / kRows) * kDuration;
+    row[1].position.x() = -kSpeed * meets;
+    row[2].position.x() = diameter;
+    row[0].position.x() = row[1].position.x() - diameter - kSpeed * (2 * meets + 18 * kDuration);
+  }
+  double v[] = {3 * kSpeed, kSpeed, 0};
+  for (const int first : {1, 0, 1}) {
+    const double mean = (v[first] + v[first + 1]) / 2, part = (v[first] - v[first + 1]) / 2;
+    v[first] = mean - kRebound * part;
+    v[first + 1] = mean + kRebound * part;
+  }
+  PileSolver solver(scene, scene.hard.initial, {.step = 2.5e-5});
+  const SolvedRun run = solver.run(until_time(53 * kDuration), nullptr);
+  ASSERT_TRUE(run.reached) << run.reason;
+  EXPECT_EQ(run.collisions, 3 * kRows);
+  const std::vector<BodyState> ended = solver.states();
+  for (std::size_t k = 0; k < kRows; ++k)
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(ended[3 * k + i].velocity.x(), v[i], 4e-3 * kSpeed) << k << ' ' << i;
+}
+
 /// All at one velocity come no nearer to each other, but to the floor: the lowest ones touch it at
 /// that speed, no other does in a time shorter than two layers need to meet.
 TEST(ManyContacts, MeetTheFloorAsOne) {

@@ -307,7 +307,7 @@ class PileLoopOf final : public PileLoop {
           found[s].keep(near, kept[k].share->get(kept[k].before, table_[near.law]), table_);
         }
       }
-      found[s].index(slabs_.lists()[s]);
+      found[s].index(slabs_.lists()[s], slabs_.skin());
     };
     run_each(world.team, found.size(), take);
     if (world.watched)
@@ -325,7 +325,7 @@ class PileLoopOf final : public PileLoop {
         near.law = table_.number(slabs_.bodies()[near.first], number_of(near));
         if (near.contact != PileNear::kNone) shares_[s].set_law(near, table_);
       }
-      shares_[s].index(slabs_.lists()[s]);
+      shares_[s].index(slabs_.lists()[s], slabs_.skin());
     }
     find_lane_laws();
   }

@@ -18,12 +18,6 @@ struct PileSpeed {
   double gain = 0;    ///< by the step
 };
 
-/// Asks for a body that is moved soon.
-inline void prefetch(const PileBody& body) {
-  const auto* bytes = reinterpret_cast<const char*>(&body);
-  for (std::size_t line = 0; line < sizeof body; line += 64) __builtin_prefetch(bytes + line, 1);
-}
-
 /// Moves bodies, by their places, and their spheres by a step. Returns how fast they are then.
 /// drift: what velocities are measured against [m/s].
 SLIPCHECK_FLATTEN inline PileSpeed move_bodies(PileWorld& world,

@@ -31,8 +31,9 @@ struct PileBudget {
 /// forces are linear; kTurns: rolling or drilling is resisted; kLanes: pairs that last are taken on
 /// several at once. spheres: the bodies as of PileSlabs.
 ///
-/// Those that may touch are looked at when the way that they had between them may be used up, and
-/// what acts on bodies is added in the order of the slab's list.
+/// Those that may touch are looked at when the way that they had between them may be used up: of
+/// all the few for which that is soon are gone through in a step. What acts on bodies is added in
+/// the order of the slab's list.
 template <bool kLinear, bool kTurns, bool kLanes>
 class PileShare {
  public:
@@ -62,16 +63,15 @@ class PileShare {
     meeting_.push_back(kNone);
     after_.clear();
     auto next = meeting_.begin();
-    for (const std::uint32_t k : known_) {
-      while (*next < k) act(world, time, laws, list, *next++);
+    for (const Known& known : known_) {
+      while (*next < known.entry) act(world, time, laws, list, *next++);
       if constexpr (kLanes)
-        if (const PileNear& near = list[k];
-            near.second >= 0 && lasts(world, lane_laws, near.contact)) {
-          push(world, near, lanes_.force(near.contact));
-          after_.push_back(k);
+        if (known.second >= 0 && lasts(world, lane_laws, known.contact)) {
+          push(world, known, lanes_.force(known.contact));
+          after_.push_back(known);
           continue;
         }
-      act(world, time, laws, list, k);
+      act(world, time, laws, list, known.entry);
     }
     while (*next != kNone) act(world, time, laws, list, *next++);
     known_.swap(after_);
@@ -79,6 +79,7 @@ class PileShare {
     for (const auto& [k, contact] : begun_) {
       keep(list[k], contact, laws);
       far_above(list[k], k) = -kNever;
+      std::ranges::lower_bound(known_, k, {}, &Known::entry)->contact = list[k].contact;
     }
     begun_.clear();
   }
@@ -88,10 +89,12 @@ class PileShare {
     of(*this, near, [&](auto& contacts) { contacts.keep(near, contact, laws); });
   }
 
-  /// After the list or its contacts have changed.
-  void index(const List& list) {
+  /// After the list, found with that skin [m], or its contacts have changed.
+  void index(const List& list, double skin) {
     known_.clear();
     at_surface_.clear();
+    soon_step_ = kSoonPart * skin;
+    soon_down_to_ = kNever;
     far_above_.assign(list.size(), kNever);
     for (std::uint32_t k = 0; k < list.size(); ++k) {
       if (list[k].second < 0) {
@@ -99,7 +102,7 @@ class PileShare {
         far_above_[k] = -kNever;
       }
       if (list[k].contact == PileNear::kNone) continue;
-      known_.push_back(k);
+      known_.push_back(known(list, k));
       far_above(list[k], k) = -kNever;
     }
   }
@@ -120,30 +123,31 @@ class PileShare {
   /// Calls visit(near) for those that touch, or have touched and are to be told.
   template <class Visit>
   void for_each(const List& list, const Visit& visit) const {
-    for (const std::uint32_t k : known_)
-      if (list[k].contact != PileNear::kNone) visit(list[k]);  // but for what a failed step dropped
+    // A step that failed may have dropped some.
+    for (const Known& known : known_)
+      if (const PileNear& near = list[known.entry]; near.contact != PileNear::kNone) visit(near);
   }
   /// Lets `what` change those that touch.
   template <class What>
   void change_touching(const List& list, const PileLawTable& laws, const What& what) {
-    for (const std::uint32_t k : known_)
-      if (touches(list[k])) change(list[k], laws, what);
+    for (const Known& known : known_)
+      if (const PileNear& near = list[known.entry]; touches(near)) change(near, laws, what);
   }
 
   /// Calls tell(near, impulse) for those that have one, and takes it from them.
   template <class Tell>
   void take_impulses(List& list, const PileLawTable& laws, const Tell& tell) {
     after_.clear();
-    for (const std::uint32_t k : known_) {
-      PileNear& near = list[k];
+    for (const Known& known : known_) {
+      PileNear& near = list[known.entry];
       if (const double had = impulse(near); had > 0) {
         tell(near, had);
         change(near, laws, [](Contact& c) { c.impulse = 0; });
       }
       if (touches(near))
-        after_.push_back(k);
+        after_.push_back(known);
       else
-        drop(near, k);
+        drop(near, known.entry);
     }
     known_.swap(after_);
   }
@@ -156,6 +160,16 @@ class PileShare {
     std::uint32_t entry;  ///< of the list
     double far_above;     ///< do not touch before the budget of surfaces is so small [m]
   };
+
+  /// Has a contact: an entry of the list, with what it says.
+  struct Known {
+    std::uint32_t entry, first;
+    int second;
+    std::uint32_t contact;
+  };
+  static Known known(const List& list, std::uint32_t k) {
+    return {k, list[k].first, list[k].second, list[k].contact};
+  }
 
   /// What keeps the contact of `near`.
   template <class Share, class Use>
@@ -172,6 +186,9 @@ class PileShare {
   void drop(PileNear& near, std::uint32_t k) {
     of(*this, near, [&](auto& contacts) { contacts.drop(near); });
     far_above(near, k) = kNever;
+    if (near.second < 0) return;
+    const auto at = std::ranges::lower_bound(soon_, k);
+    if (at == soon_.end() || *at != k) soon_.insert(at, k);
   }
 
   /// The budget above which the two of an entry of the list do not touch [m].
@@ -214,9 +231,10 @@ class PileShare {
         look_at_surface(world, time, spheres, list[each.entry], each, budget.surfaces);
     const auto of_surfaces = static_cast<std::ptrdiff_t>(meeting_.size());
     constexpr std::size_t kEntries = 16, kSpheres = 8;  // ahead
-    far_.resize(far_above_.size() + kEntries);
+    if (budget.bodies < soon_down_to_) find_soon(budget.bodies);
+    far_.resize(soon_.size() + kEntries);
     std::size_t count = 0;
-    for (std::uint32_t k = 0; k < far_above_.size(); ++k) {
+    for (const std::uint32_t k : soon_) {
       far_[count] = k;
       count += budget.bodies <= far_above_[k];
     }
@@ -231,6 +249,17 @@ class PileShare {
     std::inplace_merge(meeting_.begin(), meeting_.begin() + of_surfaces, meeting_.end());
   }
 
+  void find_soon(double budget) {
+    soon_down_to_ = budget - soon_step_;
+    soon_.resize(far_above_.size());
+    std::size_t count = 0;
+    for (std::uint32_t k = 0; k < far_above_.size(); ++k) {
+      soon_[count] = k;
+      count += soon_down_to_ <= far_above_[k];
+    }
+    soon_.resize(count);
+  }
+
   /// Two bodies that did not touch: do they now, or when may they?
   void look(const PileWorld& world, std::span<const NearSphere> spheres, const PileNear& near,
             std::uint32_t k, double budget) {
@@ -239,7 +268,12 @@ class PileShare {
     if (two.distance2 > two.reach * two.reach)
       far_above_[k] = budget_at(std::sqrt(two.distance2) - two.reach, two.reach, budget);
     else
-      meeting_.push_back(k);
+      overlap(world, near, k);
+  }
+  void overlap(const PileWorld& world, const PileNear& near, std::uint32_t k) {
+    meeting_.push_back(k);
+    prefetch(world.bodies[near.first]);
+    prefetch(world.bodies[static_cast<std::size_t>(near.second)]);
   }
   /// The same of a body and a surface.
   void look_at_surface(const PileWorld& world, double time, std::span<const NearSphere> spheres,
@@ -279,7 +313,7 @@ class PileShare {
         return;
       }
     }
-    after_.push_back(k);
+    after_.push_back(known(list, k));
   }
 
   static void act_on(PileWorld& world, double time, Step& step, const PileNear& near, Contact& c) {
@@ -304,7 +338,7 @@ class PileShare {
     return lanes_.lasted(contact);
   }
 
-  void push(PileWorld& world, const PileNear& near, const PileLaneForce& f) {
+  void push(PileWorld& world, const Known& near, const PileLaneForce& f) {
     PileBody& a = world.bodies[near.first];
     PileBody& b = world.bodies[static_cast<std::size_t>(near.second)];
     a.force += f.all;
@@ -314,16 +348,23 @@ class PileShare {
     sum_.ledger.dissipated += f.lost;
   }
 
+  /// Of the skin, the way for which `soon_` is found.
+  static constexpr double kSoonPart = 0.125;
+
   struct None {};
   PileContacts<kTurns> contacts_;  ///< that are not in lanes
   [[no_unique_address]] std::conditional_t<kLanes, PileLaneContacts, None> lanes_;
   typename Step::Sum sum_;
   // Of the list:
-  std::vector<AtSurface> at_surface_;           ///< its entries of a surface, in order
-  std::vector<double> far_above_;               ///< as AtSurface's, by entry of two bodies
-  std::vector<std::uint32_t> known_;            ///< have a contact, in order
-  std::vector<std::uint32_t> far_;              ///< of one step: are looked at
-  std::vector<std::uint32_t> meeting_, after_;  ///< of one step: overlap anew, and have one then
+  std::vector<AtSurface> at_surface_;   ///< its entries of a surface, in order
+  std::vector<double> far_above_;       ///< as AtSurface's, by entry of two bodies
+  std::vector<std::uint32_t> soon_;     ///< are looked at before the budget is soon_down_to_
+  double soon_down_to_ = kNever;        ///< [m]
+  double soon_step_ = 0;                ///< what it is lowered by then [m]
+  std::vector<Known> known_;            ///< have a contact, in order
+  std::vector<std::uint32_t> far_;      ///< of one step: are looked at
+  std::vector<std::uint32_t> meeting_;  ///< of one step: overlap anew
+  std::vector<Known> after_;            ///< of one step: have a contact then
   std::vector<std::pair<std::uint32_t, Contact>> begun_;  ///< of one step
 };
 
