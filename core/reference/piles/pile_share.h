@@ -250,7 +250,8 @@ class PileShare {
   }
 
   void find_soon(double budget) {
-    soon_down_to_ = budget - soon_step_;
+    // At first nothing is known of any of them, and after that step of all.
+    soon_down_to_ = soon_down_to_ == kNever ? budget : budget - soon_step_;
     soon_.resize(far_above_.size());
     std::size_t count = 0;
     for (std::uint32_t k = 0; k < far_above_.size(); ++k) {
