@@ -182,6 +182,28 @@ TEST(ManyContacts, BeginWhereverInASkin) {
   }
 }
 
+/// Two get too deep into each other in a step in which others part, as one pair does in each: the
+/// run has failed, and its last energy is a number.
+TEST(ManyContacts, FailWhileOthersPart) {
+  constexpr std::size_t kPairs = 48;
+  constexpr double kSpeed = 0.2, kTooFast = 30;
+  ContactScene scene = spheres_in_rows(kPairs, 2);
+  const double diameter = 2 * scene.hard.bodies[0].radius;
+  for (std::size_t k = 0; k < kPairs; ++k) {
+    const bool last = k + 1 == kPairs;
+    BodyState &one = scene.hard.initial[2 * k], &other = scene.hard.initial[2 * k + 1];
+    one.velocity.x() = last ? kTooFast : kSpeed;
+    other.velocity.x() = -one.velocity.x();
+    other.position.x() =
+        diameter + one.velocity.x() * (last ? 3.2e-3 : 5e-5 * static_cast<double>(k));
+  }
+  PileSolver solver(scene, scene.hard.initial, {.step = 2.5e-5});
+  const SolvedRun run = solver.run(until_time(0.01), nullptr);
+  EXPECT_FALSE(run.reached);
+  EXPECT_NE(run.reason.find("deep"), std::string::npos) << run.reason;
+  EXPECT_TRUE(std::isfinite(run.balance->energy));
+}
+
 /// One sphere meets the next, parts from it, is hit from behind and meets it again, while they are
 /// a thousandth of a radius apart: velocities are those of central collisions one after the other.
 TEST(ManyContacts, BeginAgainSoon) {
