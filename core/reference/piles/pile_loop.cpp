@@ -172,10 +172,10 @@ class PileLoopOf final : public PileLoop {
   /// Steps, >= 1, within which no list is used up, though all be twice as fast and gain in each
   /// twice of what they gained in the last one.
   std::size_t steps_until_near(const PileWorld& world) const {
-    if (!world.started) return 1;
+    std::size_t steps = slabs_.waves(world.team).most_steps();
+    if (!world.started || steps == 1) return 1;
     double left = kNever;
     for (const PileBudget& each : budgets_) left = std::min({left, each.bodies, each.surfaces});
-    std::size_t steps = slabs_.waves(world.team).most_steps();
     const double speed = approach_ + slabs_.turning_speed();
     const auto way = [&](double ahead) { return 2 * ahead * world.step * (speed + ahead * gain_); };
     while (steps > 1 && !(left > way(static_cast<double>(steps - 1)))) --steps;
@@ -185,7 +185,7 @@ class PileLoopOf final : public PileLoop {
   /// Adds the forces of now, and moves, so many times; without either where they are not to.
   template <bool kForces, bool kMoves>
   void sweep(PileWorld& world, std::size_t steps) {
-    of_steps_.assign(steps * shares_.size(), {});
+    of_steps_.resize(steps * shares_.size());
     const auto act = [&](std::size_t s, std::size_t j) {
       if constexpr (kForces) find_forces_in(world, s, j);
     };
@@ -200,7 +200,10 @@ class PileLoopOf final : public PileLoop {
     for (std::size_t j = 0; j < steps; ++j) {
       // The same one, whichever list was taken first.
       for (std::size_t s = 0; s < shares_.size(); ++s)
-        if (at(s, j).failure) std::rethrow_exception(at(s, j).failure);
+        if (const std::exception_ptr failure = at(s, j).failure) {
+          of_steps_.clear();
+          std::rethrow_exception(failure);
+        }
       if constexpr (kForces) add_sums(world, j);
       if constexpr (kMoves) check_speed(world, j);
     }
@@ -246,22 +249,24 @@ class PileLoopOf final : public PileLoop {
 
   /// All bodies have moved so often.
   void end_steps(PileWorld& world, std::size_t steps) {
-    approach_ = gain_ = 0;
-    const std::size_t last = steps - 1;
+    approach_ = 0;
+    double gain2 = 0;
     for (std::size_t s = 0; s < budgets_.size(); ++s) {
-      spend(world, s, last);
-      approach_ = std::max({approach_, approach_in(s, last), nearing(s, last)});
-      gain_ = std::max(gain_, std::sqrt(at(s, last).speed.gain));
+      approach_ = std::max(approach_, spend(world, s, steps - 1));
+      gain2 = std::max(gain2, at(s, steps - 1).speed.gain);
     }
+    gain_ = std::sqrt(gain2);
     world.started = true;
     world.n += steps;
     forces_known_ = false;
   }
 
-  /// The ways that a list's bodies had in step j.
-  void spend(const PileWorld& world, std::size_t s, std::size_t j) {
-    budgets_[s].surfaces -= world.step * nearing(s, j);
-    budgets_[s].bodies -= world.step * approach_in(s, j);
+  /// The ways that a list's bodies had in step j. Returns how fast they came nearer at most.
+  double spend(const PileWorld& world, std::size_t s, std::size_t j) {
+    const double to_surfaces = nearing(s, j), to_bodies = approach_in(s, j);
+    budgets_[s].surfaces -= world.step * to_surfaces;
+    budgets_[s].bodies -= world.step * to_bodies;
+    return std::max(to_surfaces, to_bodies);
   }
 
   /// How fast a body of a slab and a surface come nearer at most [m/s].
@@ -271,8 +276,9 @@ class PileLoopOf final : public PileLoop {
   /// How fast two bodies of a slab's list come nearer at most [m/s].
   double approach_in(std::size_t s, std::size_t j) {
     const std::size_t t = slabs_.next(s);
-    const double first = std::sqrt(at(s, j).speed.adrift),
-                 second = std::sqrt(at(t, j).speed.adrift);
+    const double first = std::sqrt(at(s, j).speed.adrift);
+    if (t == s) return 2 * first;
+    const double second = std::sqrt(at(t, j).speed.adrift);
     return std::max(2 * first, first + second + (slabs_.drift(s) - slabs_.drift(t)).norm());
   }
 
