@@ -205,7 +205,8 @@ TEST(ManyContacts, FailWhileOthersPart) {
 }
 
 /// One sphere meets the next, parts from it, is hit from behind and meets it again, while they are
-/// less than a thousandth of a radius apart: velocities are those of central collisions one after the other.
+/// less than a thousandth of a radius apart: velocities are those of central collisions one after
+/// the other.
 TEST(ManyContacts, BeginAgainSoon) {
   constexpr std::size_t kRows = 32;
   constexpr double kSpeed = 5e-4, kDuration = 1e-3;
