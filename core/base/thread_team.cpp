@@ -23,8 +23,9 @@ void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
 
 }  // namespace
 
-ThreadTeam::ThreadTeam(std::size_t threads) {
-  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+ThreadTeam::ThreadTeam(std::size_t threads)
+    : left_(threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency())) {
+  threads = left_.size();
   others_.reserve(threads - 1);
   try {
     while (others_.size() + 1 < threads)

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/stop_scope.h"
@@ -43,8 +44,28 @@ class ThreadTeam {
   /// side by side is the same thread's every time.
   template <class Work>
   void run_shares(std::size_t count, Work&& work) {
-    const std::size_t shares = size();
-    run(shares, [&](std::size_t k) { work(k, count * k / shares, count * (k + 1) / shares); });
+    run(size(), [&](std::size_t k) {
+      const auto [first, last] = share_of(count, k);
+      work(k, first, last);
+    });
+  }
+
+  /// Calls work(k) for all k of 0 … count − 1, each thread for those of its share, and then for
+  /// what is left of others'.
+  template <class Work>
+  void run_own_first(std::size_t count, Work&& work) {
+    for (std::size_t k = 0; k < size(); ++k) left_[k].first = share_of(count, k).first;
+    run(size(), [&](std::size_t own) {
+      for (std::size_t turn = 0; turn < size(); ++turn) {
+        const std::size_t of = (own + turn) % size(), last = share_of(count, of).second;
+        for (std::size_t k = left_[of].first++; k < last; k = left_[of].first++) work(k);
+      }
+    });
+  }
+
+  /// Of 0 … count − 1 those first … last − 1 that are thread k's.
+  std::pair<std::size_t, std::size_t> share_of(std::size_t count, std::size_t k) const {
+    return {count * k / size(), count * (k + 1) / size()};
   }
 
  private:
@@ -69,6 +90,11 @@ class ThreadTeam {
   alignas(64) std::atomic<std::uint32_t> round_ = 0;  ///< of work, told to the others
   alignas(64) std::atomic<std::size_t> next_ = 0;
   alignas(64) std::atomic<std::uint32_t> busy_ = 0;  ///< others that are not done with the round
+  /// Of a thread's share, what none has taken.
+  struct alignas(64) Left {
+    std::atomic<std::size_t> first = 0;
+  };
+  std::vector<Left> left_;  ///< by thread
   std::vector<std::jthread> others_;
 };
 

@@ -62,25 +62,39 @@ std::size_t expect_islands(const GrainIslands& islands, const Pairs& pairs,
   std::map<std::uint32_t, std::vector<std::uint32_t>> found;
   std::map<std::uint32_t, std::size_t> group_of;
   std::size_t told = 0, group = 0;
-  for (const GrainGroup& each : islands.groups()) {
-    EXPECT_TRUE(threads == 1 || each.first_grain % 16 == 0);
-    for (std::size_t place = each.first_grain; place < each.last_grain; ++place) {
-      const std::uint32_t grain = islands.grains()[place];
+  std::size_t grains_before = 0, pairs_before = 0;
+  for (const GrainIslandGroup& each : islands.groups()) {
+    EXPECT_TRUE(threads == 1 || each.batch.first_grain % 16 == 0);
+    EXPECT_GE(each.batch.first_grain, grains_before);
+    EXPECT_EQ(each.batch.first_pair, pairs_before);
+    std::size_t place = each.batch.first_grain;
+    for (const std::uint32_t grain : each.grains) {
       EXPECT_TRUE(grains.contains(grain));
-      EXPECT_EQ(islands.place(grain), place);
+      EXPECT_EQ(islands.place(grain) + each.shift, place++);
       EXPECT_EQ(group_of.try_emplace(least[grain], group).first->second, group);
       ++told;
     }
-    for (std::size_t p = each.first_pair; p < each.last_pair; ++p) {
-      const std::uint32_t k = islands.pairs()[p];
+    EXPECT_EQ(place, each.batch.last_grain);
+    EXPECT_EQ(each.batch.last_pair, pairs_before + each.pairs.size());
+    grains_before = each.batch.last_grain;
+    pairs_before = each.batch.last_pair;
+    for (const std::uint32_t k : each.pairs) {
       found[least[pairs.first[k]]].push_back(k);
       EXPECT_EQ(group_of.at(least[pairs.first[k]]), group);
     }
     ++group;
   }
   EXPECT_EQ(told, grains.size());
+  EXPECT_EQ(islands.grain_places(), grains_before);
+  EXPECT_EQ(islands.pair_count(), pairs_before);
   EXPECT_EQ(found, expected);  // of each island in the order of the list
   return expected.size();
+}
+
+/// Those of first … last − 1 among numbers in ascending order.
+std::vector<std::uint32_t> from_to(const std::vector<std::uint32_t>& numbers, std::size_t first,
+                                   std::size_t last) {
+  return {std::ranges::lower_bound(numbers, first), std::ranges::lower_bound(numbers, last)};
 }
 
 /// Islands within the stretches that threads have, over one edge of these and over all of them.
@@ -92,10 +106,19 @@ TEST(GrainIslands, AreThoseOfFollowingPairs) {
     std::size_t count = 0;
     for (int turn = 0; turn < 30; ++turn) {
       const Pairs pairs = random_pairs(dice, turn % 3 == 0 ? 300 : 5);
-      std::vector<std::uint32_t> hit;
-      for (const std::uint32_t k : pairs.near)
-        if (dice() % 8 == 0) hit.push_back(pairs.first[k]);
-      islands.find(kGrains, {pairs.first, pairs.second, pairs.near}, hit, team);
+      std::vector<std::uint32_t> hit, met, touching;
+      for (const std::uint32_t k : pairs.near) {
+        if (dice() % 8 != 0) continue;
+        hit.push_back(pairs.first[k]);
+        (dice() % 2 == 0 ? touching : met).push_back(k);
+      }
+      for (std::uint32_t& k : touching) k = pairs.first[k];
+      const auto look = [&](std::size_t first, std::size_t last, GrainNear& found) {
+        found.near = from_to(pairs.near, first, last);
+        found.hit = from_to(met, first, last);
+        for (std::uint32_t& k : found.hit) k = pairs.first[k];
+      };
+      islands.find(kGrains, {pairs.first, pairs.second}, touching, look, team);
       count += expect_islands(islands, pairs, hit, threads);
       ASSERT_FALSE(HasFailure()) << "threads: " << threads << ", turn " << turn;
     }
@@ -107,7 +130,10 @@ TEST(GrainIslands, WithoutPairsThereAreNone) {
   for (const std::size_t threads : {1, 3}) {
     ThreadTeam team(threads);
     GrainIslands islands;
-    islands.find(kGrains, {}, {}, team);
+    const auto look = [](std::size_t first, std::size_t last, GrainNear&) {
+      EXPECT_EQ(first, last);
+    };
+    islands.find(kGrains, {}, {}, look, team);
     EXPECT_TRUE(islands.groups().empty());
     EXPECT_EQ(islands.grain_count(), 0u);
   }

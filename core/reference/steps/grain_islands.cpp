@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kGroup = 128;
 /// Where threads share them: groups for each thread, of at least so many grains; each begins at a
 /// multiple of kApart, so that no line of the cache has numbers of two.
-constexpr std::size_t kForThread = 8, kSmallGroup = 16, kApart = 16;
+constexpr std::size_t kForThread = 4, kSmallGroup = 16, kApart = 16;
 
 }  // namespace
 
@@ -20,8 +20,8 @@ std::size_t GrainIslands::grain_count() const {
   return count;
 }
 
-void GrainIslands::find(std::size_t grains, const GrainNear& pairs,
-                        std::span<const std::uint32_t> hit, ThreadTeam& team) {
+void GrainIslands::find(std::size_t grains, const GrainPairs& listed,
+                        std::span<const std::uint32_t> hit, const Look& look, ThreadTeam& team) {
   while (parent_.size() < grains) parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
   island_.resize(grains, kNone);
   place_.resize(grains, kNone);
@@ -33,12 +33,17 @@ void GrainIslands::find(std::size_t grains, const GrainNear& pairs,
     });
   };
   forget(shares_.back());
-  each([&](const Stretch& own, Share& share) { join_within(pairs, own, share); });
-  each([&](const Stretch& own, Share& share) { sort_within(pairs, hit, own, share); });
-  sort_between(pairs);
+  each([&](const Stretch& own, Share& share) {
+    const auto at = [&](std::size_t grain) {
+      return static_cast<std::size_t>(std::ranges::lower_bound(listed.first, grain) -
+                                      listed.first.begin());
+    };
+    look(at(own.first), at(own.last), share.found);
+    join_within(listed, own, share);
+  });
+  each([&](const Stretch& own, Share& share) { sort_within(listed, hit, own, share); });
+  sort_between(listed);
   make_groups(team.size());
-  each([&](const Stretch&, Share& share) { place(pairs, share); });
-  place(pairs, shares_.back());
 }
 
 // --- islands -------------------------------------------------------------------------------------
@@ -68,24 +73,10 @@ void GrainIslands::forget(Share& share) {
   share.kept.clear();
 }
 
-namespace {
-
-/// Those of the near pairs whose first grain is one of first … last − 1.
-std::span<const std::uint32_t> near_of(const GrainNear& pairs, std::size_t first,
-                                       std::size_t last) {
-  const auto at = [&](std::size_t grain) {
-    return std::ranges::lower_bound(pairs.near, grain, {},
-                                    [&](std::uint32_t k) { return pairs.first[k]; });
-  };
-  return {at(first), at(last)};
-}
-
-}  // namespace
-
-void GrainIslands::join_within(const GrainNear& pairs, const Stretch& own, Share& share) {
+void GrainIslands::join_within(const GrainPairs& pairs, const Stretch& own, Share& share) {
   forget(share);
   share.across.clear();
-  for (const std::uint32_t k : near_of(pairs, own.first, own.last)) {
+  for (const std::uint32_t k : share.found.near) {
     if (own.has(pairs.second[k]))
       join(pairs.first[k], pairs.second[k]);
     else
@@ -93,7 +84,7 @@ void GrainIslands::join_within(const GrainNear& pairs, const Stretch& own, Share
   }
 }
 
-void GrainIslands::sort_within(const GrainNear& pairs, std::span<const std::uint32_t> hit,
+void GrainIslands::sort_within(const GrainPairs& pairs, std::span<const std::uint32_t> hit,
                                const Stretch& own, Share& share) {
   share.reached.clear();
   share.hit.clear();
@@ -101,15 +92,17 @@ void GrainIslands::sort_within(const GrainNear& pairs, std::span<const std::uint
     for (const std::uint32_t k : other.across)
       for (const std::uint32_t grain : {pairs.first[k], pairs.second[k]})
         if (own.has(grain)) island_[root(grain)] = kReached;
-  for (const std::uint32_t grain : hit) {
-    if (!own.has(grain)) continue;
+  const auto strike = [&](std::uint32_t grain) {
     std::uint32_t& island = island_[root(grain)];
     if (island == kReached)
       share.hit.push_back(grain);
     else
       island = kHit;
-  }
-  for (const std::uint32_t k : near_of(pairs, own.first, own.last)) {
+  };
+  for (const std::uint32_t grain : share.found.hit) strike(grain);
+  for (const std::uint32_t grain : hit)
+    if (own.has(grain)) strike(grain);
+  for (const std::uint32_t k : share.found.near) {
     if (!own.has(pairs.second[k])) continue;
     const std::uint32_t island = island_[root(pairs.first[k])];
     if (island == kHit)
@@ -120,9 +113,10 @@ void GrainIslands::sort_within(const GrainNear& pairs, std::span<const std::uint
       part(pairs.first[k]), part(pairs.second[k]);
   }
   count(pairs, share);
+  place(pairs, share);
 }
 
-void GrainIslands::sort_between(const GrainNear& pairs) {
+void GrainIslands::sort_between(const GrainPairs& pairs) {
   Share& between = shares_.back();
   std::vector<std::uint32_t>& all = between.reached;
   all.clear();
@@ -142,10 +136,11 @@ void GrainIslands::sort_between(const GrainNear& pairs) {
       part(pairs.first[k]), part(pairs.second[k]);
   }
   count(pairs, between);
+  place(pairs, between);
 }
 
 /// Numbers the islands, and counts what they have.
-void GrainIslands::count(const GrainNear& pairs, Share& share) {
+void GrainIslands::count(const GrainPairs& pairs, Share& share) {
   share.grain_start.assign(1, 0);
   share.pair_start.assign(1, 0);
   for (const std::uint32_t k : share.kept) {
@@ -169,40 +164,39 @@ void GrainIslands::count(const GrainNear& pairs, Share& share) {
 
 // --- where they lie ------------------------------------------------------------------------------
 
+void GrainIslands::place(const GrainPairs& pairs, Share& share) {
+  share.pairs.resize(share.kept.size());
+  share.next = share.pair_start;
+  for (const std::uint32_t k : share.kept) share.pairs[share.next[place_[pairs.first[k]]]++] = k;
+  share.grains.resize(share.met.size());
+  share.next = share.grain_start;
+  for (const std::uint32_t grain : share.met) {
+    place_[grain] = share.next[place_[grain]]++;
+    share.grains[place_[grain]] = grain;
+  }
+}
+
 void GrainIslands::make_groups(std::size_t threads) {
   const bool shared = threads > 1;
   const std::size_t most =
       shared ? std::clamp(grain_count() / (kForThread * threads), kSmallGroup, kGroup) : kGroup;
   groups_.clear();
-  std::size_t grains = 0, pairs = 0;
-  for (Share& share : shares_) {
-    share.first_pair = pairs;
-    share.placed.clear();
-    GrainGroup group = {grains, grains, pairs, pairs};
-    for (std::size_t k = 1; k < share.grain_start.size(); ++k) {
-      share.placed.push_back(static_cast<std::uint32_t>(group.last_grain));
-      group.last_grain += share.grain_start[k] - share.grain_start[k - 1];
-      group.last_pair += share.pair_start[k] - share.pair_start[k - 1];
-      if (group.last_grain - group.first_grain < most && k + 1 < share.grain_start.size()) continue;
-      groups_.push_back(group);
-      if (shared) group.last_grain += -group.last_grain % kApart;
-      group.first_grain = group.last_grain;
-      group.first_pair = group.last_pair;
+  std::size_t grains = 0, pairs = 0;  // before a group
+  for (const Share& share : shares_) {
+    const std::vector<std::uint32_t>& ends = share.grain_start;
+    for (std::size_t first = 0, last = 1; last < ends.size(); ++last) {
+      const std::size_t own_grains = ends[last] - ends[first];
+      if (own_grains < most && last + 1 < ends.size()) continue;
+      const std::size_t own_pairs = share.pair_start[last] - share.pair_start[first];
+      if (shared) grains += -grains % kApart;
+      groups_.push_back({{grains, grains + own_grains, pairs, pairs + own_pairs},
+                         std::span(share.grains).subspan(ends[first], own_grains),
+                         std::span(share.pairs).subspan(share.pair_start[first], own_pairs),
+                         static_cast<std::uint32_t>(grains - ends[first])});
+      grains += own_grains;
+      pairs += own_pairs;
+      first = last;
     }
-    grains = group.last_grain;
-    pairs = group.last_pair;
-  }
-  grains_.assign(grains, kNone);
-  pairs_.resize(pairs);
-}
-
-void GrainIslands::place(const GrainNear& pairs, Share& share) {
-  share.next = share.pair_start;
-  for (const std::uint32_t k : share.kept)
-    pairs_[share.first_pair + share.next[place_[pairs.first[k]]]++] = k;
-  for (const std::uint32_t grain : share.met) {
-    place_[grain] = share.placed[place_[grain]]++;
-    grains_[place_[grain]] = grain;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -10,35 +11,49 @@
 
 namespace slipcheck {
 
-/// Near pairs, as indices into those of a list, in its order.
+/// The grains of the pairs of a list, which is in the order of the first.
+struct GrainPairs {
+  std::span<const std::uint32_t> first, second;
+};
+
+/// What there is between grains for some steps.
 struct GrainNear {
-  std::span<const std::uint32_t> first, second;  ///< of the list, by its first grain
-  std::span<const std::uint32_t> near;
+  std::vector<std::uint32_t> near;  ///< indices of a list's near pairs, in its order
+  std::vector<std::uint32_t> hit;   ///< of each near pair that is to meet, its first grain
+};
+
+/// Islands whose steps are done at once; in the batch they are to lie as `batch` says.
+struct GrainIslandGroup {
+  GrainGroup batch;
+  std::span<const std::uint32_t> grains;
+  std::span<const std::uint32_t> pairs;  ///< near ones, island by island
+  std::uint32_t shift = 0;               ///< from GrainIslands::place() to places in the batch
 };
 
 /// Sorts near pairs into islands, which share no grain, and those into groups of about so many
 /// grains as the nearest cache holds, or fewer where threads share them. Islands of which no grain
 /// is hit are left out: all of them go on as if alone.
 ///
-/// Each thread sorts the islands of a stretch of grains; those that reach from one to another are
-/// sorted then. So the order of the islands, and nothing else, depends on the number of threads.
+/// Each thread looks at the pairs and sorts the islands of a stretch of grains; those that reach
+/// from one to another are sorted then. So the order of the islands, and nothing else, depends on
+/// the number of threads.
 class GrainIslands {
  public:
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  /// Tells of the listed pairs first … last − 1; called on several threads at once.
+  using Look = std::function<void(std::size_t first, std::size_t last, GrainNear& found)>;
 
-  /// Of `grains` grains. hit: of each pair that touches or is to meet unless others intervene, one
-  /// grain.
-  void find(std::size_t grains, const GrainNear& pairs, std::span<const std::uint32_t> hit,
-            ThreadTeam& team);
+  /// Of `grains` grains. hit: those that are hit whatever `look` tells.
+  void find(std::size_t grains, const GrainPairs& listed, std::span<const std::uint32_t> hit,
+            const Look& look, ThreadTeam& team);
 
-  /// Island by island; kNone between groups.
-  const std::vector<std::uint32_t>& grains() const { return grains_; }
-  std::size_t grain_count() const;
-  /// Those that are near, island by island.
-  const std::vector<std::uint32_t>& pairs() const { return pairs_; }
-  /// Of a grain in grains(): its place there.
+  /// Valid until the next find().
+  const std::vector<GrainIslandGroup>& groups() const { return groups_; }
+  /// Of a grain of a group, to be shifted.
   std::uint32_t place(std::uint32_t grain) const { return place_[grain]; }
-  const std::vector<GrainGroup>& groups() const { return groups_; }
+  std::size_t grain_count() const;
+  /// What a batch must hold for all groups.
+  std::size_t grain_places() const { return groups_.empty() ? 0 : groups_.back().batch.last_grain; }
+  std::size_t pair_count() const { return groups_.empty() ? 0 : groups_.back().batch.last_pair; }
 
  private:
   /// Grains first … last − 1.
@@ -48,34 +63,33 @@ class GrainIslands {
   };
   /// The islands of a stretch, or those between stretches.
   struct Share {
+    GrainNear found;
     std::vector<std::uint32_t> across;        ///< pairs with a grain of another stretch
     std::vector<std::uint32_t> reached, hit;  ///< pairs and hit grains of islands that have such
     std::vector<std::uint32_t> met, kept;     ///< its grains and pairs, in the order of the pairs
     std::vector<std::uint32_t> grain_start, pair_start, next;  ///< by island
-    std::vector<std::uint32_t> placed;                         ///< where an island's grains begin
-    std::size_t first_pair = 0;
+    std::vector<std::uint32_t> grains, pairs;                  ///< island by island
   };
 
   std::uint32_t root(std::uint32_t grain);
   void join(std::uint32_t a, std::uint32_t b);
   void part(std::uint32_t grain);
   void forget(Share& share);
-  void join_within(const GrainNear& pairs, const Stretch& own, Share& share);
-  void sort_within(const GrainNear& pairs, std::span<const std::uint32_t> hit, const Stretch& own,
+  void join_within(const GrainPairs& pairs, const Stretch& own, Share& share);
+  void sort_within(const GrainPairs& pairs, std::span<const std::uint32_t> hit, const Stretch& own,
                    Share& share);
-  void sort_between(const GrainNear& pairs);
-  void count(const GrainNear& pairs, Share& share);
+  void sort_between(const GrainPairs& pairs);
+  void count(const GrainPairs& pairs, Share& share);
+  void place(const GrainPairs& pairs, Share& share);
   void make_groups(std::size_t threads);
-  void place(const GrainNear& pairs, Share& share);
 
-  static constexpr std::uint32_t kHit = kNone - 1, kReached = kNone - 2;
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0}, kHit = kNone - 1, kReached = kNone - 2;
   // Of each grain of the scene; between two calls it is its own parent, in no island.
   std::vector<std::uint32_t> parent_;
   std::vector<std::uint32_t> island_;  ///< of a root; kHit or kReached before it has a number
-  std::vector<std::uint32_t> place_;
-  std::vector<Share> shares_;  ///< by thread; the last: between these
-  std::vector<std::uint32_t> grains_, pairs_;
-  std::vector<GrainGroup> groups_;
+  std::vector<std::uint32_t> place_;   ///< in Share::grains; while these are counted its island
+  std::vector<Share> shares_;          ///< by thread; the last: between these
+  std::vector<GrainIslandGroup> groups_;
 };
 
 }  // namespace slipcheck

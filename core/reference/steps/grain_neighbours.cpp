@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 namespace slipcheck {
 namespace {
@@ -39,19 +39,40 @@ const std::vector<std::uint32_t>& GrainNeighbours::sort(const GrainArrays& grain
   const Axis x(grains.x, plane.length_x, width), y(grains.y, plane.length_y, width);
   columns_ = x.cells;
   rows_ = y.cells;
-  const std::size_t n = grains.size();
+  const std::size_t n = grains.size(), cells = std::size_t{columns_} * rows_;
   cell_.resize(n);
   team.run_shares(n, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
       cell_[i] = y.cell_of(grains.y[i]) * columns_ + x.cell_of(grains.x[i]);
   });
-  // One place further than a cell's grains begin, which taking them makes up for.
-  start_.assign(std::size_t{columns_} * rows_ + 2, 0);
-  for (const std::uint32_t cell : cell_) ++start_[cell + 2];
-  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  start_.resize(cells + 1);
+  start_[0] = 0;
   order_.resize(n);
-  for (std::uint32_t i = 0; i < n; ++i) order_[start_[cell_[i] + 1]++] = i;
+  // Each thread looks at all grains for those of its cells.
+  team.run_shares(cells, [&](std::size_t, std::size_t first, std::size_t last) {
+    sort_in(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last));
+  });
   return order_;
+}
+
+void GrainNeighbours::sort_in(std::uint32_t first, std::uint32_t last) {
+  std::uint32_t* const ends = start_.data() + 1;  // of each cell
+  std::fill(ends + first, ends + last, 0);
+  std::uint32_t next = 0;
+  for (const std::uint32_t cell : cell_) {
+    if (cell - first < last - first) ++ends[cell];
+    next += cell < first ? 1 : 0;
+  }
+  for (std::uint32_t cell = first; cell < last; ++cell) next += std::exchange(ends[cell], next);
+  // Each grain that a cell takes moves its end on.
+  for (std::uint32_t i = 0; i < cell_.size(); ++i)
+    if (cell_[i] - first < last - first) order_[ends[cell_[i]]++] = i;
+}
+
+std::uint32_t GrainNeighbours::sorted(std::uint32_t i) const {
+  std::uint32_t k = start_[cell_[i]];
+  while (order_[k] != i) ++k;
+  return k;
 }
 
 void GrainNeighbours::find(const GrainArrays& grains, const GrainPlane& plane, double skin,
@@ -61,13 +82,18 @@ void GrainNeighbours::find(const GrainArrays& grains, const GrainPlane& plane, d
     find_in(grains, plane, skin, static_cast<std::uint32_t>(first),
             static_cast<std::uint32_t>(last), found_[own]);
   });
-  first_.clear();
-  second_.clear();
-  for (const Found& found : found_) {
-    const auto count = static_cast<std::ptrdiff_t>(found.count);
-    first_.insert(first_.end(), found.first.begin(), found.first.begin() + count);
-    second_.insert(second_.end(), found.second.begin(), found.second.begin() + count);
+  std::ptrdiff_t all = 0;
+  for (Found& found : found_) {
+    found.before = all;
+    all += found.count;
   }
+  first_.resize(static_cast<std::size_t>(all));
+  second_.resize(static_cast<std::size_t>(all));
+  team.run(found_.size(), [&](std::size_t own) {
+    const Found& found = found_[own];
+    std::copy_n(found.first.begin(), found.count, first_.begin() + found.before);
+    std::copy_n(found.second.begin(), found.count, second_.begin() + found.before);
+  });
 }
 
 std::uint32_t GrainNeighbours::place_of(std::uint32_t i, std::uint32_t j) const {
@@ -153,7 +179,7 @@ void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane
           }
       }
     }
-  found.count = count;
+  found.count = static_cast<std::ptrdiff_t>(count);
 }
 
 }  // namespace slipcheck

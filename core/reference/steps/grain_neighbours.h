@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +18,8 @@ class GrainNeighbours {
   /// `width` [m] wide. The team shares the work.
   const std::vector<std::uint32_t>& sort(const GrainArrays& grains, const GrainPlane& plane,
                                          double width, ThreadTeam& team);
+  /// Where it has put grain `i` of the order before.
+  std::uint32_t sorted(std::uint32_t i) const;
   /// The pairs of grains that sort() has ordered, no further from each other's surface than `skin`
   /// [m] and in ascending order. The width given to sort() must be that of skin and two radii. The
   /// team shares the work.
@@ -39,8 +42,10 @@ class GrainNeighbours {
   /// Pairs by the rows of cells that one thread looks at: the first `count` of them.
   struct Found {
     std::vector<std::uint32_t> first, second;
-    std::size_t count = 0;
+    std::ptrdiff_t count = 0, before = 0;  ///< before: of other threads
   };
+  /// Of cells first … last − 1.
+  void sort_in(std::uint32_t first, std::uint32_t last);
   void find_in(const GrainArrays& grains, const GrainPlane& plane, double skin,
                std::uint32_t first_row, std::uint32_t last_row, Found& found) const;
 

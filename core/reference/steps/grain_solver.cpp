@@ -4,7 +4,12 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <span>
+#include <tuple>
+#include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "base/stop_scope.h"
 #include "base/thread_team.h"
@@ -207,29 +212,28 @@ class GrainSolver::Impl {
   }
 
   void reorder(const std::vector<std::uint32_t>& order) {
-    const auto apply = [&](auto& values, auto& moved) {
-      moved.resize(values.size());
-      for (std::size_t k = 0; k < order.size(); ++k) moved[k] = values[order[k]];
-      values.swap(moved);
-    };
-    std::vector<std::vector<double>*> all;
+    using Quantity =
+        std::variant<std::vector<double>*, std::vector<std::int64_t>*, std::vector<std::uint32_t>*>;
+    std::vector<Quantity> all;
     grains_.for_each_changing(features(),
                               [&](std::vector<double>& values) { all.push_back(&values); });
+    if (kernels_.kinds().size() > 1) all.push_back(&grains_.kind);
+    for (std::vector<std::int64_t>* images : {&image_x_, &image_y_}) all.push_back(images);
+    all.push_back(&body_);
     moved_.resize(team_.size());
     team_.run_shares(all.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) apply(*all[k], moved_[own]);
+      const auto move = [&](auto* values) {
+        auto& moved = std::get<std::remove_pointer_t<decltype(values)>>(moved_[own]);
+        moved.resize(values->size());
+        for (std::size_t k = 0; k < order.size(); ++k) moved[k] = (*values)[order[k]];
+        values->swap(moved);
+      };
+      for (std::size_t k = first; k < last; ++k) std::visit(move, all[k]);
     });
-    std::vector<std::uint32_t>& place = moved_numbers_;
-    if (kernels_.kinds().size() > 1) apply(grains_.kind, place);
-    apply(image_x_, moved_images_);
-    apply(image_y_, moved_images_);
-    apply(body_, place);
-    if (touching_.empty()) return;
-    for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
     for (Contact& contact : touching_) {
       GrainPair& pair = contact.pair;
-      pair.a = place[pair.a];
-      pair.b = place[pair.b];
+      pair.a = neighbours_.sorted(pair.a);
+      pair.b = neighbours_.sorted(pair.b);
       if (pair.a < pair.b) continue;
       std::swap(pair.a, pair.b);
       const GrainPair::Force& f = pair.force;
@@ -264,18 +268,24 @@ class GrainSolver::Impl {
 
   /// So many steps, or none where a grain got faster than foreseen.
   bool run_block(std::size_t length) {
-    meetings_.find(kernels_, grains_, neighbours_, blocks_.margin(length),
-                   step_ * static_cast<double>(length), braking(), step_, team_);
-    for (const Contact& contact : touching_) meetings_.hit_too(contact.pair.a);
-    islands_.find(grains_.size(), {neighbours_.first(), neighbours_.second(), meetings_.near()},
-                  meetings_.hit(), team_);
-    batch_.hold(islands_.grains().size(), islands_.pairs().size(), features());
+    const GrainPairs listed = {neighbours_.first(), neighbours_.second()};
+    const GrainMeetings meetings(kernels_, grains_, listed, blocks_.margin(length),
+                                 step_ * static_cast<double>(length), braking(), step_);
+    // A grain that touches another one is hit whatever their ways.
+    hit_.clear();
+    for (const Contact& contact : touching_) hit_.push_back(contact.pair.a);
+    islands_.find(
+        grains_.size(), listed, hit_,
+        [&](std::size_t first, std::size_t last, GrainNear& found) {
+          meetings.find(first, last, found);
+        },
+        team_);
+    batch_.hold(islands_.grain_places(), islands_.pair_count(), features());
     // Groups share no grain: whoever takes them, each does the same.
-    const std::vector<GrainGroup>& groups = islands_.groups();
+    const std::vector<GrainIslandGroup>& groups = islands_.groups();
     ended_.resize(groups.size());
-    team_.run_shares(groups.size(), [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) ended_[k] = run_group(groups[k], length);
-    });
+    team_.run_own_first(groups.size(),
+                        [&](std::size_t k) { ended_[k] = run_group(groups[k], length); });
     Ended all;
     for (Ended& each : ended_) {
       each.touching_before = all.touching;
@@ -295,14 +305,15 @@ class GrainSolver::Impl {
   }
 
   /// Takes a group's grains and pairs and does its steps.
-  Ended run_group(const GrainGroup& group, std::size_t length) {
-    for (std::size_t k = group.first_grain; k < group.last_grain; ++k)
-      batch_.take(k, grains_, islands_.grains()[k], kernels_.kinds(), features());
-    for (std::size_t p = group.first_pair; p < group.last_pair; ++p) {
-      GrainPair& pair = batch_.pairs[p];
-      take_pair(islands_.pairs()[p], pair);
-      pair.a = islands_.place(pair.a);
-      pair.b = islands_.place(pair.b);
+  Ended run_group(const GrainIslandGroup& islands, std::size_t length) {
+    const GrainGroup& group = islands.batch;
+    for (std::size_t k = 0; k < islands.grains.size(); ++k)
+      batch_.take(group.first_grain + k, grains_, islands.grains[k], kernels_.kinds(), features());
+    for (std::size_t p = 0; p < islands.pairs.size(); ++p) {
+      GrainPair& pair = batch_.pairs[group.first_pair + p];
+      take_pair(islands.pairs[p], pair);
+      pair.a = islands_.place(pair.a) + islands.shift;
+      pair.b = islands_.place(pair.b) + islands.shift;
     }
     Ended ended;
     ended.begun =
@@ -322,27 +333,27 @@ class GrainSolver::Impl {
     // The first kick is half as long, and without friction there is none.
     const bool begins = n_ == 0 && features().on_plane;
     std::vector<double> still2(team_.size(), begins ? begin_gliding() : 0);
-    const std::vector<std::uint32_t>& active = islands_.grains();  // what is none is in no share
     team_.run_shares(grains_.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
       if (!begins) still2[own] = kernels_.glide(grains_, first, last, step_, length);
-      for (std::size_t k = 0; k < active.size(); ++k)
-        if (first <= active[k] && active[k] < last)
-          grains_.take(active[k], batch_.grains, k, features());
-    });
-    team_.run_shares(ended_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) keep_contacts(k);
+      for (const GrainIslandGroup& group : islands_.groups())
+        for (std::size_t k = 0; k < group.grains.size(); ++k)
+          if (first <= group.grains[k] && group.grains[k] < last)
+            grains_.take(group.grains[k], batch_.grains, group.batch.first_grain + k, features());
+      const auto [group, end] = team_.share_of(ended_.size(), own);
+      for (std::size_t k = group; k < end; ++k) keep_contacts(k);
     });
     return *std::max_element(still2.begin(), still2.end());
   }
 
-  void keep_contacts(std::size_t group) {
-    const GrainGroup& pairs = islands_.groups()[group];
-    auto c = static_cast<std::uint32_t>(ended_[group].touching_before);
-    for (std::size_t p = pairs.first_pair; p < pairs.last_pair; ++p) {
-      if (!batch_.pairs[p].touching) continue;
-      const std::uint32_t listed = islands_.pairs()[p];
+  void keep_contacts(std::size_t k) {
+    const GrainIslandGroup& group = islands_.groups()[k];
+    auto c = static_cast<std::uint32_t>(ended_[k].touching_before);
+    for (std::size_t p = 0; p < group.pairs.size(); ++p) {
+      const GrainPair& pair = batch_.pairs[group.batch.first_pair + p];
+      if (!pair.touching) continue;
+      const std::uint32_t listed = group.pairs[p];
       Contact& contact = touching_[c];
-      contact = {listed, batch_.pairs[p]};
+      contact = {listed, pair};
       contact.pair.a = neighbours_.first()[listed];
       contact.pair.b = neighbours_.second()[listed];
       contact_of_[listed] = c++;
@@ -363,15 +374,15 @@ class GrainSolver::Impl {
   GrainKernels kernels_;
   std::vector<std::int64_t> image_x_, image_y_;  ///< cells between a grain's path and its place
   std::vector<std::uint32_t> body_;              ///< of the scene
-  // One quantity's, for reorder(), of each thread:
-  std::vector<std::vector<double>> moved_;
-  std::vector<std::int64_t> moved_images_;
-  std::vector<std::uint32_t> moved_numbers_;
+  /// One quantity's, for reorder(), of each thread.
+  std::vector<
+      std::tuple<std::vector<double>, std::vector<std::int64_t>, std::vector<std::uint32_t>>>
+      moved_;
   std::size_t n_ = 0, collisions_ = 0;
   GrainBlocks blocks_;
   GrainNeighbours neighbours_;
   GrainIslands islands_;
-  GrainMeetings meetings_;
+  std::vector<std::uint32_t> hit_;
   std::vector<Ended> ended_;
   ThreadTeam team_;
   GrainBatch batch_;
