@@ -247,9 +247,10 @@ class PileSolver::Impl {
 
   void show(FrameSink* sink) {
     if (!sink) return;
-    frame_.bodies = states();
-    loop_->take_touches(frame_.touches);
-    sink->take(world_.time(), frame_);
+    Frame frame;  // not kept: until the next one searches have its memory
+    frame.bodies = states();
+    loop_->take_touches(frame.touches);
+    sink->take(world_.time(), frame);
   }
 
   /// Goes on to the end; whether it came there before the limit.
@@ -335,7 +336,6 @@ class PileSolver::Impl {
   std::unique_ptr<PileLoop> loop_;
   std::optional<ThreadTeam> team_;
   PileWorld world_;
-  Frame frame_;
   std::string failure_;
   bool is_prepared_ = false;
   std::optional<double> initial_energy_;

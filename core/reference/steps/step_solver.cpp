@@ -169,6 +169,7 @@ class StepSolver::Impl {
       if (sink && world_.time() >= sink->next_look().value_or(0)) {
         kernel_->show(world_, frame_, !sink->next_look());
         sink->take(world_.time(), frame_);
+        if (sink->next_look()) frame_ = {};  // until then searches have its memory
       }
       if (wanted != StepStop::never && world_.n >= quiet_from_ && kernel_->is_met(world_, wanted)) {
         const double meeting = next_collision(end.limit - world_.time());
