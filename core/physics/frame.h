@@ -15,6 +15,8 @@ inline constexpr int kSubstrate = -1;
 /// Stands for a surface of the scene beside the substrate, and back.
 constexpr int surface_touch(std::size_t surface) { return -2 - static_cast<int>(surface); }
 constexpr std::size_t touched_surface(int second) { return static_cast<std::size_t>(-2 - second); }
+/// Else one of these.
+constexpr bool is_body(int second) { return second >= 0; }
 
 /// Two bodies that exchanged a normal impulse since the frame before, or that overlap without one.
 struct Touch {

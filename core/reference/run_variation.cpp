@@ -16,7 +16,7 @@ void ReverseSink::reverse_touches(std::span<const Touch> touches) {
   frame_.touches.assign(touches.begin(), touches.end());
   for (Touch& touch : frame_.touches) {
     touch.first = last - touch.first;
-    if (touch.second == kSubstrate) continue;
+    if (!is_body(touch.second)) continue;
     touch.second = last - touch.second;
     std::swap(touch.first, touch.second);
   }

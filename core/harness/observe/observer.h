@@ -209,7 +209,6 @@ class Observer final : public FrameSink {
     BodyState state;
   };
   Side second_of(const Pair& pair, double t, const std::vector<BodyState>& states) const;
-  static bool is_body(int second) { return second >= 0; }
   template <class F>
   static void for_bodies_of(const Pair& pair, F f) {
     f(static_cast<std::size_t>(pair.first));
