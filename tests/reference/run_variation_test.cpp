@@ -37,7 +37,8 @@ TEST(ReverseSink, NamesBodiesFromTheLastAndSurfacesAsTheyAre) {
   Kept kept;
   ReverseSink sink(kept);
   Frame frame;
-  for (const double x : {0, 1, 2, 3}) frame.bodies.push_back({{x, 0, 0}, {}, {}});
+  for (const double x : {0, 1, 2, 3})
+    frame.bodies.push_back({{x, 0, 0}, Vector3::Zero(), Vector3::Zero()});
   frame.touches = kTouches;
   sink.take(0, frame);
   ASSERT_EQ(kept.frame.bodies.size(), 4u);
