@@ -17,7 +17,7 @@ class UntilTouch final : public FrameSink {
   void take(double time, const Frame& frame) override {
     if (found) return;
     for (const Touch& touch : frame.touches) {
-      if (touch.second == kSubstrate || before_.empty()) continue;
+      if (!is_body(touch.second) || before_.empty()) continue;
       Meeting meeting;
       meeting.first = static_cast<std::size_t>(touch.first);
       meeting.second = static_cast<std::size_t>(touch.second);

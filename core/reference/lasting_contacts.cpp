@@ -49,9 +49,13 @@ Scene one_class_each(Scene scene) {
   Scene each = scene;
   each.substrate.clear();
   each.pairs.clear();
+  each.rows = {};
+  each.on_surfaces.clear();
   for (std::size_t i = 0; i < count; ++i) {
     each.substrate.push_back(scene.on_substrate(i));
     for (std::size_t j = 0; j < count; ++j) each.pairs.push_back(scene.between(i, j));
+    for (std::size_t s = 0; s < scene.surfaces.size(); ++s)
+      each.on_surfaces.push_back(scene.on_surface(i, s));
   }
   std::iota(each.material.begin(), each.material.end(), std::size_t{0});
   return each;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <variant>
 
 #include "../scenes.h"
 #include "hard_run.h"
@@ -46,6 +48,32 @@ TEST(LastingContacts, BodiesRestOnBodiesWhereNothingMovesAndAnUpperOneTouchesALo
   on_plane.initial[3].velocity.setZero();
   on_plane.initial[3].angular_velocity.setZero();
   EXPECT_FALSE(rests_on_bodies(on_plane));
+}
+
+/// Two materials that share a row of contacts, on two surfaces: each body becomes one of its own.
+TEST(LastingContacts, BodiesKeepTheirContactsWithSurfaces) {
+  Scene scene = test::steel_scene(3);
+  scene.material = {0, 1, 1};
+  scene.substrate.resize(2, scene.substrate[0]);
+  scene.rows = {{0, 0}, 1};
+  scene.pairs = {PairContact{0.5, 0.0, 0.0}};
+  scene.surfaces.resize(2);
+  scene.on_surfaces.resize(4);
+  for (std::size_t k = 0; k < 4; ++k)
+    scene.on_surfaces[k].impact.restitution = 0.1 * static_cast<double>(k + 1);
+  const std::optional<ContactScene> made = with_lasting_contacts(scene, 1e-6);
+  ASSERT_TRUE(made);
+  const auto restitution = [](const PairContact& pair) {
+    return std::get<double>(pair.restitution);
+  };
+  ASSERT_EQ(made->hard.on_surfaces.size(), 6u);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t s = 0; s < 2; ++s)
+      EXPECT_EQ(restitution(made->hard.on_surface(i, s).impact),
+                0.1 * static_cast<double>(2 * scene.material[i] + s + 1));
+  ASSERT_EQ(made->hard.pairs.size(), 9u);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_EQ(restitution(made->hard.between(i, j)), 0.5);
 }
 
 TEST(LastingContacts, APyramidStandsAndFallsAsStaticsSays) {

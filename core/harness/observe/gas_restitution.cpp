@@ -80,7 +80,7 @@ void GasRestitution::take(double time, const Frame& frame) {
     for (std::size_t i = 0; i < way_.size(); ++i)
       way_[i] += (frame.bodies[i].position - before_.bodies[i].position).norm();
   for (const Touch& touch : frame.touches)
-    if (touch.second != kSubstrate && !before_.bodies.empty()) start(time, frame, touch);
+    if (is_body(touch.second) && !before_.bodies.empty()) start(time, frame, touch);
   std::erase_if(open_, [&](std::size_t k) {
     Followed& collision = collisions_[k];
     if (!collision.ended && !slides(frame, collision.first) && !slides(frame, collision.second))

@@ -5,10 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <span>
-#include <tuple>
-#include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "base/stop_scope.h"
@@ -19,6 +16,7 @@
 #include "reference/steps/grain_kernels.h"
 #include "reference/steps/grain_meetings.h"
 #include "reference/steps/grain_neighbours.h"
+#include "reference/steps/grain_order.h"
 #include "reference/steps/grain_scene.h"
 #include "reference/steps/step_solver.h"
 
@@ -212,24 +210,12 @@ class GrainSolver::Impl {
   }
 
   void reorder(const std::vector<std::uint32_t>& order) {
-    using Quantity =
-        std::variant<std::vector<double>*, std::vector<std::int64_t>*, std::vector<std::uint32_t>*>;
-    std::vector<Quantity> all;
+    std::vector<GrainOrder::Quantity> all;
     grains_.for_each_changing(features(),
                               [&](std::vector<double>& values) { all.push_back(&values); });
+    all.insert(all.end(), {&image_x_, &image_y_, &body_});
     if (kernels_.kinds().size() > 1) all.push_back(&grains_.kind);
-    for (std::vector<std::int64_t>* images : {&image_x_, &image_y_}) all.push_back(images);
-    all.push_back(&body_);
-    moved_.resize(team_.size());
-    team_.run_shares(all.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
-      const auto move = [&](auto* values) {
-        auto& moved = std::get<std::remove_pointer_t<decltype(values)>>(moved_[own]);
-        moved.resize(values->size());
-        for (std::size_t k = 0; k < order.size(); ++k) moved[k] = (*values)[order[k]];
-        values->swap(moved);
-      };
-      for (std::size_t k = first; k < last; ++k) std::visit(move, all[k]);
-    });
+    order_.apply(order, all, team_);
     for (Contact& contact : touching_) {
       GrainPair& pair = contact.pair;
       pair.a = neighbours_.sorted(pair.a);
@@ -374,10 +360,7 @@ class GrainSolver::Impl {
   GrainKernels kernels_;
   std::vector<std::int64_t> image_x_, image_y_;  ///< cells between a grain's path and its place
   std::vector<std::uint32_t> body_;              ///< of the scene
-  /// One quantity's, for reorder(), of each thread.
-  std::vector<
-      std::tuple<std::vector<double>, std::vector<std::int64_t>, std::vector<std::uint32_t>>>
-      moved_;
+  GrainOrder order_;
   std::size_t n_ = 0, collisions_ = 0;
   GrainBlocks blocks_;
   GrainNeighbours neighbours_;
