@@ -40,6 +40,11 @@ struct alignas(64) StepBody {
   const StepKind* kind = nullptr;
   bool supported = false;  ///< on the substrate
   bool sticks = false;     ///< to it: no slip
+
+  void forget_forces() {
+    force.setZero();
+    torque.setZero();
+  }
 };
 static_assert(sizeof(StepBody) == 192, "three lines of the cache");
 

@@ -14,6 +14,12 @@
 
 namespace slipcheck {
 
+enum class StepStop {
+  never,
+  rolling,  ///< no body slides or flies and none touches another
+  rest,     ///< nor moves or spins relative to the substrate
+};
+
 /// All that the fixed-step solver's loops work on, but for the contacts of bodies.
 struct StepWorld {
   std::vector<StepBody> bodies;
@@ -44,12 +50,8 @@ struct StepWorld {
   double time() const { return static_cast<double>(n) * step; }
   /// From the velocities' time, half a step back, to the next half step.
   double kick_length() const { return n == 0 ? 0.5 * step : step; }
-};
-
-enum class StepStop {
-  never,
-  rolling,  ///< no body slides or flies and none touches another
-  rest,     ///< nor moves or spins relative to the substrate
+  /// Whether `stop`, not StepStop::never, is met.
+  bool is_met(StepStop stop) const;
 };
 
 /// The loop over the steps, for one kind of scene.

@@ -95,17 +95,20 @@ template <class Normal, class Tangential_>
 std::unique_ptr<StepKernel> make(StepLaws<Normal, Tangential_> laws, const ContactScene& contacts,
                                  std::span<const BodyState> initial, const StepSettings& settings,
                                  std::vector<std::string> features) {
+  using Pairs = StepPairs<Normal, Tangential_>;
   const Scene& scene = contacts.hard;
+  const std::size_t bodies = scene.bodies.size();
   std::unique_ptr<StepNeighbours> neighbours;
-  if (scene.bodies.size() > settings.most_in_all_pairs || contacts.own || !scene.periodic.isZero(0))
+  if (bodies > settings.most_in_all_pairs || contacts.own || !scene.periodic.isZero(0))
     neighbours = std::make_unique<StepNeighbours>(scene.periodic,
                                                   sharing_threads(contacts, initial, settings));
+  Pairs pairs = neighbours ? Pairs(std::move(laws)) : Pairs(std::move(laws), bodies);
   const auto loop = [&](auto substrate, const char* name) -> std::unique_ptr<StepKernel> {
     features.emplace_back(name);
     if (neighbours) features.emplace_back("many bodies: neighbours in cells by radius");
     if (contacts.own) features.emplace_back("each two bodies have a contact of their own");
-    return std::make_unique<StepLoop<Normal, Tangential_, decltype(substrate)>>(
-        std::move(laws), scene.bodies.size(), std::move(neighbours), std::move(features));
+    return std::make_unique<StepLoop<Pairs, decltype(substrate)>>(
+        std::move(pairs), std::move(neighbours), std::move(features));
   };
   if (settings.general) return loop(FullSubstrate{}, "any substrate");
   if (is_bare(contacts, initial))
@@ -116,6 +119,17 @@ std::unique_ptr<StepKernel> make(StepLaws<Normal, Tangential_> laws, const Conta
 }
 
 }  // namespace
+
+bool StepWorld::is_met(StepStop stop) const {
+  if (touching > 0) return false;
+  for (const StepBody& b : bodies) {
+    if (!b.sticks) return false;
+    if (stop == StepStop::rest &&
+        (b.velocity.head<2>() != around.velocity || b.angular_velocity.z() != 0))
+      return false;
+  }
+  return true;
+}
 
 std::size_t sharing_threads(const ContactScene& scene, std::span<const BodyState> initial,
                             const StepSettings& settings) {

@@ -14,7 +14,7 @@
 
 namespace slipcheck {
 
-/// The laws of StepLoop's pairs: one for each two rows of the scene's table, or one for each two
+/// The laws of StepPairs: one for each two rows of the scene's table, or one for each two
 /// bodies that are near each other, where each two have their own.
 template <class Normal, class Tangential>
 class StepLaws {

@@ -10,32 +10,18 @@
 
 namespace slipcheck {
 
-/// A push on a body of another share.
-template <class Push>
-struct OutsidePush {
-  std::size_t stored;
-  bool is_second;
-  Push push;
-};
-
 /// One thread's part of a step over StepNeighbours: bodies stored one behind the other, and the
-/// pairs whose further body is among them. What these do to a body of a share before comes after
-/// all pairs of that share, and is kept until it is done: so any number of threads gives the same
-/// bits.
-template <class Push>
+/// pairs whose further body is among them.
 struct alignas(64) StepShare {
+  std::size_t number = 0;
   std::size_t bodies = 0, pairs = 0;  ///< where they begin
   StepTally tally;
   double longest2 = 0;  ///< way in the last step, squared [m²]
-  std::vector<OutsidePush<Push>> outside;
 };
 
 /// One for each thread of the neighbours' team.
-template <class Push>
 class StepShares {
  public:
-  using Share = StepShare<Push>;
-
   /// Such that each has as many bodies and pairs.
   void divide(StepNeighbours& neighbours, std::size_t bodies) {
     const std::vector<StepNeighbour>& all = neighbours.all();
@@ -54,10 +40,11 @@ class StepShares {
                                        [&](std::size_t k) { return k + pairs_before(k) < work; }) -
           stored.begin());
       shares_[s].pairs = pairs_before(shares_[s].bodies);
+      shares_[s].number = s;
     }
   }
 
-  const std::vector<Share>& all() const { return shares_; }
+  const std::vector<StepShare>& all() const { return shares_; }
 
   /// Calls work(share, begin, end) with the bodies of each: always the same thread with the same
   /// share, in whose caches it is.
@@ -70,7 +57,7 @@ class StepShares {
   }
 
  private:
-  std::vector<Share> shares_;
+  std::vector<StepShare> shares_;
   std::size_t bodies_ = 0;
 };
 

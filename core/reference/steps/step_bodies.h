@@ -1,0 +1,113 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "base/flatten.h"
+#include "physics/numbers.h"
+#include "reference/steps/step_neighbours.h"
+#include "reference/steps/step_shares.h"
+
+namespace slipcheck {
+
+/// What a step does to each of StepLoop's bodies under the forces of the others, on a substrate of
+/// that kind.
+template <class Substrate>
+class StepBodies {
+ public:
+  /// A step of them all, each with the forces of now, which stay.
+  SLIPCHECK_FLATTEN static void move(StepWorld& world) {
+    const Advance advance = advance_of(world);
+    for (StepBody& b : world.bodies) advance(b);
+  }
+
+  /// The same by shares; leaves no forces.
+  static void move(StepWorld& world, StepNeighbours& neighbours, StepShares& shares) {
+    const Advance advance = advance_of(world);
+    shares.run(neighbours.team(), [&](StepShare& share, std::size_t begin, std::size_t end) {
+      share.longest2 = move_all(advance, std::span(world.bodies).subspan(begin, end - begin));
+    });
+    double longest2 = 0;
+    for (const StepShare& share : shares.all()) longest2 = std::max(longest2, share.longest2);
+    neighbours.move(std::sqrt(longest2), world);
+  }
+
+  /// `shown` as long as there are bodies, and `impulses`, unless it is empty: of the substrate
+  /// [N s]. neighbours: null: a few bodies.
+  static void show(const StepWorld& world, StepNeighbours* neighbours, StepShares& shares,
+                   std::vector<BodyState>& shown, std::vector<double>& impulses) {
+    StepSurroundings around = world.around;
+    around.velocity = velocity_of_substrate(world, world.time());
+    if (neighbours)
+      shares.run(neighbours->team(), [&](StepShare&, std::size_t begin, std::size_t end) {
+        show(world, around, begin, end, shown, impulses);
+      });
+    else
+      show(world, around, 0, world.bodies.size(), shown, impulses);
+  }
+
+ private:
+  struct Advance {
+    StepSurroundings around;  // a copy, of which the compiler knows that no body changes it
+    double step, dt, slowest_rebound;
+
+    void operator()(StepBody& b) const {
+      const StepKind& kind = *b.kind;
+      kick<Substrate>(b, kind, around, dt);
+      b.position += step * b.velocity;
+      if constexpr (std::is_same_v<Substrate, BareSubstrate>) return;
+      if (!b.supported && b.position.z() < b.radius && b.velocity.z() < 0) [[unlikely]]
+        land_after_drift(b, kind, around, slowest_rebound);
+    }
+  };
+
+  static Vector2 velocity_of_substrate(const StepWorld& world, double t) {
+    if constexpr (std::is_same_v<Substrate, FullSubstrate>)
+      return world.motion->velocity(t).template head<2>();
+    else
+      return Vector2::Zero();
+  }
+
+  /// For the step from now on, with the substrate's velocity in it.
+  static Advance advance_of(StepWorld& world) {
+    StepSurroundings& s = world.around;
+    if constexpr (std::is_same_v<Substrate, FullSubstrate>) {
+      s.velocity_before = s.velocity;
+      s.velocity = velocity_of_substrate(world, world.time() + 0.5 * world.step);
+    }
+    return {s, world.step, world.kick_length(), world.slowest_rebound};
+  }
+
+  /// Returns the longest way of one, squared [m²], or kNever.
+  SLIPCHECK_FLATTEN static double move_all(const Advance& given, std::span<StepBody> bodies) {
+    const Advance advance = given;
+    double longest2 = 0;
+    for (StepBody& b : bodies) {
+      const Vector3 before = b.position;
+      advance(b);
+      b.forget_forces();  // here, where they lie in the nearest cache
+      const double way2 = (b.position - before).squaredNorm();
+      longest2 = way2 <= longest2 ? longest2 : std::isnan(way2) ? kNever : way2;
+    }
+    return longest2;
+  }
+
+  SLIPCHECK_FLATTEN static void show(const StepWorld& world, const StepSurroundings& around,
+                                     std::size_t begin, std::size_t end,
+                                     std::vector<BodyState>& shown, std::vector<double>& impulses) {
+    for (std::size_t k = begin; k < end; ++k) {
+      StepBody body = world.bodies[k];
+      const double half =
+          world.n > 0 ? kick<Substrate>(body, *body.kind, around, 0.5 * world.step) : 0;
+      const std::size_t i = world.number_of(k);
+      shown[i] = {body.position, body.velocity, body.angular_velocity};
+      if (!impulses.empty()) impulses[i] = 2 * half;
+    }
+  }
+};
+
+}  // namespace slipcheck
