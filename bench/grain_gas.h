@@ -74,8 +74,9 @@ inline void place(Scene& hard, std::size_t n, double area, std::mt19937_64& rand
 }
 
 /// A periodic gas of n grains with K's forces, e_n = 0.90, and Gaussian velocities. on_plane: a
-/// monolayer that slides and rolls (μ = 0.5, g = 10).
-inline ContactScene grain_gas(std::size_t n, double area_fraction, bool on_plane) {
+/// monolayer that slides and rolls (μ = 0.5, g = 10). Each seed is another gas.
+inline ContactScene grain_gas(std::size_t n, double area_fraction, bool on_plane,
+                              std::uint64_t seed = 1) {
   ContactScene scene;
   Scene& hard = scene.hard;
   hard.bodies.assign(n, Sphere{0.5, 1, 0.4});
@@ -90,7 +91,7 @@ inline ContactScene grain_gas(std::size_t n, double area_fraction, bool on_plane
   contact.tangential = ViscousForce{0.5 * 15, 0.5};
   scene.soft = {contact};
 
-  std::mt19937_64 random(1);
+  std::mt19937_64 random(seed);
   place(hard, n, static_cast<double>(n) * std::numbers::pi / 4 / area_fraction, random);
   Vector3 mean = Vector3::Zero();
   for (BodyState& state : hard.initial) {

@@ -77,7 +77,8 @@ def peers(build):
                  (f"GrainSolver {case}", float(ours) * 1e6, "1/s"),
                  (f"ratio {case}", float(ratio), "")]
         if energy:
-            rows.append((f"energy apart {case}", float(energy[0].rstrip("%")) / 100, ""))
+            apart, error = (float(part) / 100 for part in energy[0].rstrip("%").split("±"))
+            rows += [(f"energy apart {case}", apart, ""), (f"error of that {case}", error, "")]
     return rows
 
 

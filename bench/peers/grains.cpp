@@ -1,5 +1,5 @@
-// grains N AREA_FRACTION gas|monolayer WARM STEPS THREADS DATA: writes the grains of a peer's run
-// as its data file, runs them for WARM and then STEPS steps, three times, and prints
+// grains N AREA_FRACTION gas|monolayer SEED WARM STEPS THREADS DATA: writes the grains of a peer's
+// run as its data file, runs them for WARM and then STEPS steps, three times, and prints
 // "particle_steps_per_second kinetic_energy_per_grain"; of CPU time on one thread, of wall time on
 // several. Few grains are one thread's, as they are in a run.
 #include <time.h>
@@ -45,18 +45,20 @@ double seconds(clockid_t clock) {
 }
 
 int run(int count, char** arguments) {
-  if (count != 8) {
-    std::fputs("usage: grains N AREA_FRACTION gas|monolayer WARM STEPS THREADS DATA\n", stderr);
+  if (count != 9) {
+    std::fputs("usage: grains N AREA_FRACTION gas|monolayer SEED WARM STEPS THREADS DATA\n",
+               stderr);
     return 2;
   }
   const auto n = std::strtoul(arguments[1], nullptr, 10);
   const bool on_plane = std::string(arguments[3]) == "monolayer";
-  const auto warm = std::strtoul(arguments[4], nullptr, 10);
-  const auto steps = std::strtoul(arguments[5], nullptr, 10);
-  const auto threads = std::strtoul(arguments[6], nullptr, 10);
+  const auto seed = std::strtoul(arguments[4], nullptr, 10);
+  const auto warm = std::strtoul(arguments[5], nullptr, 10);
+  const auto steps = std::strtoul(arguments[6], nullptr, 10);
+  const auto threads = std::strtoul(arguments[7], nullptr, 10);
   const clockid_t clock = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC;
-  const ContactScene scene = grain_gas(n, std::strtod(arguments[2], nullptr), on_plane);
-  write_data(scene, on_plane, arguments[7]);
+  const ContactScene scene = grain_gas(n, std::strtod(arguments[2], nullptr), on_plane, seed);
+  write_data(scene, on_plane, arguments[8]);
   double least = 1e300, energy = 0;
   for (int repeat = 0; repeat < 3; ++repeat) {
     GrainSolver solver(scene, scene.hard.initial, kStep,
