@@ -123,5 +123,27 @@ TEST(ReferenceRun, WarnsOfCollapseAndOfRunsThatDoNotEnd) {
   EXPECT_EQ(endless.observables.count("i.sliding_time"), 0u);
 }
 
+/// A wall that nothing reaches changes no value; what contacts that last would change is part of
+/// the uncertainty, and needs no more steps than they do anywhere.
+TEST(ReferenceRun, CollapseBesideSurfacesIsRepeatedWithContactsThatLast) {
+  Scene scene = test::head_on(0.15, -0.15, 0.2);
+  const RunEnd end{Run::Until::rolling, 0, 10};
+  const ReferenceResult free = test::run_hard(scene, end, {"i", "j"});
+  scene.surfaces = {{PlaneShape{{1, 0, 0}, {-1, 0, 0}}, {}}};
+  scene.on_surfaces.resize(1);
+  const ReferenceResult walled = test::run_hard(scene, end, {"i", "j", "wall"});
+  ASSERT_TRUE(walled.run.reached);
+  ASSERT_GT(walled.run.collapses, 0u);
+  for (const char* name : {"i.rolling_velocity", "i.sliding_time", "i-j.effective_restitution"}) {
+    const UncertainValue a = free.observables.at(name), b = walled.observables.at(name);
+    EXPECT_LE(std::abs(a.value - b.value), a.uncertainty + b.uncertainty) << name;
+    EXPECT_GT(b.uncertainty, a.uncertainty) << name;
+  }
+  // Contacts that take 1e-3 of the time in which a body falls by its radius.
+  const UncertainValue e = walled.observables.at("i-j.effective_restitution");
+  EXPECT_NEAR(e.value, (2.5 * 0.2 - 1) / 3.5, 1e-3);
+  EXPECT_LT(e.uncertainty, 1e-3);
+}
+
 }  // namespace
 }  // namespace slipcheck

@@ -139,8 +139,13 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
   const Scene& scene = solver.scene().hard;
   const auto lasting = is_rubbed(scene) ? with_lasting_contacts(scene) : std::nullopt;
   if (lasting) {
-    const ReferenceSolver resolved(*lasting, Compare::Reference::contact);
-    runs.others.push_back(solve(resolved, end, FE_TONEAREST, {.tolerance = 1e-8}).seen);
+    // Piles, which know surfaces, let hard contacts last by themselves, for no shorter than is
+    // needed.
+    const ContactScene& shown = scene.surfaces.empty() ? *lasting : solver.scene();
+    const ReferenceSolver resolved(shown, Compare::Reference::contact);
+    RunEnd soon = end;  // what lasts may creep, and never roll
+    soon.limit = std::min(end.limit, 2 * runs.value.run.end_time);
+    runs.others.push_back(solve(resolved, soon, FE_TONEAREST, {.tolerance = 1e-8}).seen);
   }
   return runs;
 }
