@@ -166,5 +166,20 @@ TEST(Observer, SeesInPartialFramesWhatASubstrateDoes) {
   EXPECT_GT(effective, 50u);
 }
 
+/// Balls that slide, roll, stop and meet cushions.
+TEST(Observer, SeesInPartialFramesWhatHappensInAFrame) {
+  const Scene scene = test::balls_in_frame(40);
+  const auto seen = [&](bool partial) {
+    Observer observer(scene, 0, speed_scale(scene, scene.initial));
+    WholeAlone whole(observer);
+    FrameSink& sink = partial ? static_cast<FrameSink&>(observer) : whole;
+    EXPECT_TRUE(EventSolver(scene, scene.initial).run(until_time(20), &sink).reached);
+    return observer.finish(20);
+  };
+  const Observables partial = seen(true);
+  EXPECT_GT(partial.pairs.size(), 60u);
+  expect_alike(partial, seen(false), 1e-12);
+}
+
 }  // namespace
 }  // namespace slipcheck

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "scene/scene.h"
 
@@ -46,6 +47,31 @@ inline Scene smooth_gas(std::size_t n, double area_fraction, const PairContact& 
     const auto symmetric = [&] { return 2 * uniform(random) - 1; };
     state.velocity = {symmetric(), symmetric(), 0};
     scene.initial.push_back(state);
+  }
+  return scene;
+}
+
+/// Unit-mass balls of radius 1/2 that slide and roll on a level table inside four cushions, at an
+/// area fraction of 0.3 at first; as fast as those of smooth_gas().
+inline Scene balls_in_frame(std::size_t n, std::uint64_t seed = 1) {
+  Scene scene = smooth_gas(
+      n, 0.3, PairContact{.restitution = 0.93, .friction = 0.05, .tangential_restitution = 0},
+      seed);
+  const Vector2 length = scene.periodic;
+  scene.periodic.setZero();
+  scene.confined = false;
+  scene.substrate[0].static_friction = scene.substrate[0].kinetic_friction = 0.05;
+  scene.substrate[0].rolling = RollingFriction(0.002);
+  const Vector3 far(length.x(), length.y(), 0);
+  for (const auto& [point, normal] :
+       {std::pair<Vector3, Vector3>{Vector3::Zero(), Vector3::UnitX()},
+        {Vector3::Zero(), Vector3::UnitY()},
+        {far, -Vector3::UnitX()},
+        {far, -Vector3::UnitY()}}) {
+    scene.surfaces.push_back({PlaneShape{point, normal}, {}});
+    SurfaceContact cushion;
+    cushion.impact = {.restitution = 0.9, .friction = 0.1, .tangential_restitution = 0};
+    scene.on_surfaces.push_back(cushion);
   }
   return scene;
 }

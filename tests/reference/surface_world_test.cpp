@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "physics/motion/driven_phase.h"
+#include "planar_scenes.h"
 #include "reference/events/event_solver.h"
 
 namespace slipcheck {
@@ -266,6 +269,45 @@ TEST(SurfaceWorld, BouncesOnWhatIsRound) {
   EXPECT_NEAR(solver.first_contact(1), speed / kG, kExact);
   solver.run(until_time(speed / kG + 0.1), &hit);
   EXPECT_NEAR(hit.state->velocity.z(), 0.5 * speed, kExact);
+}
+
+/// Who is in no cell beside a body meets it not: the same collisions. Instants are found from other
+/// moments, whose roundings a dozen collisions a body let grow by some 1e5.
+TEST(SurfaceWorld, CellsFindWhatAllPairsFind) {
+  const Scene scene = test::balls_in_frame(60);
+  EventSolver in_cells(scene, scene.initial);
+  EventSolver all_pairs(scene, scene.initial, {.most_without_cells = 60});
+  ASSERT_NE(in_cells.features(), all_pairs.features());
+  const SolvedRun cells = in_cells.run(until_time(6), nullptr);
+  const SolvedRun pairs = all_pairs.run(until_time(6), nullptr);
+  ASSERT_TRUE(cells.reached && pairs.reached);
+  EXPECT_GT(cells.collisions, 80u);
+  EXPECT_EQ(cells.collisions, pairs.collisions);
+  EXPECT_EQ(cells.events, pairs.events);
+  const std::vector<BodyState> a = in_cells.states(), b = all_pairs.states();
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_LT((a[i].position - b[i].position).norm(), 1e-9) << i;
+    EXPECT_LT((a[i].velocity - b[i].velocity).norm(), 1e-9) << i;
+  }
+}
+
+/// Down a slope, off its edge and over the table: ways through cells that are parabolas and ways
+/// that are not.
+TEST(SurfaceWorld, CellsFollowFlightsAndSlopes) {
+  Scene scene = test::balls_in_frame(30);
+  for (std::size_t i = 0; i < scene.initial.size(); i += 3)
+    scene.initial[i].position.z() += 2 + 0.1 * static_cast<double>(i);
+  scene.motion = SubstrateMotion::constant({0.3, -0.2});
+  EventSolver in_cells(scene, scene.initial);
+  EventSolver all_pairs(scene, scene.initial, {.most_without_cells = 30});
+  const SolvedRun cells = in_cells.run(until_time(2), nullptr);
+  const SolvedRun pairs = all_pairs.run(until_time(2), nullptr);
+  ASSERT_TRUE(cells.reached && pairs.reached) << cells.reason << pairs.reason;
+  EXPECT_GT(cells.collisions, 10u);
+  EXPECT_EQ(cells.collisions, pairs.collisions);
+  const std::vector<BodyState> a = in_cells.states(), b = all_pairs.states();
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_LT((a[i].position - b[i].position).norm(), 1e-8) << i;
 }
 
 }  // namespace

@@ -48,6 +48,10 @@ Observer::Observer(const Scene& scene, double step, double speed_scale, bool res
       closing_scale_(closing_scale_of(scene, speed_scale)),
       resolved_(resolved),
       on_surfaces_(!scene.surfaces.empty()),
+      is_all_still_(
+          scene.motion.is_still() &&
+          std::ranges::all_of(scene.surfaces,
+                              [](const Surface& surface) { return surface.motion.is_still(); })),
       bodies_(scene.bodies.size()) {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     bodies_[i].zero = resolution(i, scene.on_substrate(i), scene.gravity);
@@ -157,8 +161,7 @@ void Observer::take(double time, const Frame& frame) {
 }
 
 bool Observer::take_partial(double time, const PartialFrame& frame) {
-  if (!started_ || step_ > 0 || resolved_ || on_surfaces_ || !scene_->motion.is_still())
-    return false;
+  if (!started_ || step_ > 0 || resolved_ || !is_all_still_) return false;
   if (now_.bodies.empty()) now_.bodies = last_.bodies;
   for (std::size_t k = 0; k < frame.bodies.size(); ++k) {
     now_.bodies[frame.bodies[k]] = frame.states[k];

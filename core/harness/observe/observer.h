@@ -71,7 +71,8 @@ class Observer final : public FrameSink {
   Observer(const Scene& scene, double step, double speed_scale, bool resolved = false);
 
   void take(double time, const Frame& frame) override;
-  /// Of hard contacts on a still substrate: what happens to a body then shows in its own events.
+  /// Of hard contacts where substrate and surfaces are still: what happens to a body then shows in
+  /// its own events.
   bool take_partial(double time, const PartialFrame& frame) override;
 
   /// What it goes on with, of the same scene.
@@ -258,7 +259,7 @@ class Observer final : public FrameSink {
   double speed_scale_;
   double closing_scale_;  ///< the same of centres alone [m/s]
   bool resolved_;
-  bool on_surfaces_;
+  bool on_surfaces_, is_all_still_;
   bool started_ = false;
   double time_ = 0, time_before_ = 0;
   Frame last_, before_last_;

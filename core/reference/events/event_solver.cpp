@@ -99,7 +99,7 @@ class EventSolver::EngineOf final : public Engine {
   std::unique_ptr<Engine> copy() const override { return std::make_unique<EngineOf>(*this); }
   double now() const override { return now_; }
   std::vector<std::string> features() const override {
-    if constexpr (std::is_same_v<World, SurfaceWorld>)
+    if constexpr (kOnSurfaces)
       return world_.features();
     else
       return {World::kIsStill ? "phases on a level, still plane" : "phases on any plane",
@@ -118,7 +118,7 @@ class EventSolver::EngineOf final : public Engine {
         limit, [&](const World& world) { return world.collisions() + world.landings() != so_far; });
   }
   double next_collision(double limit, double slowest) override {
-    if constexpr (World::kHasCells) {
+    if constexpr (World::kHasCells && !kOnSurfaces) {
       if (slowest == 0 && rolls_straight() && !world_.is_any_slipping())
         return first_of_pairs(limit);
     }
@@ -179,6 +179,8 @@ class EventSolver::EngineOf final : public Engine {
   }
 
  private:
+  static constexpr bool kOnSurfaces = std::is_base_of_v<SurfaceWorld, World>;
+
   /// When a copy that runs ahead comes to what `has_come` tells, or infinity where it does not
   /// before `limit` [s].
   template <class HasCome>
@@ -214,7 +216,7 @@ class EventSolver::EngineOf final : public Engine {
 
   /// Beside surfaces what rolls may also come to one of them, or over an edge.
   bool collides_again(double limit) {
-    if constexpr (std::is_same_v<World, SurfaceWorld>) {
+    if constexpr (kOnSurfaces) {
       if (first_contact(limit) < kNever) return true;
     }
     const std::size_t after_next = world_.collisions() + 1;
@@ -268,7 +270,7 @@ class EventSolver::EngineOf final : public Engine {
 
   /// The same of any that roll; where some are driven otherwise than others, by all pairs.
   double time_of_next(double limit) {
-    if constexpr (World::kHasCells) {
+    if constexpr (World::kHasCells && !kOnSurfaces) {
       if (scene_->periodic == Vector2::Zero() && !rolls_straight()) {
         using Pairs = SubstrateWorld<typename World::PhaseType, AllPairs>;
         EngineOf<Pairs, HeapQueue> ahead(*scene_, states(), settings_, least_, now_);
@@ -289,23 +291,29 @@ class EventSolver::EngineOf final : public Engine {
 
 EventSolver::EventSolver(const Scene& scene, std::span<const BodyState> initial,
                          const EventSettings& settings) {
-  if (!scene.surfaces.empty()) {
-    engine_ = std::make_unique<EngineOf<SurfaceWorld, ScanQueue>>(
-        scene, initial, settings, least_speeds(scene, initial, settings), settings.start);
-    return;
-  }
   const bool has_cells =
       scene.bodies.size() > settings.most_without_cells || scene.periodic != Vector2::Zero();
   const LeastSpeeds least = least_speeds(scene, initial, settings);
-  const auto make = [&]<class Phase>(std::type_identity<Phase>) -> std::unique_ptr<Engine> {
+  const auto make = [&]<class Few, class Many>(
+                        std::type_identity<Few>,
+                        std::type_identity<Many>) -> std::unique_ptr<Engine> {
     if (has_cells)
-      return std::make_unique<EngineOf<SubstrateWorld<Phase, PlaneCells>, CalendarQueue>>(
-          scene, initial, settings, least, settings.start);
-    return std::make_unique<EngineOf<SubstrateWorld<Phase, AllPairs>, ScanQueue>>(
-        scene, initial, settings, least, settings.start);
+      return std::make_unique<EngineOf<Many, CalendarQueue>>(scene, initial, settings, least,
+                                                             settings.start);
+    return std::make_unique<EngineOf<Few, ScanQueue>>(scene, initial, settings, least,
+                                                      settings.start);
   };
-  engine_ = is_exact(scene) && !settings.general ? make(std::type_identity<SubstratePhase>{})
-                                                 : make(std::type_identity<DrivenPhase>{});
+  const auto on_plane = [&]<class Phase>(std::type_identity<Phase>) {
+    return make(std::type_identity<SubstrateWorld<Phase, AllPairs>>{},
+                std::type_identity<SubstrateWorld<Phase, PlaneCells>>{});
+  };
+  if (!scene.surfaces.empty())
+    engine_ = make(std::type_identity<SurfaceWorldOf<AllPairs>>{},
+                   std::type_identity<SurfaceWorldOf<PlaneCells>>{});
+  else if (is_exact(scene) && !settings.general)
+    engine_ = on_plane(std::type_identity<SubstratePhase>{});
+  else
+    engine_ = on_plane(std::type_identity<DrivenPhase>{});
 }
 
 EventSolver::EventSolver(const EventSolver& other) : engine_(other.engine_->copy()) {}

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "physics/contact/collision.h"
 #include "physics/numbers.h"
@@ -29,11 +28,8 @@ SubstrateWorld<Phase, Near>::SubstrateWorld(const Scene& scene, std::span<const 
       least_(least),
       near_(scene, initial),
       bodies_(initial.size()),
-      phases_(initial.size()) {
-  if constexpr (kHasCells && kIsStill) {
-    partner_.resize(initial.size());
-    std::iota(partner_.begin(), partner_.end(), 0);
-  }
+      phases_(initial.size()),
+      partial_(kShowsPart ? initial.size() : 0) {
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
     BodyState state = initial[i];
     const Sphere& sphere = scene.bodies[i];
@@ -277,10 +273,7 @@ void SubstrateWorld<Phase, Near>::exchange_impulse(std::size_t first, std::size_
   if (!sink_) return;
   frame_.touches.push_back({static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j)),
                             std::max(result.impulse.norm(), 1e-300)});
-  if constexpr (kHasCells && kIsStill) {
-    partner_[i] = j;
-    partner_[j] = i;
-  }
+  if constexpr (kShowsPart) partial_.note_collision(i, j);
 }
 
 /// Bodies that would touch each other within the contact time collide at once.
@@ -330,33 +323,21 @@ void SubstrateWorld<Phase, Near>::show(double now) {
   }
   sink_->take(now, frame_);
   frame_.touches.clear();
-  is_partly_shown_ = false;
+  partial_.note_whole();
 }
 
-/// With those that they met last: what both become is looked at when the later one has become it.
 template <class Phase, class Near>
 void SubstrateWorld<Phase, Near>::show_changed(std::span<const std::uint32_t> changed, double now,
                                                bool is_all_known) {
   if (!sink_) return;
-  if constexpr (kHasCells && kIsStill) {
-    if (is_all_known) {
-      shown_.assign(changed.begin(), changed.end());
-      for (const std::uint32_t i : changed)
-        if (std::ranges::find(shown_, partner_[i]) == shown_.end()) shown_.push_back(partner_[i]);
-      shown_states_.clear();
-      const std::size_t touches = frame_.touches.size();
-      for (const std::size_t i : shown_) {
-        const auto body = static_cast<std::uint32_t>(i);
-        shown_states_.push_back(state_at(body, now));
-        if (phases_[i].is_supported()) frame_.touches.push_back(substrate_touch(body));
-      }
-      if (sink_->take_partial(now, {shown_, shown_states_, frame_.touches})) {
-        frame_.touches.clear();
-        is_partly_shown_ = true;
-        return;
-      }
-      frame_.touches.resize(touches);
-    }
+  if constexpr (kShowsPart) {
+    const auto add_touch = [&](std::uint32_t i) {
+      if (phases_[i].is_supported()) frame_.touches.push_back(substrate_touch(i));
+    };
+    if (is_all_known && partial_.show(
+                            *sink_, changed, now, frame_.touches,
+                            [&](std::uint32_t i) { return state_at(i, now); }, add_touch))
+      return;
   }
   show(now);
 }

@@ -13,6 +13,7 @@
 #include "reference/events/event_scheduler.h"
 #include "reference/events/least_speeds.h"
 #include "reference/events/neighbours.h"
+#include "reference/events/partial_frames.h"
 #include "reference/events/path_collision.h"
 #include "scene/scene.h"
 
@@ -56,7 +57,7 @@ class SubstrateWorld {
   void show(double now);
   /// All bodies, where the last frame had not all of them.
   void show_the_rest(double now) {
-    if (is_partly_shown_) show(now);
+    if (partial_.is_last_partial()) show(now);
   }
   BodyState state_at(std::uint32_t i, double now) const;  ///< unfolded
   std::size_t events() const { return events_; }          ///< collisions and ends of phases
@@ -130,11 +131,8 @@ class SubstrateWorld {
   bool was_altered_ = false;  ///< the last collision, by LeastSpeeds
   FrameSink* sink_ = nullptr;
   Frame frame_;
-  std::vector<std::uint32_t> partner_;  ///< of each body's last collision, or itself
-  // A partial frame.
-  bool is_partly_shown_ = false;
-  std::vector<std::size_t> shown_;
-  std::vector<BodyState> shown_states_;
+  static constexpr bool kShowsPart = kHasCells && kIsStill;
+  PartialFrames partial_;
 };
 
 extern template class SubstrateWorld<SubstratePhase, AllPairs>;

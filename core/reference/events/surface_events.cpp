@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "physics/contact/collision.h"
@@ -21,8 +22,9 @@ Sphere immovable() { return {1, kNever, 1}; }
 
 }  // namespace
 
-BodyChange SurfaceWorld::do_own_event(std::uint32_t i, double now) {
+void SurfaceWorld::end_path(std::uint32_t i, double now) {
   Body& body = bodies_[i];
+  const std::array<std::uint32_t, 1> changed = {i};
   ++events_;
   body.left = kNone;
   BodyState state = body.next == Own::phase ? places_[body.support].from_local(phases_[i].at_end())
@@ -34,7 +36,7 @@ BodyChange SurfaceWorld::do_own_event(std::uint32_t i, double now) {
       const SurfacePlace::Beside at =
           places_[body.hit].beside(scene_->bodies[i].radius, {state.position, state.velocity}, now);
       if (at.gap > touching(i)) break;  // a search that gave up
-      show(now);
+      show_changed(changed, now);
       const bool is_pressed = body.support != kNone && at.near.normal.dot(body.acceleration) < 0;
       if (at.opening >= -(is_pressed ? slowest_hop(i, at.near.point) : slowest_))
         give_up(i, now, "is pressed against two surfaces");
@@ -47,8 +49,7 @@ BodyChange SurfaceWorld::do_own_event(std::uint32_t i, double now) {
       break;
   }
   start_path(i, state, now);
-  show(now);
-  return BodyChange::path;
+  show_changed(changed, now);
 }
 
 double SurfaceWorld::slowest_hop(std::uint32_t i, const Vector3& at) const {
@@ -148,7 +149,7 @@ std::span<const std::uint32_t> SurfaceWorld::collide(std::uint32_t i, std::uint3
   const double contact = scene_->bodies[i].radius + scene_->bodies[j].radius;
   if ((states[0].position - states[1].position).norm() > (1 + 1e-9) * contact) return changed_;
   ++events_;
-  show(now);
+  show_changed(changed_, now);
   // Seen from what carries the one, which takes its part; what carries the other alone is hit by it
   // afterwards.
   const std::size_t on[2] = {bodies_[changed_[0]].support, bodies_[changed_[1]].support};
@@ -193,18 +194,22 @@ std::span<const std::uint32_t> SurfaceWorld::collide(std::uint32_t i, std::uint3
   if (sink_)
     frame_.touches.push_back({static_cast<int>(changed_[0]), static_cast<int>(changed_[1]),
                               std::max(result.impulse.norm(), 1e-300)});
+  if (shows_part_) partial_.note_collision(changed_[0], changed_[1]);
   for (int k = 0; k < 2; ++k) {
     const std::uint32_t body = changed_[k];
     bodies_[body].left = kNone;
-    bodies_[body].last_collision = now;
+    if (result.altered) ++bodies_[body].collapses;
     bodies_[body].hardest_impact = std::max(bodies_[body].hardest_impact, result.impact_speed);
     bodies_[body].support = find_support(body, states[k], now);
     meet_surfaces(body, states[k], now);
     start_path(body, states[k], now);
   }
-  show(now);
-  constexpr std::size_t kMostCollapses = 10'000;
-  if (collapses_ > kMostCollapses) give_up(i, now, fmt::format("stays in contact with body {}", j));
+  show_changed(changed_, now);
+  // The more there are, the longer do two have to be pressed together for contacts that last, in
+  // steps of all bodies, to be worth their while.
+  const std::size_t most_collapses = 10'000 + 100 * bodies_.size();
+  if (std::max(bodies_[i].collapses, bodies_[j].collapses) > most_collapses)
+    give_up(i, now, fmt::format("stays in contact with body {}", j));
   return changed_;
 }
 

@@ -11,7 +11,14 @@
 
 namespace slipcheck {
 
-double SurfaceWorld::own_event_time(std::uint32_t i, double now) {
+double SurfaceWorld::path_end(std::uint32_t i, double now) {
+  Body& body = bodies_[i];
+  if (!body.is_end_known) body.path_end = find_path_end(i, now);
+  body.is_end_known = true;
+  return body.path_end;
+}
+
+double SurfaceWorld::find_path_end(std::uint32_t i, double now) {
   Body& body = bodies_[i];
   body.next = Own::phase;
   body.hit = kNone;

@@ -39,12 +39,13 @@ std::string SurfaceWorld::obstacle(const Scene& scene) {
 }
 
 SurfaceWorld::SurfaceWorld(const Scene& scene, std::span<const BodyState> initial,
-                           const LeastSpeeds& least, double now)
+                           const LeastSpeeds& least, double now, bool may_show_part)
     : scene_(&scene),
       least_(least),
       slowest_(1e-12 * speed_scale(scene, initial)),
       bodies_(initial.size()),
-      phases_(initial.size()) {
+      phases_(initial.size()),
+      partial_(may_show_part ? initial.size() : 0) {
   const Vector3 gravity = scene.gravity_vector();
   if (scene.has_substrate) {
     const Surface plane{PlaneShape{},
@@ -53,6 +54,11 @@ SurfaceWorld::SurfaceWorld(const Scene& scene, std::span<const BodyState> initia
   }
   for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
     places_.push_back(SurfacePlace(scene.surfaces[k], surface_touch(k), gravity));
+  shows_part_ =
+      may_show_part && scene.motion.is_still() &&
+      std::ranges::all_of(places_, [](const SurfacePlace& place) {
+        return place.surface.motion.is_still() && (!place.carries || place.downhill.isZero(0));
+      });
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
     BodyState state = initial[i];
     bodies_[i].support = find_support(i, state, now);
@@ -91,10 +97,22 @@ PathPoint SurfaceWorld::on_path(std::uint32_t i, double now) const {
   return {state.position, state.velocity};
 }
 
+void SurfaceWorld::count(std::uint32_t i) {
+  Body& body = bodies_[i];
+  const bool flies = body.support == kNone;
+  const bool slips = flies || phases_[i].kind() == DrivenPhase::Kind::sliding;
+  const bool moves = flies || !phases_[i].is_at_rest();
+  slipping_ += static_cast<std::size_t>(slips) - static_cast<std::size_t>(body.slips);
+  moving_ += static_cast<std::size_t>(moves) - static_cast<std::size_t>(body.moves);
+  body.slips = slips;
+  body.moves = moves;
+}
+
 void SurfaceWorld::start_path(std::uint32_t i, const BodyState& state, double now) {
   Body& body = bodies_[i];
   body.support = find_support(i, state, now);
   body.start = now;
+  body.is_end_known = false;
   if (body.support == kNone) {
     body.flight = state;
     body.position = state.position;
@@ -103,6 +121,7 @@ void SurfaceWorld::start_path(std::uint32_t i, const BodyState& state, double no
     body.is_parabola = true;
     body.bound = body.acceleration.norm();
     body.end = kNever;
+    count(i);
     return;
   }
   const SurfacePlace& place = places_[body.support];
@@ -120,6 +139,7 @@ void SurfaceWorld::start_path(std::uint32_t i, const BodyState& state, double no
       body.is_parabola ? Vector3(place.axes * phase.acceleration()) : Vector3::Zero();
   body.bound = body.is_parabola ? body.acceleration.norm() : phase.largest_acceleration();
   body.end = now + phase.duration();
+  count(i);
 }
 
 /// The plane that carries the body: it touches, does not leave, and gravity presses it there.
@@ -150,21 +170,10 @@ std::size_t SurfaceWorld::find_support(std::uint32_t i, const BodyState& state, 
 
 // --- for whoever looks on ------------------------------------------------------------------------
 
-bool SurfaceWorld::is_any_slipping() const {
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (bodies_[i].support == kNone || phases_[i].kind() == DrivenPhase::Kind::sliding) return true;
-  return false;
-}
-
-bool SurfaceWorld::is_any_moving() const {
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (bodies_[i].support == kNone || !phases_[i].is_at_rest()) return true;
-  return false;
-}
-
-std::vector<std::string> SurfaceWorld::features() const {
-  return {"phases on the plane that carries a body, impacts on the other surfaces",
-          "all pairs, a scan for the next event"};
+void SurfaceWorld::add_support_touch(std::uint32_t i) {
+  if (bodies_[i].support != kNone)
+    frame_.touches.push_back(
+        {static_cast<int>(i), places_[bodies_[i].support].touch, scene_->bodies[i].mass});
 }
 
 void SurfaceWorld::show(double now) {
@@ -172,12 +181,21 @@ void SurfaceWorld::show(double now) {
   frame_.bodies.resize(bodies_.size());
   for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
     frame_.bodies[i] = state_at(i, now);
-    if (bodies_[i].support != kNone)
-      frame_.touches.push_back(
-          {static_cast<int>(i), places_[bodies_[i].support].touch, scene_->bodies[i].mass});
+    add_support_touch(i);
   }
   sink_->take(now, frame_);
   frame_.touches.clear();
+  partial_.note_whole();
+}
+
+void SurfaceWorld::show_changed(std::span<const std::uint32_t> changed, double now) {
+  if (!sink_) return;
+  if (shows_part_ &&
+      partial_.show(
+          *sink_, changed, now, frame_.touches, [&](std::uint32_t i) { return state_at(i, now); },
+          [&](std::uint32_t i) { add_support_touch(i); }))
+    return;
+  show(now);
 }
 
 }  // namespace slipcheck
