@@ -40,7 +40,7 @@ def events(build, n):
 
 
 def grains(build, n, fraction, kind, steps, data):
-    out, memory = child([build / "grains", n, fraction, kind, steps // 10, steps, 1, data])
+    out, memory = child([build / "grains", n, fraction, kind, 1, steps // 10, steps, 1, data])
     return 1e9 / float(out.split()[0]), memory
 
 
