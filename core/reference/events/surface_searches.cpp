@@ -12,10 +12,9 @@
 namespace slipcheck {
 
 double SurfaceWorld::path_end(std::uint32_t i, double now) {
-  Body& body = bodies_[i];
-  if (!body.is_end_known) body.path_end = find_path_end(i, now);
-  body.is_end_known = true;
-  return body.path_end;
+  std::optional<double>& end = bodies_[i].path_end;
+  if (!end) end = find_path_end(i, now);
+  return *end;
 }
 
 double SurfaceWorld::find_path_end(std::uint32_t i, double now) {

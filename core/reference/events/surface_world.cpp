@@ -112,7 +112,7 @@ void SurfaceWorld::start_path(std::uint32_t i, const BodyState& state, double no
   Body& body = bodies_[i];
   body.support = find_support(i, state, now);
   body.start = now;
-  body.is_end_known = false;
+  body.path_end.reset();
   if (body.support == kNone) {
     body.flight = state;
     body.position = state.position;

@@ -94,11 +94,10 @@ class SurfaceWorld {
     std::size_t left = kNone;  ///< the plate over whose edge it has just gone
     bool is_parabola = true;
     bool slips = false, moves = false;  ///< as counted
-    double path_end = kNever;           ///< path_end(), once it is known
-    bool is_end_known = false;
-    Own next = Own::phase;    ///< what then happens
-    std::size_t hit = kNone;  ///< the surface of Own::hit
-    BodyState flight;         ///< at its start, where nothing carries it
+    std::optional<double> path_end;     ///< once it is known
+    Own next = Own::phase;              ///< what then happens
+    std::size_t hit = kNone;            ///< the surface of Own::hit
+    BodyState flight;                   ///< at its start, where nothing carries it
   };
   SurfaceContact contact_of(std::uint32_t i, std::size_t place) const;
   double touching(std::uint32_t i) const { return 1e-9 * scene_->bodies[i].radius; }
