@@ -291,9 +291,8 @@ TEST(SurfaceWorld, CellsFindWhatAllPairsFind) {
   }
 }
 
-/// Down a slope, off its edge and over the table: ways through cells that are parabolas and ways
-/// that are not.
-TEST(SurfaceWorld, CellsFollowFlightsAndSlopes) {
+/// Flights, and slides on a table that moves, whose ways through cells are no parabolas.
+TEST(SurfaceWorld, CellsFollowFlightsAndSlides) {
   Scene scene = test::balls_in_frame(30);
   for (std::size_t i = 0; i < scene.initial.size(); i += 3)
     scene.initial[i].position.z() += 2 + 0.1 * static_cast<double>(i);
