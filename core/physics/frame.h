@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -41,6 +42,7 @@ struct PartialFrame {
   std::span<const std::size_t> bodies;  ///< each once
   std::span<const BodyState> states;    ///< of these, in their order
   std::span<const Touch> touches;       ///< of these, since the frame before
+  std::function<BodyState(std::size_t)> state_of = {};  ///< now, of any body
 };
 
 /// Takes the frames of a run one after the other.

@@ -33,7 +33,8 @@ bool ReverseSink::take_partial(double time, const PartialFrame& frame) {
   bodies_.clear();
   for (const std::size_t i : frame.bodies) bodies_.push_back(count_ - 1 - i);
   reverse_touches(frame.touches);
-  return sink_.take_partial(time, {bodies_, frame.states, frame_.touches});
+  const auto state_of = [this, &frame](std::size_t i) { return frame.state_of(count_ - 1 - i); };
+  return sink_.take_partial(time, {bodies_, frame.states, frame_.touches, state_of});
 }
 
 CollapseRule other_rule(CollapseRule rule) {

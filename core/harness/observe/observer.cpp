@@ -151,7 +151,8 @@ void Observer::take(double time, const Frame& frame) {
   note_substrate(frame.touches, t1, frame.bodies);
   note_touches(t0, t1, frame);
   for (std::size_t i = 0; i < bodies_.size(); ++i) follow(i, t1, frame);
-  for (Pair& pair : pairs_) settle_effective_restitution(pair, t0, t1, frame);
+  for (Pair& pair : pairs_)
+    if (has_settled(pair)) settle_effective_restitution(pair, t0, t1, frame);
   keep_frames_of_the_end();
   std::swap(before_last_, last_);
   time_before_ = t0;
@@ -174,8 +175,13 @@ bool Observer::take_partial(double time, const PartialFrame& frame) {
     follow(i, time, now_);
     if (const std::size_t pair = bodies_[i].last_pair; pair != kNone) settling_.push_back(pair);
   }
-  for (const std::size_t pair : settling_)
-    settle_effective_restitution(pairs_[pair], time_, time, now_);
+  for (const std::size_t number : settling_) {
+    Pair& pair = pairs_[number];
+    if (!has_settled(pair)) continue;
+    // The other may have met others since, too softly to count.
+    for_bodies_of(pair, [&](std::size_t k) { now_.bodies[k] = frame.state_of(k); });
+    settle_effective_restitution(pair, time_, time, now_);
+  }
   for (const std::size_t i : frame.bodies) {
     before_last_.bodies[i] = last_.bodies[i];
     last_.bodies[i] = now_.bodies[i];

@@ -229,6 +229,8 @@ class Observer final : public FrameSink {
   void follow_flight(Body& body, std::size_t i, bool touches, double t0, double t1,
                      const Frame& frame);
   void follow_landing(Body& body, std::size_t i, const Frame& frame);
+  /// Both roll since they collided.
+  bool has_settled(const Pair& pair) const;
   void settle_effective_restitution(Pair& pair, double t0, double t1, const Frame& frame);
   /// Over the substrate: the slip of the lowest point, the centre's velocity and position.
   Vector3 slip_of(std::size_t i, const BodyState& state, const Ground& ground) const;

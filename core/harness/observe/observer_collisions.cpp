@@ -217,15 +217,16 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
   });
 }
 
-void Observer::settle_effective_restitution(Pair& pair, double t0, double t1, const Frame& frame) {
-  if (!pair.awaits_rolling || pair.colliding) return;
-  double both = -std::numeric_limits<double>::infinity();
+bool Observer::has_settled(const Pair& pair) const {
+  if (!pair.awaits_rolling || pair.colliding) return false;
   bool all_roll = true;
-  for_bodies_of(pair, [&](std::size_t k) {
-    all_roll = all_roll && rolls(bodies_[k]);
-    both = std::max(both, bodies_[k].slide_end);
-  });
-  if (!all_roll) return;
+  for_bodies_of(pair, [&](std::size_t k) { all_roll = all_roll && rolls(bodies_[k]); });
+  return all_roll;
+}
+
+void Observer::settle_effective_restitution(Pair& pair, double t0, double t1, const Frame& frame) {
+  double both = -std::numeric_limits<double>::infinity();
+  for_bodies_of(pair, [&](std::size_t k) { both = std::max(both, bodies_[k].slide_end); });
   const auto velocity_then = [&](int k) -> Vector3 {
     const std::size_t i = index(k);
     const Body& body = bodies_[i];

@@ -40,7 +40,9 @@ class PartialFrames {
       states_.push_back(state_of(body));
       add_touch(body);
     }
-    is_last_partial_ = sink.take_partial(now, {shown_, states_, touches});
+    is_last_partial_ = sink.take_partial(
+        now, {shown_, states_, touches,
+              [&state_of](std::size_t i) { return state_of(static_cast<std::uint32_t>(i)); }});
     touches.resize(is_last_partial_ ? 0 : of_event);
     return is_last_partial_;
   }

@@ -44,7 +44,8 @@ void PlanarWorld::show_changed(double now, bool is_all_known) {
     states_.push_back(state_at(i, now));
     frame_.touches.push_back(substrate_touch(i));
   }
-  if (!is_all_known || !sink_->take_partial(now, {shown_, states_, frame_.touches}))
+  const auto state_of = [this, now](std::size_t i) { return state_at(i, now); };
+  if (!is_all_known || !sink_->take_partial(now, {shown_, states_, frame_.touches, state_of}))
     show(now, *sink_);
   touches_.clear();
 }
