@@ -39,9 +39,9 @@ struct Frame {
 /// A frame of those bodies alone that an event is about to change or has just changed. The others
 /// go on as they did.
 struct PartialFrame {
-  std::span<const std::size_t> bodies;  ///< each once
-  std::span<const BodyState> states;    ///< of these, in their order
-  std::span<const Touch> touches;       ///< of these, since the frame before
+  std::span<const std::size_t> bodies;                  ///< each once
+  std::span<const BodyState> states;                    ///< of these, in their order
+  std::span<const Touch> touches;                       ///< of these, since the frame before
   std::function<BodyState(std::size_t)> state_of = {};  ///< now, of any body
 };
 
