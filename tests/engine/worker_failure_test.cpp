@@ -557,6 +557,9 @@ TEST_F(WorkerFailureTest, AWorkerThatIsLetGoEndsWell) {
 
 TEST_F(WorkerFailureTest, AWorkerThatStaysIsEnded) {
   WorkerProcess worker("/usr/bin/yes", {});  // writes for ever and reads nothing
+  // It may take long to start where much else runs.
+  for (int k = 0; k < 30'000 && worker.unread() == 0; ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   const WorkerEnd end = worker.finish({}, true, 0.2);
   EXPECT_FALSE(end.exited);
   EXPECT_FALSE(end.well);
