@@ -272,7 +272,7 @@ TEST(SurfaceWorld, BouncesOnWhatIsRound) {
 }
 
 /// Who is in no cell beside a body meets it not: the same collisions. Instants are found from other
-/// moments, whose roundings a dozen collisions a body let grow by some 1e5.
+/// moments, whose roundings some three collisions a body let grow to less than 1e-9.
 TEST(SurfaceWorld, CellsFindWhatAllPairsFind) {
   const Scene scene = test::balls_in_frame(60);
   EventSolver in_cells(scene, scene.initial);
