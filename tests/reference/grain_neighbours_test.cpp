@@ -44,6 +44,24 @@ std::vector<NearSphere> spheres_at(const GrainArrays& grains) {
   return spheres;
 }
 
+/// Grains in no order, most of which are in cells of another thread's, and those in their order.
+TEST(GrainNeighbours, LieAlikeWhoeverSortsThem) {
+  const double x = 7.1 * kWidth, y = 5.1 * kWidth;
+  const GrainPlane plane = {kRadius, x, y};
+  GrainArrays grains = random_grains(200, x, y);
+  for (int turn = 0; turn < 2; ++turn) {
+    ThreadTeam alone(1);
+    GrainNeighbours expected;
+    const std::vector<std::uint32_t>& order = expected.sort(grains, plane, kWidth, alone);
+    for (const std::size_t threads : {2, 3, 8}) {
+      ThreadTeam team(threads);
+      GrainNeighbours neighbours;
+      EXPECT_EQ(neighbours.sort(grains, plane, kWidth, team), order) << threads << " threads";
+    }
+    grains = sorted(grains, order);
+  }
+}
+
 /// From one column or row of cells to many, as which the plane repeats in a direction or does not.
 TEST(GrainNeighbours, AreThoseOfAllPairsWhateverTheCells) {
   for (const double columns : {1.0, 2.0, 3.0, 4.0, 11.0})

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/state_archive.h"
+#include "base/thread_team.h"
 #include "physics/contact/normal_force.h"
 #include "physics/sphere.h"
 #include "scene/scene.h"
@@ -28,6 +29,18 @@ struct GrainKind {
   double static_friction = 0;   ///< μ_s [-]
   double kinetic_friction = 0;  ///< μ_k [-]
   std::uint32_t material = 0;
+};
+
+/// Grains, or what else is in an order, begin … end − 1.
+struct GrainStretch {
+  std::uint32_t begin = 0, end = 0;
+  std::uint32_t size() const { return end - begin; }
+  bool has(std::uint32_t k) const { return k - begin < size(); }
+  /// Of `all`, those of thread k.
+  static GrainStretch share(std::size_t all, std::size_t k, const ThreadTeam& team) {
+    const auto [begin, end] = team.share_of(all, k);
+    return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+  }
 };
 
 /// The forces between two materials.

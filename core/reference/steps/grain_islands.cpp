@@ -28,20 +28,19 @@ void GrainIslands::find(std::size_t grains, const GrainPairs& listed,
   shares_.resize(team.size() + 1);
   // Between two of these all threads have done the first.
   const auto each = [&](const auto& work) {
-    team.run_shares(grains, [&](std::size_t own, std::size_t first, std::size_t last) {
-      work(Stretch{first, last}, shares_[own]);
-    });
+    team.run(team.size(),
+             [&](std::size_t own) { work(GrainStretch::share(grains, own, team), shares_[own]); });
   };
   forget(shares_.back());
-  each([&](const Stretch& own, Share& share) {
+  each([&](const GrainStretch& own, Share& share) {
     const auto at = [&](std::size_t grain) {
       return static_cast<std::size_t>(std::ranges::lower_bound(listed.first, grain) -
                                       listed.first.begin());
     };
-    look(at(own.first), at(own.last), share.found);
+    look(at(own.begin), at(own.end), share.found);
     join_within(listed, own, share);
   });
-  each([&](const Stretch& own, Share& share) { sort_within(listed, hit, own, share); });
+  each([&](const GrainStretch& own, Share& share) { sort_within(listed, hit, own, share); });
   sort_between(listed);
   make_groups(team.size());
 }
@@ -73,7 +72,7 @@ void GrainIslands::forget(Share& share) {
   share.kept.clear();
 }
 
-void GrainIslands::join_within(const GrainPairs& pairs, const Stretch& own, Share& share) {
+void GrainIslands::join_within(const GrainPairs& pairs, const GrainStretch& own, Share& share) {
   forget(share);
   share.across.clear();
   for (const std::uint32_t k : share.found.near) {
@@ -85,7 +84,7 @@ void GrainIslands::join_within(const GrainPairs& pairs, const Stretch& own, Shar
 }
 
 void GrainIslands::sort_within(const GrainPairs& pairs, std::span<const std::uint32_t> hit,
-                               const Stretch& own, Share& share) {
+                               const GrainStretch& own, Share& share) {
   share.reached.clear();
   share.hit.clear();
   for (const Share& other : shares_)
@@ -182,7 +181,8 @@ void GrainIslands::make_groups(std::size_t threads) {
       shared ? std::clamp(grain_count() / (kForThread * threads), kSmallGroup, kGroup) : kGroup;
   groups_.clear();
   std::size_t grains = 0, pairs = 0;  // before a group
-  for (const Share& share : shares_) {
+  for (Share& share : shares_) {
+    share.groups.begin = static_cast<std::uint32_t>(groups_.size());
     const std::vector<std::uint32_t>& ends = share.grain_start;
     for (std::size_t first = 0, last = 1; last < ends.size(); ++last) {
       const std::size_t own_grains = ends[last] - ends[first];
@@ -197,6 +197,7 @@ void GrainIslands::make_groups(std::size_t threads) {
       pairs += own_pairs;
       first = last;
     }
+    share.groups.end = static_cast<std::uint32_t>(groups_.size());
   }
 }
 

@@ -48,6 +48,11 @@ class GrainIslands {
 
   /// Valid until the next find().
   const std::vector<GrainIslandGroup>& groups() const { return groups_; }
+  /// Those of the stretch of thread k; for k = the number of threads those between stretches.
+  std::span<const GrainIslandGroup> groups_of(std::size_t k) const {
+    const auto [begin, end] = shares_[k].groups;
+    return std::span(groups_).subspan(begin, end - begin);
+  }
   /// Of a grain of a group, to be shifted.
   std::uint32_t place(std::uint32_t grain) const { return place_[grain]; }
   std::size_t grain_count() const;
@@ -56,11 +61,6 @@ class GrainIslands {
   std::size_t pair_count() const { return groups_.empty() ? 0 : groups_.back().batch.last_pair; }
 
  private:
-  /// Grains first … last − 1.
-  struct Stretch {
-    std::size_t first, last;
-    bool has(std::uint32_t grain) const { return first <= grain && grain < last; }
-  };
   /// The islands of a stretch, or those between stretches.
   struct Share {
     GrainNear found;
@@ -69,15 +69,16 @@ class GrainIslands {
     std::vector<std::uint32_t> met, kept;     ///< its grains and pairs, in the order of the pairs
     std::vector<std::uint32_t> grain_start, pair_start, next;  ///< by island
     std::vector<std::uint32_t> grains, pairs;                  ///< island by island
+    GrainStretch groups;
   };
 
   std::uint32_t root(std::uint32_t grain);
   void join(std::uint32_t a, std::uint32_t b);
   void part(std::uint32_t grain);
   void forget(Share& share);
-  void join_within(const GrainPairs& pairs, const Stretch& own, Share& share);
-  void sort_within(const GrainPairs& pairs, std::span<const std::uint32_t> hit, const Stretch& own,
-                   Share& share);
+  void join_within(const GrainPairs& pairs, const GrainStretch& own, Share& share);
+  void sort_within(const GrainPairs& pairs, std::span<const std::uint32_t> hit,
+                   const GrainStretch& own, Share& share);
   void sort_between(const GrainPairs& pairs);
   void count(const GrainPairs& pairs, Share& share);
   void place(const GrainPairs& pairs, Share& share);

@@ -172,8 +172,8 @@ HWY_ATTR double Glide(const GrainFeatures& features, GrainArrays& grains, std::s
 
 /// Velocities after a kick of dt, and positions after a drift of h; StepBody's kick without lift.
 template <bool kRubs, bool kOnPlane>
-HWY_ATTR void KickAndDrift(GrainBatch& batch, const GrainGroup& group, double R, double dt,
-                           double h) {
+HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group, double R,
+                                      double dt, double h) {
   const std::size_t n = group.last_grain - group.first_grain, o = group.first_grain;
   GrainArrays& g = batch.grains;
   const auto begin = [o](std::vector<double>& values) {

@@ -41,32 +41,63 @@ const std::vector<std::uint32_t>& GrainNeighbours::sort(const GrainArrays& grain
   rows_ = y.cells;
   const std::size_t n = grains.size(), cells = std::size_t{columns_} * rows_;
   cell_.resize(n);
-  team.run_shares(n, [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      cell_[i] = y.cell_of(grains.y[i]) * columns_ + x.cell_of(grains.x[i]);
-  });
   start_.resize(cells + 1);
   start_[0] = 0;
   order_.resize(n);
-  // Each thread looks at all grains for those of its cells.
-  team.run_shares(cells, [&](std::size_t, std::size_t first, std::size_t last) {
-    sort_in(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last));
+  sorted_.resize(team.size());
+  team.run(team.size(), [&](std::size_t k) {
+    Sorted& own = sorted_[k];
+    own.grains = GrainStretch::share(n, k, team);
+    own.cells = GrainStretch::share(cells, k, team);
+    for (std::uint32_t i = own.grains.begin; i < own.grains.end; ++i)
+      cell_[i] = y.cell_of(grains.y[i]) * columns_ + x.cell_of(grains.x[i]);
+    count(own);
   });
+  team.run(team.size(), [&](std::size_t k) { place(k); });
   return order_;
 }
 
-void GrainNeighbours::sort_in(std::uint32_t first, std::uint32_t last) {
+/// How many of a thread's grains are in each of its cells. Few have left these since they were
+/// sorted.
+void GrainNeighbours::count(Sorted& own) {
+  const GrainStretch grains = own.grains, cells = own.cells;
+  const std::uint32_t* const cell_of = cell_.data();
   std::uint32_t* const ends = start_.data() + 1;  // of each cell
-  std::fill(ends + first, ends + last, 0);
-  std::uint32_t next = 0;
-  for (const std::uint32_t cell : cell_) {
-    if (cell - first < last - first) ++ends[cell];
-    next += cell < first ? 1 : 0;
+  std::fill(ends + cells.begin, ends + cells.end, 0);
+  own.gone.clear();
+  for (std::uint32_t i = grains.begin; i < grains.end; ++i) {
+    if (cells.has(cell_of[i]))
+      ++ends[cell_of[i]];
+    else
+      own.gone.push_back(i);
   }
-  for (std::uint32_t cell = first; cell < last; ++cell) next += std::exchange(ends[cell], next);
+}
+
+/// Puts what thread k's cells have into the order, in each as it lay before.
+void GrainNeighbours::place(std::size_t k) {
+  const GrainStretch grains = sorted_[k].grains, cells = sorted_[k].cells;
+  const std::uint32_t* const cell_of = cell_.data();
+  std::uint32_t* const ends = start_.data() + 1;
+  std::uint32_t* const order = order_.data();
+  std::uint32_t next = grains.begin;  // grains in cells before those, if none were gone
+  for (std::size_t of = 0; of < sorted_.size(); ++of)
+    for (const std::uint32_t i : sorted_[of].gone) {
+      if (of < k) --next;
+      if (cell_of[i] < cells.begin) ++next;
+      if (cells.has(cell_of[i])) ++ends[cell_of[i]];
+    }
+  for (std::uint32_t cell = cells.begin; cell < cells.end; ++cell)
+    next += std::exchange(ends[cell], next);
   // Each grain that a cell takes moves its end on.
-  for (std::uint32_t i = 0; i < cell_.size(); ++i)
-    if (cell_[i] - first < last - first) order_[ends[cell_[i]]++] = i;
+  const auto take = [=](std::uint32_t i) {
+    if (cells.has(cell_of[i])) order[ends[cell_of[i]]++] = i;
+  };
+  for (std::size_t of = 0; of < sorted_.size(); ++of) {
+    if (of != k)
+      std::ranges::for_each(sorted_[of].gone, take);
+    else
+      for (std::uint32_t i = grains.begin; i < grains.end; ++i) take(i);
+  }
 }
 
 std::uint32_t GrainNeighbours::sorted(std::uint32_t i) const {
@@ -115,7 +146,7 @@ class GrainNeighbours::Beside {
         is_round_y_(plane.length_y > 0 && rows_ > 2) {}
 
   /// The cell itself and those beside it that come later in the order: each pair is found once.
-  std::span<Stretch> find(std::uint32_t row, std::uint32_t column) {
+  std::span<GrainStretch> find(std::uint32_t row, std::uint32_t column) {
     count_ = 0;
     column_ = column;
     const std::uint32_t last = columns_ - 1;
@@ -142,7 +173,7 @@ class GrainNeighbours::Beside {
   std::uint32_t columns_, rows_;
   bool is_round_x_, is_round_y_;
   std::uint32_t column_ = 0;
-  std::array<Stretch, 6> found_;
+  std::array<GrainStretch, 6> found_;
   std::size_t count_ = 0;
 };
 
@@ -158,9 +189,9 @@ void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane
       const std::size_t cell = std::size_t{row} * columns_ + column;
       const std::uint32_t begin = start_[cell], end = start_[cell + 1];
       if (begin == end) continue;
-      const std::span<Stretch> beside = cells.find(row, column);
+      const std::span<GrainStretch> beside = cells.find(row, column);
       std::size_t most = count;
-      for (const Stretch& s : beside) most += std::size_t{end - begin} * (s.end - s.begin);
+      for (const GrainStretch& s : beside) most += std::size_t{end - begin} * (s.end - s.begin);
       if (found.first.size() < most) {
         found.first.resize(2 * most);
         found.second.resize(2 * most);
@@ -168,7 +199,7 @@ void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane
       for (std::uint32_t i = begin; i < end; ++i) {
         beside.front().begin = i + 1;
         // Each is written down, and stays where it is near: no branch that nobody foresees.
-        for (const Stretch& s : beside)
+        for (const GrainStretch& s : beside)
           for (std::uint32_t j = s.begin; j < s.end; ++j) {
             double dx = x[i] - x[j], dy = y[i] - y[j];
             dx -= shift_to_nearest_image(dx, plane.length_x);

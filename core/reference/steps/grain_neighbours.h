@@ -33,9 +33,11 @@ class GrainNeighbours {
   std::uint32_t place_of(std::uint32_t i, std::uint32_t j) const;
 
  private:
-  /// Grains that follow each other.
-  struct Stretch {
-    std::uint32_t begin = 0, end = 0;
+  /// What one thread sorts: grains, as they lay before, and cells; `gone`: of the grains those in
+  /// cells of other threads.
+  struct Sorted {
+    GrainStretch grains, cells;
+    std::vector<std::uint32_t> gone;
   };
   /// Those of cells beside one, in the order of the cells.
   class Beside;
@@ -44,8 +46,8 @@ class GrainNeighbours {
     std::vector<std::uint32_t> first, second;
     std::ptrdiff_t count = 0, before = 0;  ///< before: of other threads
   };
-  /// Of cells first … last − 1.
-  void sort_in(std::uint32_t first, std::uint32_t last);
+  void count(Sorted& own);
+  void place(std::size_t k);
   void find_in(const GrainArrays& grains, const GrainPlane& plane, double skin,
                std::uint32_t first_row, std::uint32_t last_row, Found& found) const;
 
@@ -53,6 +55,7 @@ class GrainNeighbours {
   std::vector<std::uint32_t> cell_;   ///< of each grain, in the order before sort()
   std::vector<std::uint32_t> start_;  ///< of each cell in the new order
   std::vector<std::uint32_t> order_;
+  std::vector<Sorted> sorted_;  ///< by thread
   std::vector<std::uint32_t> first_, second_;
   std::vector<Found> found_;
 };

@@ -321,10 +321,15 @@ class GrainSolver::Impl {
     std::vector<double> still2(team_.size(), begins ? begin_gliding() : 0);
     team_.run_shares(grains_.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
       if (!begins) still2[own] = kernels_.glide(grains_, first, last, step_, length);
-      for (const GrainIslandGroup& group : islands_.groups())
-        for (std::size_t k = 0; k < group.grains.size(); ++k)
-          if (first <= group.grains[k] && group.grains[k] < last)
-            grains_.take(group.grains[k], batch_.grains, group.batch.first_grain + k, features());
+      const auto take_back = [&](const GrainIslandGroup& group, bool is_between) {
+        for (std::size_t k = 0; k < group.grains.size(); ++k) {
+          const std::uint32_t i = group.grains[k];
+          if (!is_between || (first <= i && i < last))
+            grains_.take(i, batch_.grains, group.batch.first_grain + k, features());
+        }
+      };
+      for (const GrainIslandGroup& group : islands_.groups_of(own)) take_back(group, false);
+      for (const GrainIslandGroup& group : islands_.groups_of(team_.size())) take_back(group, true);
       const auto [group, end] = team_.share_of(ended_.size(), own);
       for (std::size_t k = group; k < end; ++k) keep_contacts(k);
     });
