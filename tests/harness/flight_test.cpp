@@ -144,6 +144,61 @@ TEST(Flight, KnowsNoPlaceTimeOrHeading) {
   }
 }
 
+/// Two that do not meet and are thrown up at the start, one of them from `above` the plane [m].
+TEST(Flight, BeginsWithTheRunWhereABodyIsThrownUp) {
+  constexpr double g = 9.81, e = 0.8, fast = 0.05, slow = 0.008;
+  for (const double above : {0.0, 1e-4}) {
+    Scene thrown = test::steel_scene(2);
+    thrown.substrate[0].restitution = e;
+    thrown.initial[0].velocity = {0.1, 0, fast};
+    thrown.initial[0].position.z() += above;
+    thrown.initial[1].position.x() = -0.1;
+    thrown.initial[1].velocity = {0, 0.1, slow};
+    const ContactScene hard = with_hard_contacts(thrown);
+    const ContactScene soft =
+        test::soft(thrown, 1e-4, ContactEnd::zero_overlap, ViscousForce{0.1, 0.3});
+    using Reference = Compare::Reference;
+    for (const auto& [scene, solver] : {std::pair(&hard, Reference::event),
+                                        {&hard, Reference::contact},
+                                        {&soft, Reference::contact},
+                                        {&soft, Reference::steps}}) {
+      const Named seen = reference(*scene, solver, 0.06);
+      const auto expect = [&](const std::string& name, double value) {
+        const UncertainValue& found = seen.at(name);
+        // In steps of 1e-4/50 times are known to two, and speeds to what gravity adds in them.
+        EXPECT_LT(found.uncertainty, 0.01 * value) << name;
+        EXPECT_NEAR(found.value, value, found.uncertainty + 1e-11 * value) << name;
+      };
+      const double rise = fast * fast / (2 * g);
+      expect("i.lift_off_speed", fast);
+      expect("i.jump_height", rise);
+      expect("i.flight_time", fast / g + std::sqrt(2 * (rise + above) / g));
+      expect("j.lift_off_speed", slow);
+      expect("j.jump_height", slow * slow / (2 * g));
+      expect("j.flight_time", 2 * slow / g);
+      expect("i-substrate.restitution", e);
+    }
+  }
+}
+
+/// An engine's first frame is a step later, when gravity has slowed the body down.
+TEST(Flight, BeginsWithTheSpeedOfTheStartInStepsToo) {
+  constexpr double kStep = 1.0 / 60, g = 9.81, v = 1;
+  const Scene scene = test::steel_scene(1);
+  Observer observer(scene, kStep, v);
+  Frame frame;
+  frame.bodies = scene.initial;
+  double time = 0;
+  for (; time * g < 1.5 * v; time += kStep) {
+    frame.bodies[0].position.z() = scene.bodies[0].radius + v * time - g * time * time / 2;
+    frame.bodies[0].velocity.z() = v - g * time;
+    observer.take(time, frame);
+  }
+  const BodyObservables seen = observer.finish(time - kStep).bodies[0];
+  EXPECT_EQ(seen.lift_off_speed, v);
+  EXPECT_NEAR(seen.jump_height, v * v / (2 * g), 1e-15);
+}
+
 #ifdef SLIPCHECK_SANITIZE
 constexpr int kStrikes = 8;  // a second each
 #else

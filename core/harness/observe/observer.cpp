@@ -240,7 +240,11 @@ void Observer::begin(double time, const Frame& frame) {
                                      : state.position.z() <= radius * (1 + 1e-9);
     body.supported = is_low && !(rise(body, state) > body.zero.slip);
     if (body.supported) body.supported_frames = kSupportedFrames;
-    if (!body.supported) body.unsupported_since = time;
+    if (!body.supported) {
+      body.unsupported_since = time;
+      body.unsupported_height = level(body, state);
+      if (rise(body, state) > vertical_noise()) lift_off(body, time, state);
+    }
     body.began_on_plane = body.supported;
     body.sliding = body.supported && slips(i, state, ground1_);
     if (body.supported && !body.sliding) body.rolling_velocity = state.velocity;

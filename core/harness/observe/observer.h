@@ -226,6 +226,7 @@ class Observer final : public FrameSink {
   void resolve(Pair& pair, double t0, double t1, const Frame& frame);
   void follow_sliding(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
   void follow_stopping(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
+  void lift_off(Body& body, double time, const BodyState& state) const;
   void follow_flight(Body& body, std::size_t i, bool touches, double t0, double t1,
                      const Frame& frame);
   void follow_landing(Body& body, std::size_t i, const Frame& frame);

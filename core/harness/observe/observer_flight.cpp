@@ -22,6 +22,14 @@ void Observer::follow_support(Body& body, bool touches, double t1, const BodySta
   if (!quiet && body.supported_frames < kSupportedFrames) body.hop_end = t1;
 }
 
+/// The first jump begins.
+void Observer::lift_off(Body& body, double time, const BodyState& state) const {
+  body.jumping = true;
+  body.lift_off_speed = rise(body, state);
+  body.lift_off_time = time;
+  body.lift_off_height = body.peak = level(body, state);
+}
+
 void Observer::follow_flight(Body& body, std::size_t i, bool touches, double t0, double t1,
                              const Frame& frame) {
   const BodyState &s0 = last_.bodies[i], &s1 = frame.bodies[i];
@@ -38,10 +46,8 @@ void Observer::follow_flight(Body& body, std::size_t i, bool touches, double t0,
     // The reference shows that the support is gone; only at an instant, in a bounce, it does not.
     const bool is_free = step_ > 0 || !touches || t1 == t0;
     if (is_free && v1 > slowest && std::isnan(body.lift_off_speed)) {
-      body.jumping = true;
+      lift_off(body, t0, s0);
       body.lift_off_speed = v1;
-      body.lift_off_time = t0;
-      body.lift_off_height = level0;
       if (step_ == 0 && !touches) {
         // Since the support went, though that was in the middle of a collision.
         const bool flew_before = body.collided_now && body.unsupported_since < body.collision_begin;

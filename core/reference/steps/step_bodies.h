@@ -105,7 +105,8 @@ class StepBodies {
           world.n > 0 ? kick<Substrate>(body, *body.kind, around, 0.5 * world.step) : 0;
       const std::size_t i = world.number_of(k);
       shown[i] = {body.position, body.velocity, body.angular_velocity};
-      if (!impulses.empty()) impulses[i] = 2 * half;
+      const StepBody& now = world.bodies[k];
+      if (!impulses.empty()) impulses[i] = 2 * half + (now.supported ? 0 : double{now.bounced});
     }
   }
 };

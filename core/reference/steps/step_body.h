@@ -40,6 +40,7 @@ struct alignas(64) StepBody {
   const StepKind* kind = nullptr;
   bool supported = false;  ///< on the substrate
   bool sticks = false;     ///< to it: no slip
+  float bounced = 0;       ///< while it flies: impulse by the substrate in the last step [N s]
 
   void forget_forces() {
     force.setZero();
@@ -246,9 +247,11 @@ template <class Substrate>
       rub<Substrate>(b, kind, s, impulse, v, w);
     } else {
       b.supported = b.sticks = false;
+      b.bounced = 0;
       v.z() -= dt * s.gravity;
     }
   } else {
+    b.bounced = 0;
     v.z() -= dt * s.gravity;
   }
   b.velocity_change = v - b.velocity;
@@ -276,6 +279,7 @@ inline void land_after_drift(StepBody& b, const StepKind& kind, const StepSurrou
   const double late = std::min((b.radius - b.position.z()) / -b.velocity.z(), 1.0);
   BodyState state{b.position, b.velocity - substrate, b.angular_velocity};
   land(kind.sphere, *kind.contact, slowest_rebound, state);
+  b.bounced = static_cast<float>((state.velocity.z() - b.velocity.z()) / kind.inverse_mass);
   b.velocity = state.velocity + substrate;
   b.angular_velocity = state.angular_velocity;
   b.velocity_change.setZero();
