@@ -181,6 +181,33 @@ TEST(Flight, BeginsWithTheRunWhereABodyIsThrownUp) {
   }
 }
 
+/// Two fall side by side, meet in the air, and bounce off the plane before they part.
+TEST(Flight, BeginsWithABounceInsideACollision) {
+  constexpr double g = 9.81, e = 0.8, above = 1e-3, closing = 0.1, collision_time = 4e-3;
+  const double lands = std::sqrt(2 * above / g), meets = lands - 0.3 * collision_time;
+  Scene falling = test::steel_scene(2);
+  falling.substrate[0] = {};
+  falling.substrate[0].restitution = e;
+  for (BodyState& state : falling.initial) state.position.z() += above;
+  falling.initial[0].velocity.x() = closing;
+  falling.initial[1].position.x() = 0.004 + closing * meets;
+  const ContactScene scene = test::soft(falling, collision_time);
+  const double rebound = e * g * lands;
+  for (const auto solver : {Compare::Reference::contact, Compare::Reference::steps}) {
+    const Named seen = reference(scene, solver, lands + 2.5 * rebound / g);
+    for (const std::string body : {"i", "j"}) {
+      const auto expect = [&](const std::string& name, double value) {
+        const UncertainValue& found = seen.at(body + name);
+        EXPECT_LT(found.uncertainty, 0.03 * value) << body << name;
+        EXPECT_NEAR(found.value, value, found.uncertainty + 1e-9 * value) << body << name;
+      };
+      expect(".lift_off_speed", rebound - g * (meets + collision_time - lands));
+      expect(".jump_height", rebound * rebound / (2 * g));
+      expect(".flight_time", 2 * rebound / g);
+    }
+  }
+}
+
 /// An engine's first frame is a step later, when gravity has slowed the body down.
 TEST(Flight, BeginsWithTheSpeedOfTheStartInStepsToo) {
   constexpr double kStep = 1.0 / 60, g = 9.81, v = 1;

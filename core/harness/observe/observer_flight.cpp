@@ -39,8 +39,9 @@ void Observer::follow_flight(Body& body, std::size_t i, bool touches, double t0,
   if (touches) {
     body.unsupported_since = kNotObserved;
   } else if (std::isnan(body.unsupported_since)) {
-    body.unsupported_since = t1;
-    body.unsupported_height = level1;
+    const bool has_bounced = v0 > slowest;  // at its last touch
+    body.unsupported_since = has_bounced ? t0 : t1;
+    body.unsupported_height = has_bounced ? level0 : level1;
   }
   if (!body.jumping) {
     // The reference shows that the support is gone; only at an instant, in a bounce, it does not.
