@@ -109,6 +109,11 @@ std::string value_name(const Observables& observables, const std::vector<std::st
       .text();
 }
 
+const BodyObservables* body_of_value(const Observables& observables, std::size_t index) {
+  const std::size_t body = index / kOfBody;
+  return body < observables.bodies.size() ? &observables.bodies[body] : nullptr;
+}
+
 std::vector<std::size_t> order_of_names(const Observables& observables,
                                         const std::vector<std::string>& body_names) {
   static const std::vector<std::size_t> kOrderOfBody = order_of(keys_of_body());
@@ -153,6 +158,19 @@ std::vector<double> flat_values(const Observables& observables) {
     for (const auto& scalar : kPairScalars) values.push_back(pair.*scalar.value);
   values.push_back(observables.height);
   return values;
+}
+
+void share_within_vectors(const Observables& observables, std::vector<double>& values) {
+  constexpr std::ptrdiff_t kParts = 4;  // its length and components
+  auto body = values.begin();
+  for (std::size_t i = 0; i < observables.bodies.size(); ++i, body += kOfBody)
+    for (auto part = body + kScalars.size(); part != body + kOfBody; part += kParts) {
+      double largest = 0;
+      for (auto each = part; each != part + kParts; ++each)
+        if (std::isfinite(*each)) largest = std::max(largest, *each);
+      for (auto each = part; each != part + kParts; ++each)
+        if (std::isfinite(*each)) *each = largest;
+    }
 }
 
 std::map<std::string, double> named_values(const Observables& observables,

@@ -70,8 +70,16 @@ struct Observables {
 std::string value_name(const Observables& observables, const std::vector<std::string>& body_names,
                        std::size_t index);
 
+/// The body of such a value, null of a pair's or of all.
+const BodyObservables* body_of_value(const Observables& observables, std::size_t index);
+
 /// The values in the order of their value_name(), NaN where not observed.
 std::vector<double> flat_values(const Observables& observables);
+
+/// Of values in the order of flat_values(), such as their uncertainties: gives each component of a
+/// vector the largest finite one of them, where it is finite itself. One alone may be small by
+/// chance.
+void share_within_vectors(const Observables& observables, std::vector<double>& values);
 
 /// The places of flat_values() in the order of their names: what is put into a map in this order
 /// needs no search in it.

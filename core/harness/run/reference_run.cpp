@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cfenv>
 #include <cmath>
 #include <limits>
@@ -94,9 +95,23 @@ const char* name_of(CollapseRule::Model model) {
   return "";
 }
 
-bool is_time(const std::string& name) {
-  return observable_key(name).known()->dimension.name == std::string_view(kTime.name);
+/// What is not known of the value `index`, called `name`, where its instants are known to `time`: a
+/// time has a frame at either end, and so has the way that a body slides, whatever other steps
+/// happen to agree with it.
+double change_within(double time, const std::string& name, const Observables& seen,
+                     std::size_t index) {
+  const ObservableName& observable = *observable_key(name).known();
+  if (observable.dimension.name == std::string_view(kTime.name)) return time;
+  if (observable.name != "sliding_distance") return 0;
+  const BodyObservables& body = *body_of_value(seen, index);
+  const double before = body.velocity_after_collision.norm();  // NaN without a collision
+  const double after = body.rolling_velocity.norm();
+  return time * (before > after ? before : after);
 }
+
+/// Where in a step contacts begin and end scatters the error, and two runs may have the same by
+/// chance: so many other lengths of step show it.
+constexpr std::array kSteps = {2.0, 1.37, 1.71};
 
 /// The run that the values come from and those that tell their uncertainty.
 struct SolvedRuns {
@@ -114,13 +129,12 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
       runs.others.push_back(
           solve(solver, end, FE_TONEAREST, {.tolerance = tolerance, .softness = 2}).seen);
   } else if (solver.is_piled()) {
-    for (const double factor : {2.0, 1.37})
+    for (const double factor : kSteps)
       runs.others.push_back(solve(solver, end, FE_TONEAREST, {.step = factor}, keeper).seen);
     if (solver.softened_to() > 0)
       runs.others.push_back(solve(solver, end, FE_TONEAREST, {.softness = 2}, keeper).seen);
   } else if (solver.is_stepped()) {
-    // Where in a step contacts begin and end scatters the error; two other lengths of step show it.
-    for (const double factor : {2.0, 1.37})
+    for (const double factor : kSteps)
       runs.others.push_back(solve(solver, end, FE_TONEAREST, {tolerance, 1, factor}, keeper).seen);
   } else {
     runs.others.push_back(solve(solver, end, FE_TONEAREST,
@@ -176,6 +190,7 @@ std::vector<double> uncertainty_of(const std::vector<double>& values, const Refe
                              ? std::numeric_limits<double>::infinity()
                              : std::max(uncertainties[k], safety * std::abs(other[k] - values[k]));
   }
+  if (is_of_first_order) share_within_vectors(runs.value.seen, uncertainties);
   return uncertainties;
 }
 
@@ -230,8 +245,8 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
       continue;
     }
     std::string name = value_name(solved.seen, names, k);
-    // A time has a frame at either end, whatever other steps happen to agree with it.
-    const double least = solver.is_stepped() && is_time(name) ? 2 * solver.step() : 0;
+    const double least =
+        solver.is_stepped() ? change_within(2 * solver.step(), name, solved.seen, k) : 0;
     if (!std::isnan(closed[k]))
       result.closed_form.emplace_hint(result.closed_form.end(), name, closed[k]);
     result.observables.emplace_hint(result.observables.end(), std::move(name),
