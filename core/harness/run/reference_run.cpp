@@ -104,14 +104,15 @@ double change_within(double time, const std::string& name, const Observables& se
   if (observable.dimension.name == std::string_view(kTime.name)) return time;
   if (observable.name != "sliding_distance") return 0;
   const BodyObservables& body = *body_of_value(seen, index);
-  const double before = body.velocity_after_collision.norm();  // NaN without a collision
-  const double after = body.rolling_velocity.norm();
-  return time * (before > after ? before : after);
+  // Either may be NaN, as where there was no collision.
+  const double fastest =
+      std::fmax(body.velocity_after_collision.norm(), body.rolling_velocity.norm());
+  return time * std::fmax(fastest, 0);
 }
 
 /// Where in a step contacts begin and end scatters the error, and two runs may have the same by
 /// chance: so many other lengths of step show it.
-constexpr std::array kSteps = {2.0, 1.37, 1.71};
+constexpr std::array kOtherSteps = {2.0, 1.37, 1.71};
 
 /// The run that the values come from and those that tell their uncertainty.
 struct SolvedRuns {
@@ -129,12 +130,12 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
       runs.others.push_back(
           solve(solver, end, FE_TONEAREST, {.tolerance = tolerance, .softness = 2}).seen);
   } else if (solver.is_piled()) {
-    for (const double factor : kSteps)
+    for (const double factor : kOtherSteps)
       runs.others.push_back(solve(solver, end, FE_TONEAREST, {.step = factor}, keeper).seen);
     if (solver.softened_to() > 0)
       runs.others.push_back(solve(solver, end, FE_TONEAREST, {.softness = 2}, keeper).seen);
   } else if (solver.is_stepped()) {
-    for (const double factor : kSteps)
+    for (const double factor : kOtherSteps)
       runs.others.push_back(solve(solver, end, FE_TONEAREST, {tolerance, 1, factor}, keeper).seen);
   } else {
     runs.others.push_back(solve(solver, end, FE_TONEAREST,
