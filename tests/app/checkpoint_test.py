@@ -50,7 +50,7 @@ compare: {engines: []}
 """
 VISCOUS = "{model: viscous, damping_ratio: 0.5, friction: 0.3}"
 SPRING = "{model: spring, stiffness_ratio: 0.286, friction: 0.3}"
-SHARE = 0.2 if SANITIZED else 1
+SHARE = 0.16 if SANITIZED else 0.8
 SCENES = {
     # In islands; by neighbours of unlike radii; in contacts that remember.
     "grains": SCENE.format(name="grains", tangential=VISCOUS, confined=", confined: true", count=60,
