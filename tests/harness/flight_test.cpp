@@ -165,7 +165,7 @@ TEST(Flight, BeginsWithTheRunWhereABodyIsThrownUp) {
       const Named seen = reference(*scene, solver, 0.06);
       const auto expect = [&](const std::string& name, double value) {
         const UncertainValue& found = seen.at(name);
-        // In steps of 1e-4/50 times are known to two, and speeds to what gravity adds in them.
+        // Steps, of 1e-4/200, know times to two and speeds to what gravity adds in these.
         EXPECT_LT(found.uncertainty, 0.01 * value) << name;
         EXPECT_NEAR(found.value, value, found.uncertainty + 1e-11 * value) << name;
       };
