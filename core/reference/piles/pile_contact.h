@@ -49,6 +49,14 @@ struct PileTurning {
 };
 struct NoPileTurning {};
 
+/// Of a hard contact, as long as it may be an impact and no more.
+struct PileImpact {
+  double until = 0;                  ///< [s]; from then on it lasts
+  double rebound = 0;                ///< e g_N [m/s]
+  double friction = 0;               ///< μ
+  Vector3 leaves = Vector3::Zero();  ///< −β0 u_t, the slip that is left where it sticks [m/s]
+};
+
 /// Two that touch, and what they remember of each other. kTurns: rolling or drilling is resisted.
 template <bool kTurns>
 struct PileContact : std::conditional_t<kTurns, PileTurning, NoPileTurning> {
@@ -59,6 +67,7 @@ struct PileContact : std::conditional_t<kTurns, PileTurning, NoPileTurning> {
   /// What a hard contact's normal spring is longer by than the bodies overlap, since it was
   /// prepared, until it opens [m].
   double offset = 0;
+  PileImpact impact;
   const PileLaw* law = nullptr;
 
   // As of the instant before.

@@ -15,9 +15,9 @@ namespace {
 /// Of the smaller radius, how far hard bodies may enter each other; soft ones by all of it.
 constexpr double kDeepest = 0.1;
 
-/// The substrate's friction as that of a pair: a slip that sticks is used up.
+/// The substrate's friction in an impact as that of a pair: a slip that sticks is used up.
 PairContact as_pair(const SubstrateContact& contact) {
-  return {contact.restitution, contact.static_friction, 0.0};
+  return {contact.restitution, contact.kinetic_friction, 0.0};
 }
 
 /// m_eff κ of a sphere on a body that cannot move is m/(1 + 1/q).
@@ -89,18 +89,19 @@ PileLaws::Hard PileLaws::hard(const PairContact& contact) const {
     throw Unsupported(
         "contacts that last have one restitution for all speeds: a hard contact whose restitution "
         "is a law over the speed cannot be made one");
-  const LinearContact linear = LinearContact::with_collision_time(
-      1, std::max(*e, kLeastRestitution), collision_time_, ContactEnd::zero_force);
-  return {linear.stiffness(), linear.damping_rate(),
+  const double restitution = std::max(*e, kLeastRestitution);
+  const LinearContact linear =
+      LinearContact::with_collision_time(1, restitution, collision_time_, ContactEnd::zero_force);
+  return {linear.stiffness(), linear.damping_rate(), restitution,
           sticking_spring(contact.tangential_restitution, collision_time_)};
 }
 
 PileLaw PileLaws::of_hard(const Hard& hard, const PairContact& contact, double mass,
                           double kappa) const {
   PileLaw law;
-  law.hard = true;
   law.normal = LinearForce{hard.stiffness * mass, hard.damping * mass};
   const double slides = kappa * mass, omega = hard.sticking.frequency;
+  law.hard = {mass, slides, hard.restitution, contact.tangential_restitution, contact.friction};
   law.sliding.stiffness = omega * omega * slides;
   law.sliding.damping = 2 * hard.sticking.damping * omega * slides;
   if (omega > 0)

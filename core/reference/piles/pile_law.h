@@ -13,13 +13,22 @@
 
 namespace slipcheck {
 
+/// The impact that a hard contact is, L (5)-(12), of the spring and dashpot that stand for it.
+struct PileImpactLaw {
+  double mass = 0;                    ///< m_eff [kg]
+  double sliding_mass = 0;            ///< κ m_eff [kg]
+  double restitution = 1;             ///< of that spring and dashpot [-], > 0
+  double tangential_restitution = 0;  ///< β0 [-]
+  FrictionLaw friction;               ///< μ
+};
+
 /// All forces of one contact of a body with another, the substrate or a surface.
 struct PileLaw {
   NormalForce normal;
-  bool clamped = true;      ///< ContactEnd::zero_force
-  bool hard = false;        ///< stands for a hard contact; the normal force is linear
-  double most_overlap = 0;  ///< beyond which nothing is meant to overlap [m], > 0
-  double deepest = 1;       ///< the same over the smaller radius [-], > 0
+  bool clamped = true;                ///< ContactEnd::zero_force
+  std::optional<PileImpactLaw> hard;  ///< which it stands for; the normal force is linear
+  double most_overlap = 0;            ///< beyond which nothing is meant to overlap [m], > 0
+  double deepest = 1;                 ///< the same over the smaller radius [-], > 0
   SpringFriction sliding;
   SpringTorque rolling, drilling;
   /// Over the speed of the centre, of `rolling.length` [m] in place of a constant; null: none.
@@ -32,10 +41,11 @@ struct PileLaw {
 /// The laws of a scene's contacts: soft ones as they are, hard ones as linear ones that last.
 ///
 /// A hard contact gets the spring and dashpot whose collisions take collision_time() and rebound
-/// with its e_n, at least kLeastRestitution, and that end with their force; a tangential spring
-/// that leaves −β0 of a slip that sticks (sticking_spring.h), none of it on the substrate; and, up
-/// to their own caps, springs against rolling and drilling as stiff as that one at the distance
-/// R_eff and critically damped. A hard pair with β0 = −1 has no friction.
+/// with its e_n, at least kLeastRestitution, and that end with their force. For as long as a
+/// collision takes it has the friction of an impact, which leaves −β0 of a slip that sticks, none
+/// of it on the substrate; from then on a tangential spring that would have left the same
+/// (sticking_spring.h); and, up to their own caps, springs against rolling and drilling as stiff as
+/// that one at the distance R_eff and critically damped. A hard pair with β0 = −1 has no friction.
 class PileLaws {
  public:
   static constexpr double kLeastRestitution = 1e-2;
@@ -61,7 +71,7 @@ class PileLaws {
  private:
   /// A hard contact per reduced mass and per mass κ m_eff that slides.
   struct Hard {
-    double stiffness = 0, damping = 0;
+    double stiffness = 0, damping = 0, restitution = 1;
     StickingSpring sticking;
   };
 

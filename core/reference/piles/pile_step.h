@@ -142,6 +142,37 @@ class PileStep {
     c.offset += mu * part * cut.norm();
   }
 
+  // --- the impact of a hard contact --------------------------------------------------------------
+
+  /// L (5)-(12), whatever the course of F_N: what is left of the normal impulse, m (e g_N +
+  /// closing), takes away what the slip is above what sticking leaves of it; up to Coulomb's cap.
+  Vector3 strike(Contact& c, const PileMotion& m, double normal, double way, double& lost) const {
+    const PileImpactLaw& law = *c.law->hard;
+    const double pressed = std::abs(normal);
+    const Vector3 excess = m.slip - c.impact.leaves;
+    // Near its end no more than half of the excess in a step.
+    const double left =
+        std::max(law.mass * (m.closing + c.impact.rebound), 2 * pressed * world_->step);
+    const double cap = c.impact.friction * pressed;
+    Vector3 force = Vector3::Zero();
+    if (pressed > 0) force = -(law.sliding_mass * pressed / left) * excess;
+    c.sliding.slides = force.norm() > cap;
+    if (c.sliding.slides) force *= cap / force.norm();
+    lost -= 0.5 * way * (c.sliding_dashpot + force).dot(m.slip_before);
+    c.sliding_dashpot = force;
+    return force;
+  }
+
+  /// The impact has become a contact that lasts, whose spring goes on with its force.
+  void settle(Contact& c, double& lost) const {
+    c.impact.until = 0;
+    c.stiffness = c.law->sliding.stiffness;
+    if (c.stiffness == 0) return;
+    c.sliding.stretch = (-1 / c.stiffness) * c.sliding_dashpot;
+    c.sliding_dashpot.setZero();
+    lost -= spring_energy(c.stiffness, c.sliding.stretch);
+  }
+
   static Vector3 turn(Contact& c, const PileMotion& m, double pressed, double way, double& lost) {
     const double about = m.spin.dot(m.normal);
     Vector3 torque = Vector3::Zero();
@@ -175,8 +206,13 @@ class PileStep {
     const double way = part * world_->step;
     double lost = 0;
     const double angle = way * m.turning_before;
-    c.sliding.stretch = carried(c.sliding.stretch, c.normal, m.normal, angle);
-    const Vector3 across = slide(c, m, overlap, std::abs(pressed), way, world_->dilates, lost);
+    if (c.impact.until > 0 && time_ >= c.impact.until) settle(c, lost);
+    const bool strikes = c.impact.until > 0;
+    Vector3& remembered = strikes ? c.impact.leaves : c.sliding.stretch;
+    remembered = carried(remembered, c.normal, m.normal, angle);
+    const Vector3 across =
+        strikes ? strike(c, m, normal, way, lost)
+                : slide(c, m, overlap, std::abs(pressed), way, world_->dilates, lost);
     Vector3 torque = Vector3::Zero();
     if constexpr (kTurns) {
       c.rolling.stretch = carried(c.rolling.stretch, c.normal, m.normal, angle);
@@ -244,6 +280,7 @@ class PileStep {
     c.sliding = {Vector3::Zero()};
     c.sliding_dashpot.setZero();
     c.normal_dashpot = 0;
+    c.impact = impact_of(c, m);
     if constexpr (kTurns) static_cast<PileTurning&>(c) = {};
     c.force = {};
     if (!within) sum_->ledger.dissipated -= elastic(c);  // came with it
@@ -255,6 +292,14 @@ class PileStep {
     push(c, within ? 0.5 * ((1 + part) * c.force + part * begun) : c.force, m.normal);
     c.impulse += std::abs(normal) * world_->step;
     sum_->collisions += c.second >= 0;
+  }
+
+  PileImpact impact_of(const Contact& c, const PileMotion& m) const {
+    const auto& law = c.law->hard;
+    if (!law || !(m.closing > 0) || c.law->sliding.static_friction == 0 || world_->dilates)
+      return {};
+    return {time_ + world_->laws->collision_time(), law->restitution * m.closing,
+            friction_at(law->friction, m.slip.norm()), -law->tangential_restitution * m.slip};
   }
 
   /// The contact lasted for `part` of the step before now and should have had part h ½ (F + F_end)
