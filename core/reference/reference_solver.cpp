@@ -197,6 +197,16 @@ void ReferenceSolver::choose_piles() {
   if (!laws.has_hard()) collision_time_ = 0;
 }
 
+std::vector<SpringSpeeds> ReferenceSolver::spring_speeds(double softness) const {
+  std::vector<SpringSpeeds> each;
+  if (!is_piled()) return each;
+  const PileLaws laws(*scene_, collision_time_ > 0 ? softness * collision_time_ : 1);
+  each.reserve(scene_->hard.bodies.size());
+  for (std::size_t i = 0; i < scene_->hard.bodies.size(); ++i)
+    each.push_back(laws.spring_speeds(i));
+  return each;
+}
+
 bool ReferenceSolver::shares_steps() const {
   const Scene& hard = scene_->hard;
   if (is_piled()) return hard.bodies.size() >= PileSettings{}.ordered_from;

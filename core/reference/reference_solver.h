@@ -10,6 +10,7 @@
 #include "reference/kept_solver.h"
 #include "reference/reference_settings.h"
 #include "reference/solver.h"
+#include "reference/spring_speeds.h"
 #include "scene/contact_scene.h"
 
 namespace slipcheck {
@@ -65,6 +66,9 @@ class ReferenceSolver {
   }
   /// What is solved.
   const ContactScene& scene() const { return made_ ? *made_ : *scene_; }
+
+  /// By body; empty where nothing is carried by springs. softness: as of SolverAccuracy.
+  std::vector<SpringSpeeds> spring_speeds(double softness = 1) const;
 
   /// Another process can go on with a run: it goes in steps.
   bool keeps_state() const { return is_piled() || is_stepped(); }

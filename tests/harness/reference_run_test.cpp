@@ -145,5 +145,38 @@ TEST(ReferenceRun, CollapseBesideSurfacesIsRepeatedWithContactsThatLast) {
   EXPECT_LT(e.uncertainty, 1e-3);
 }
 
+/// The spring that holds a rolling ball follows its spin and lets go where it comes to rest: that
+/// is no slide.
+TEST(ReferenceRun, ABallThatSpinsAsItRollsSlidesForAsLongBesideAWall) {
+  for (const double spin : {0.0, 30.0})
+    for (const double rolling : {0.0, 0.04}) {
+      Scene scene = test::steel_scene(1);
+      scene.substrate[0].static_friction = scene.substrate[0].kinetic_friction = 0.3;
+      scene.substrate[0].rolling = RollingFriction(rolling);
+      scene.initial[0].velocity = {0.2, 0.1, 0};
+      scene.initial[0].angular_velocity = {0, 0, spin};
+      scene.surfaces = {{PlaneShape{{10, 0, 0}, {-1, 0, 0}}, {}}};
+      scene.on_surfaces.resize(1);
+      const ContactScene hard = with_hard_contacts(scene);
+      const RunEnd end{Run::Until::time, 0.2, 0.2};
+      const std::vector<std::string> names = {"i", "wall"};
+      const auto exact =
+          run_reference(ReferenceSolver(hard, Compare::Reference::event), end, names).observables;
+      const auto seen =
+          run_reference(ReferenceSolver(hard, Compare::Reference::contact), end, names).observables;
+      for (const char* name : {"i.sliding_time", "i.sliding_distance", "i.rolling_velocity",
+                               "i.rolling_velocity.x", "i.stopping_time"}) {
+        ASSERT_EQ(exact.count(name), seen.count(name)) << name << " " << spin << " " << rolling;
+        if (exact.count(name) == 0) continue;
+        const UncertainValue a = exact.at(name), b = seen.at(name);
+        EXPECT_LE(std::abs(a.value - b.value), b.uncertainty)
+            << name << " " << spin << " " << rolling;
+        // A slide of 22 ms and a stop after 0.2 s and more, by contacts of 10 us.
+        EXPECT_LT(b.uncertainty, 0.03 * std::max(a.value, 0.02))
+            << name << " " << spin << " " << rolling;
+      }
+    }
+}
+
 }  // namespace
 }  // namespace slipcheck

@@ -41,7 +41,8 @@ double closing_scale_of(const Scene& scene, double speed_scale) {
 
 }  // namespace
 
-Observer::Observer(const Scene& scene, double step, double speed_scale, bool resolved)
+Observer::Observer(const Scene& scene, double step, double speed_scale, bool resolved,
+                   std::vector<SpringSpeeds> springs)
     : scene_(&scene),
       step_(step),
       speed_scale_(speed_scale),
@@ -52,6 +53,7 @@ Observer::Observer(const Scene& scene, double step, double speed_scale, bool res
           scene.motion.is_still() &&
           std::ranges::all_of(scene.surfaces,
                               [](const Surface& surface) { return surface.motion.is_still(); })),
+      springs_(std::move(springs)),
       bodies_(scene.bodies.size()) {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     bodies_[i].zero = resolution(i, scene.on_substrate(i), scene.gravity);
@@ -72,6 +74,15 @@ Resolution Observer::resolution(std::size_t i, const SubstrateContact& c, double
   zero.slip = std::max(floor, slip_per_step * c.kinetic_friction + left);
   if (resolved_ && step_ == 0) zero.slip = std::max(zero.slip, kIntegrationError * speed_scale_);
   if (c.coupled_radius > 0) zero.slip = std::max(zero.slip, kCoupledSlip * speed_scale_);
+  zero.lasting_slip = zero.slip;
+  // An engine's bodies move up and down by what gravity adds in a step.
+  zero.rise = step_ > 0 ? std::max(kOfSceneSpeed * speed_scale_, scene_->gravity * step_)
+                        : kRoundOff * speed_scale_;
+  if (!springs_.empty()) {
+    zero.slip = std::max(zero.slip, springs_[i].slip);
+    zero.lasting_slip = std::max(zero.lasting_slip, kTurnedSpring * springs_[i].slip);
+    zero.rise = std::max(zero.rise, springs_[i].rise);
+  }
   zero.speed = std::max(floor, per_step * c.rolling(0));
   zero.spin = std::max(floor / s.radius,
                        per_step * c.drilling_length / (s.shape_factor * s.radius * s.radius));
@@ -137,7 +148,8 @@ bool Observer::touches_substrate(std::size_t i, const Frame& frame) const {
   const BodyState& state = frame.bodies[i];
   const double radius = scene_->bodies[i].radius;
   const double above = on_surfaces_ ? gap(i, time_, state) : state.position.z() - radius;
-  return step_ > 0 && above < 1e-3 * radius && std::abs(rise(bodies_[i], state)) < vertical_noise();
+  return step_ > 0 && above < 1e-3 * radius &&
+         std::abs(rise(bodies_[i], state)) < bodies_[i].zero.rise;
 }
 
 void Observer::take(double time, const Frame& frame) {
@@ -243,7 +255,7 @@ void Observer::begin(double time, const Frame& frame) {
     if (!body.supported) {
       body.unsupported_since = time;
       body.unsupported_height = level(body, state);
-      if (rise(body, state) > vertical_noise()) lift_off(body, time, state);
+      if (rise(body, state) > body.zero.rise) lift_off(body, time, state);
     }
     body.began_on_plane = body.supported;
     body.sliding = body.supported && slips(i, state, ground1_);

@@ -11,14 +11,19 @@
 #include "base/state_archive.h"
 #include "harness/observe/observables.h"
 #include "physics/frame.h"
+#include "reference/spring_speeds.h"
 #include "scene/scene.h"
 
 namespace slipcheck {
 
 /// Below what a quantity counts as zero, for one body.
 struct Resolution {
-  double slip = 0;       ///< [m/s]
+  double slip = 0;  ///< [m/s]
+  /// The same for a body that slides already, and has not turned back; less where it would stick by
+  /// a spring [m/s].
+  double lasting_slip = 0;
   double left_slip = 0;  ///< what a rolling body of an engine may keep of it in every step [m/s]
+  double rise = 0;       ///< [m/s]
   double speed = 0;      ///< [m/s]
   double spin = 0;       ///< about the vertical [rad/s]
 };
@@ -68,7 +73,9 @@ class Observer final : public FrameSink {
  public:
   /// step [s], >= 0; speed_scale [m/s] as of event_solver.h. `resolved`: the reference's contacts
   /// of bodies last, so that their duration, overlap and what happens in them are observed.
-  Observer(const Scene& scene, double step, double speed_scale, bool resolved = false);
+  /// springs: of what carries the bodies, by body; empty: nothing gives way.
+  Observer(const Scene& scene, double step, double speed_scale, bool resolved = false,
+           std::vector<SpringSpeeds> springs = {});
 
   void take(double time, const Frame& frame) override;
   /// Of hard contacts where substrate and surfaces are still: what happens to a body then shows in
@@ -105,6 +112,9 @@ class Observer final : public FrameSink {
   static constexpr double kRoundOff = 1e-12;
   /// What an integration leaves in the slip of a body that sticks.
   static constexpr double kIntegrationError = 1e-9;
+  /// Of SpringSpeeds::slip, what a body that sticks may keep: its spring turns with it and follows
+  /// its friction.
+  static constexpr double kTurnedSpring = 0.02;
   /// Slip that shares its friction with a spin dies out exponentially: below this fraction of the
   /// scene's speed it has ended.
   static constexpr double kCoupledSlip = 1e-6;
@@ -247,7 +257,6 @@ class Observer final : public FrameSink {
   }
   /// Whether rolling friction could hold the body at rest.
   bool can_rest(std::size_t i, double time) const;
-  double vertical_noise() const;
   std::size_t pair_of(int first, int second);  ///< an index of pairs_
   static std::uint64_t pair_key(int first, int second) {
     return (std::uint64_t{static_cast<std::uint32_t>(first)} << 32) |
@@ -263,6 +272,7 @@ class Observer final : public FrameSink {
   double closing_scale_;  ///< the same of centres alone [m/s]
   bool resolved_;
   bool on_surfaces_, is_all_still_;
+  std::vector<SpringSpeeds> springs_;  ///< by body, or empty
   bool started_ = false;
   double time_ = 0, time_before_ = 0;
   Frame last_, before_last_;

@@ -5,15 +5,9 @@
 
 namespace slipcheck {
 
-/// Vertical speed that says nothing: an engine's bodies move by what gravity adds in a step.
-double Observer::vertical_noise() const {
-  if (step_ == 0) return kRoundOff * speed_scale_;
-  return std::max(kOfSceneSpeed * speed_scale_, scene_->gravity * step_);
-}
-
 void Observer::follow_support(Body& body, bool touches, double t1, const BodyState& now) const {
   const double speed = std::abs(rise(body, now));
-  body.supported = touches && speed <= vertical_noise();
+  body.supported = touches && speed <= body.zero.rise;
   const bool quiet =
       speed <= std::max(kEngineNoise * speed_scale_, kQuiet * scene_->gravity * step_);
   body.supported_frames =
@@ -35,7 +29,7 @@ void Observer::follow_flight(Body& body, std::size_t i, bool touches, double t0,
   const BodyState &s0 = last_.bodies[i], &s1 = frame.bodies[i];
   const double v0 = rise(body, s0), v1 = rise(body, s1);
   const double level0 = level(body, s0), level1 = level(body, s1);
-  const double slowest = vertical_noise();
+  const double slowest = body.zero.rise;
   if (touches) {
     body.unsupported_since = kNotObserved;
   } else if (std::isnan(body.unsupported_since)) {

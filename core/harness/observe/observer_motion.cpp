@@ -10,7 +10,10 @@ void Observer::follow_sliding(Body& body, std::size_t i, double t0, double t1, c
   const BodyState &s0 = last_.bodies[i], &s1 = frame.bodies[i];
   const double dt = t1 - t0;
   const double slip0 = slip_speed(i, s0, ground0_), slip1 = slip_speed(i, s1, ground1_);
-  const bool slips_now = slips(i, s1, ground1_);
+  // Friction never turns a slip back; a spring does.
+  const bool slips_on = body.sliding && slip1 > body.zero.lasting_slip && slip1 <= body.zero.slip &&
+                        slip_of(i, s0, ground0_).dot(slip_of(i, s1, ground1_)) > 0;
+  const bool slips_now = slips_on || slips(i, s1, ground1_);
   const Vector3 way = position_over(s1, ground1_) - position_over(s0, ground0_);
 
   // Friction has gone on: it takes half of what it can, or more.

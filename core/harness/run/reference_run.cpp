@@ -57,7 +57,9 @@ ObservedRun solve(const ReferenceSolver& solver, const RunEnd& end, int rounding
   const Scene& scene = solver.scene().hard;
   const bool whole = extras && extras->whole;
   std::optional<Observer> observer;
-  if (!whole) observer.emplace(scene, 0, speed_scale(solver.scene()), solver.is_resolved());
+  if (!whole)
+    observer.emplace(scene, 0, speed_scale(solver.scene()), solver.is_resolved(),
+                     solver.spring_speeds(accuracy.softness));
   std::optional<AssemblyObserver> assembly;
   if (extras) assembly.emplace(solver.scene(), end.last(), extras->samples, extras->states);
   std::vector<FrameSink*> sinks;
@@ -108,6 +110,15 @@ double change_within(double time, const std::string& name, const Observables& se
   const double fastest =
       std::fmax(body.velocity_after_collision.norm(), body.rolling_velocity.norm());
   return time * std::fmax(fastest, 0);
+}
+
+/// The same of the speed to which a body slides, where springs let it move so much [m/s], by body,
+/// before a slide is seen.
+double change_by_springs(const std::vector<SpringSpeeds>& springs, const std::string& name,
+                         const Observables& seen, std::size_t index) {
+  const std::string_view observable = observable_key(name).observable;
+  if (observable != "rolling_velocity" && observable != "momentum_change_sliding") return 0;
+  return springs[static_cast<std::size_t>(body_of_value(seen, index) - seen.bodies.data())].slip;
 }
 
 /// Where in a step contacts begin and end scatters the error, and two runs may have the same by
@@ -236,6 +247,7 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
   const std::vector<double> closed =
       has_closed_form ? flat_values(aligned(closed_form_observables(scene), solved.seen))
                       : std::vector<double>(values.size(), kNotObserved);
+  const std::vector<SpringSpeeds> springs = solver.spring_speeds();
   std::vector<std::string> not_numbers;
   result.observables.reserve(values.size() + 1);
   if (has_closed_form) result.closed_form.reserve(values.size());
@@ -246,8 +258,8 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
       continue;
     }
     std::string name = value_name(solved.seen, names, k);
-    const double least =
-        solver.is_stepped() ? change_within(2 * solver.step(), name, solved.seen, k) : 0;
+    double least = solver.is_stepped() ? change_within(2 * solver.step(), name, solved.seen, k) : 0;
+    if (!springs.empty()) least = std::max(least, change_by_springs(springs, name, solved.seen, k));
     if (!std::isnan(closed[k]))
       result.closed_form.emplace_hint(result.closed_form.end(), name, closed[k]);
     result.observables.emplace_hint(result.observables.end(), std::move(name),

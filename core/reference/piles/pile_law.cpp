@@ -27,6 +27,20 @@ double half_period(double stiffness, double mass) {
   return stiffness > 0 ? M_PI * std::sqrt(mass / stiffness) : kNever;
 }
 
+/// The overlap at which a body is held by the spring alone [m].
+double overlap_under(const NormalForce& law, double weight, double most_overlap) {
+  return std::visit(
+      [&](const auto& normal) {
+        double low = 0, high = most_overlap;
+        for (int n = 0; n < 60; ++n) {
+          const double mid = 0.5 * (low + high);
+          (normal.elastic(mid) < weight ? low : high) = mid;
+        }
+        return high;
+      },
+      law);
+}
+
 double half_period(const SpringTorque& spring, double inertia) {
   return spring.length > 0 ? half_period(spring.stiffness, inertia) : kNever;
 }
@@ -190,6 +204,25 @@ PileLaw PileLaws::of(std::size_t body, int second) const {
   no_deeper_than(kDeepest);
   resist(contact.lasting, sphere, law);
   return law;
+}
+
+SpringSpeeds PileLaws::spring_speeds(std::size_t body) const {
+  const Scene& scene = scene_->hard;
+  const Sphere& sphere = scene.bodies[body];
+  const double g = scene.gravity_vector().norm(), weight = sphere.mass * g;
+  const double slides = kappa_on_surface(sphere) * sphere.mass;
+  SpringSpeeds fastest;
+  const auto look = [&](int second) {
+    const PileLaw law = of(body, second);
+    const double overlap = overlap_under(law.normal, weight, law.most_overlap);
+    fastest.rise = std::max(fastest.rise, std::sqrt(g * overlap));
+    if (const double k = law.sliding.stiffness_at(overlap); k > 0)
+      fastest.slip =
+          std::max(fastest.slip, law.sliding.static_friction * weight / std::sqrt(slides * k));
+  };
+  if (scene.has_substrate) look(kSubstrate);
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) look(surface_touch(s));
+  return fastest;
 }
 
 double PileLaws::shortest_contact() const {

@@ -9,6 +9,7 @@
 #include "physics/contact/normal_force.h"
 #include "physics/contact/sticking_spring.h"
 #include "physics/frame.h"
+#include "reference/spring_speeds.h"
 #include "scene/contact_scene.h"
 
 namespace slipcheck {
@@ -64,6 +65,9 @@ class PileLaws {
 
   /// Of a body and what Touch::second names: a body, the substrate or a surface.
   PileLaw of(std::size_t body, int second) const;
+
+  /// Of the contacts with the substrate and the surfaces, the fastest.
+  SpringSpeeds spring_speeds(std::size_t body) const;
 
   /// The shortest half period [s] of a contact's springs, over all bodies.
   double shortest_contact() const;
