@@ -238,6 +238,7 @@ std::unique_ptr<Solver> ReferenceSolver::at_start(const ContactScene& scene,
   if (is_piled()) {
     PileSettings settings;
     settings.collision_time = accuracy.softness * collision_time_;
+    settings.least_restitution = accuracy.softness * PileLaws::kLeastRestitution;
     settings.general = settings_.general;
     settings.threads = settings_.threads;
     settings.prepare = prepares;
@@ -246,7 +247,8 @@ std::unique_ptr<Solver> ReferenceSolver::at_start(const ContactScene& scene,
                                                  : kStepsPerSoft;
     if (scene.is_hard()) settings.steps_per_frame = kStepsPerFrame;
     if (shares_steps()) settings.steps_per_frame = kStepsPerFrameOfMany;
-    const PileLaws laws(scene, settings.collision_time > 0 ? settings.collision_time : 1);
+    const PileLaws laws(scene, settings.collision_time > 0 ? settings.collision_time : 1,
+                        settings.least_restitution);
     settings.step = ends_on(end, accuracy.step * laws.shortest_contact() / per_contact);
     return std::make_unique<PileSolver>(scene, initial, settings);
   }

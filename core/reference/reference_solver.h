@@ -20,7 +20,8 @@ struct SolverAccuracy {
   double tolerance = 1e-13;  ///< of the integrator
   double cut_offs = 1;       ///< factor on what counts as no rebound
   double step = 1;           ///< factor on the step of `steps`
-  /// Factor on the collision time of hard contacts that last, and of soft ones taken as instants.
+  /// Factor on the collision time, and the least restitution, of hard contacts that last, and on
+  /// the collision time of soft ones taken as instants.
   double softness = 1;
   bool reversed = false;    ///< bodies in reverse order: so are collisions at one instant
   bool other_rule = false;  ///< for collapse, where it has a contact time

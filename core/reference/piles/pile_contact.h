@@ -52,7 +52,6 @@ struct NoPileTurning {};
 /// Of a hard contact, as long as it may be an impact and no more.
 struct PileImpact {
   double until = 0;                  ///< [s]; from then on it lasts
-  double rebound = 0;                ///< e g_N [m/s]
   double friction = 0;               ///< μ
   Vector3 leaves = Vector3::Zero();  ///< −β0 u_t, the slip that is left where it sticks [m/s]
 };

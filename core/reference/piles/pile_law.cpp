@@ -47,8 +47,8 @@ double half_period(const SpringTorque& spring, double inertia) {
 
 }  // namespace
 
-PileLaws::PileLaws(const ContactScene& scene, double collision_time)
-    : scene_(&scene), collision_time_(collision_time) {
+PileLaws::PileLaws(const ContactScene& scene, double collision_time, double least_restitution)
+    : scene_(&scene), collision_time_(collision_time), least_restitution_(least_restitution) {
   const Scene& of = scene.hard;
   if (of.box) throw Unsupported("piles in a box of two dimensions: compare.reference may be event");
   if (of.confined)
@@ -103,10 +103,9 @@ PileLaws::Hard PileLaws::hard(const PairContact& contact) const {
     throw Unsupported(
         "contacts that last have one restitution for all speeds: a hard contact whose restitution "
         "is a law over the speed cannot be made one");
-  const double restitution = std::max(*e, kLeastRestitution);
-  const LinearContact linear =
-      LinearContact::with_collision_time(1, restitution, collision_time_, ContactEnd::zero_force);
-  return {linear.stiffness(), linear.damping_rate(), restitution,
+  const LinearContact linear = LinearContact::with_collision_time(
+      1, std::max(*e, least_restitution_), collision_time_, ContactEnd::zero_force);
+  return {linear.stiffness(), linear.damping_rate(),
           sticking_spring(contact.tangential_restitution, collision_time_)};
 }
 
@@ -115,7 +114,7 @@ PileLaw PileLaws::of_hard(const Hard& hard, const PairContact& contact, double m
   PileLaw law;
   law.normal = LinearForce{hard.stiffness * mass, hard.damping * mass};
   const double slides = kappa * mass, omega = hard.sticking.frequency;
-  law.hard = {mass, slides, hard.restitution, contact.tangential_restitution, contact.friction};
+  law.hard = {slides, contact.tangential_restitution, contact.friction};
   law.sliding.stiffness = omega * omega * slides;
   law.sliding.damping = 2 * hard.sticking.damping * omega * slides;
   if (omega > 0)

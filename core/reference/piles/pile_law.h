@@ -14,11 +14,9 @@
 
 namespace slipcheck {
 
-/// The impact that a hard contact is, L (5)-(12), of the spring and dashpot that stand for it.
+/// The friction of the impact that a hard contact is, L (5)-(12).
 struct PileImpactLaw {
-  double mass = 0;                    ///< m_eff [kg]
   double sliding_mass = 0;            ///< κ m_eff [kg]
-  double restitution = 1;             ///< of that spring and dashpot [-], > 0
   double tangential_restitution = 0;  ///< β0 [-]
   FrictionLaw friction;               ///< μ
 };
@@ -42,7 +40,7 @@ struct PileLaw {
 /// The laws of a scene's contacts: soft ones as they are, hard ones as linear ones that last.
 ///
 /// A hard contact gets the spring and dashpot whose collisions take collision_time() and rebound
-/// with its e_n, at least kLeastRestitution, and that end with their force. For as long as a
+/// with its e_n, at least least_restitution, and that end with their force. For as long as a
 /// collision takes it has the friction of an impact, which leaves −β0 of a slip that sticks, none
 /// of it on the substrate; from then on a tangential spring that would have left the same
 /// (sticking_spring.h); and, up to their own caps, springs against rolling and drilling as stiff as
@@ -51,9 +49,10 @@ class PileLaws {
  public:
   static constexpr double kLeastRestitution = 1e-2;
 
-  /// `scene` must outlive the laws; collision_time [s], > 0, of hard contacts. Throws Unsupported
-  /// for what has no counterpart here.
-  PileLaws(const ContactScene& scene, double collision_time);
+  /// `scene` must outlive the laws; collision_time [s], > 0, and least_restitution, in (0, 1], of
+  /// hard contacts. Throws Unsupported for what has no counterpart here.
+  PileLaws(const ContactScene& scene, double collision_time,
+           double least_restitution = kLeastRestitution);
 
   double collision_time() const { return collision_time_; }
   bool has_hard() const { return has_hard_; }  ///< one of them is taken as lasting
@@ -75,7 +74,7 @@ class PileLaws {
  private:
   /// A hard contact per reduced mass and per mass κ m_eff that slides.
   struct Hard {
-    double stiffness = 0, damping = 0, restitution = 1;
+    double stiffness = 0, damping = 0;
     StickingSpring sticking;
   };
 
@@ -86,7 +85,7 @@ class PileLaws {
   void look_at(const PileLaw& law);
 
   const ContactScene* scene_;
-  double collision_time_;
+  double collision_time_, least_restitution_;
   std::vector<std::optional<Hard>> pairs_;        ///< by row × row of the scene's
   std::vector<Hard> on_substrate_;                ///< by material
   std::vector<std::optional<Hard>> on_surfaces_;  ///< by material × surface

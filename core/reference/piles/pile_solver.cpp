@@ -59,7 +59,8 @@ class PileSolver::Impl {
       : scene_(&scene),
         settings_(settings),
         laws_(scene,
-              settings.collision_time > 0 ? settings.collision_time : pile_collision_time(scene)),
+              settings.collision_time > 0 ? settings.collision_time : pile_collision_time(scene),
+              settings.least_restitution),
         loop_(make_pile_loop(laws_, scene, settings.general, settings.ordered_from)) {
     const std::size_t n = initial.size();
     if (settings.threads != 1 && n >= settings.ordered_from)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reference/kept_solver.h"
+#include "reference/piles/pile_law.h"
 #include "scene/contact_scene.h"
 
 namespace slipcheck {
@@ -16,6 +17,7 @@ struct PileSettings {
   /// Of that length [s] in place of it, where > 0.
   double step = 0;
   double collision_time = 0;  ///< of hard contacts [s]; 0: pile_collision_time()
+  double least_restitution = PileLaws::kLeastRestitution;  ///< of hard contacts, in (0, 1]
   /// Shows a frame every so many steps, >= 1, and at the end.
   std::size_t steps_per_frame = 1;
   /// Bodies that rest at the start where others or surfaces carry them are loaded slowly first;

@@ -142,61 +142,119 @@ class PileStep {
     c.offset += mu * part * cut.norm();
   }
 
-  // --- the impact of a hard contact --------------------------------------------------------------
+  /// Of a contact of bodies, or of one and what carries it.
+  struct Couples {
+    Vector3 rolling = Vector3::Zero(), drilling = Vector3::Zero();  ///< [N m]
+  };
 
-  /// L (5)-(12), whatever the course of F_N: what is left of the normal impulse, m (e g_N +
-  /// closing), takes away what the slip is above what sticking leaves of it; up to Coulomb's cap.
-  Vector3 strike(Contact& c, const PileMotion& m, double normal, double way, double& lost) const {
-    const PileImpactLaw& law = *c.law->hard;
-    const double pressed = std::abs(normal);
-    const Vector3 excess = m.slip - c.impact.leaves;
-    // Near its end no more than half of the excess in a step.
-    const double left =
-        std::max(law.mass * (m.closing + c.impact.rebound), 2 * pressed * world_->step);
-    const double cap = c.impact.friction * pressed;
-    Vector3 force = Vector3::Zero();
-    if (pressed > 0) force = -(law.sliding_mass * pressed / left) * excess;
-    c.sliding.slides = force.norm() > cap;
-    if (c.sliding.slides) force *= cap / force.norm();
-    lost -= 0.5 * way * (c.sliding_dashpot + force).dot(m.slip_before);
-    c.sliding_dashpot = force;
-    return force;
+  static bool may_roll(const Contact& c) {
+    return c.law->rolling.length > 0 || c.law->rolling_table;
+  }
+  /// Against rolling, up to which it is held.
+  static SpringNow rolling_now(const Contact& c, const PileMotion& m, double pressed) {
+    SpringNow law = c.law->rolling.at(pressed);
+    if (c.law->rolling_table)
+      law.holds = law.slides = c.law->rolling_lever * (*c.law->rolling_table)(m.speed) * pressed;
+    return law;
   }
 
-  /// The impact has become a contact that lasts, whose spring goes on with its force.
-  void settle(Contact& c, double& lost) const {
-    c.impact.until = 0;
-    c.stiffness = c.law->sliding.stiffness;
-    if (c.stiffness == 0) return;
-    c.sliding.stretch = (-1 / c.stiffness) * c.sliding_dashpot;
-    c.sliding_dashpot.setZero();
-    lost -= spring_energy(c.stiffness, c.sliding.stretch);
-  }
-
-  static Vector3 turn(Contact& c, const PileMotion& m, double pressed, double way, double& lost) {
+  static Couples turn(Contact& c, const PileMotion& m, double pressed, double way, double& lost) {
     const double about = m.spin.dot(m.normal);
-    Vector3 torque = Vector3::Zero();
-    if (c.law->rolling.length > 0 || c.law->rolling_table) {
+    Couples couples;
+    if (may_roll(c)) {
       if (c.sliding.slides && !c.law->rolls_while_sliding) {
         lost += spring_energy(c.law->rolling.stiffness, c.rolling.stretch);
         c.rolling = {Vector3::Zero()};
         c.rolling_dashpot.setZero();
       } else {
-        SpringNow law = c.law->rolling.at(pressed);
-        if (c.law->rolling_table)
-          law.holds = law.slides =
-              c.law->rolling_lever * (*c.law->rolling_table)(m.speed) * pressed;
+        const SpringNow law = rolling_now(c, m, pressed);
         const Vector3& w = m.spin_before;
-        torque += take(law, law.stiffness, Vector3(way * (w - w.dot(m.normal) * m.normal)),
-                       Vector3(m.spin - about * m.normal), c.rolling, c.rolling_dashpot, lost);
+        couples.rolling =
+            take(law, law.stiffness, Vector3(way * (w - w.dot(m.normal) * m.normal)),
+                 Vector3(m.spin - about * m.normal), c.rolling, c.rolling_dashpot, lost);
       }
     }
     if (c.law->drilling.length > 0)
-      torque +=
+      couples.drilling =
           take(c.law->drilling.at(pressed), c.law->drilling.stiffness,
                way * m.spin_before.dot(m.normal), about, c.drilling, c.drilling_dashpot, lost) *
           m.normal;
-    return torque;
+    return couples;
+  }
+
+  // --- the impact of a hard contact --------------------------------------------------------------
+
+  /// What takes half of a motion in a step that moves `inertia` [kg] or [kg m²].
+  double stops(double rate, double inertia) const { return 0.5 * inertia * rate / world_->step; }
+  /// Against such a motion: so much, up to the cap.
+  Vector3 grip(const Vector3& rate, double inertia, double cap) const {
+    const double size = rate.norm();
+    if (size == 0) return Vector3::Zero();
+    return -std::min(cap, stops(size, inertia)) / size * rate;
+  }
+
+  /// L (5)-(12), whatever the course of F_N: Coulomb's friction on what the slip is above what
+  /// sticking leaves of it.
+  Vector3 strike(Contact& c, const PileMotion& m, double pressed, double way, double& lost) const {
+    const Vector3 excess = m.slip - c.impact.leaves;
+    const double mass = c.law->hard->sliding_mass, cap = c.impact.friction * pressed;
+    const Vector3 force = grip(excess, mass, cap);
+    c.sliding.slides = stops(excess.norm(), mass) > cap;
+    lost -= 0.5 * way * work_of(Vector3(c.sliding_dashpot + force), m.slip_before);
+    c.sliding_dashpot = force;
+    return force;
+  }
+
+  /// The same against rolling and drilling.
+  Couples strike_turning(Contact& c, const PileMotion& m, double pressed, double way,
+                         double& lost) const {
+    const PileBody& a = world_->bodies[c.first];
+    const double about = m.spin.dot(m.normal), about_before = m.spin_before.dot(m.normal);
+    Couples couples;
+    if (may_roll(c) && (!c.sliding.slides || c.law->rolls_while_sliding)) {
+      const double inertia =
+          c.law->rolls_while_sliding ? a.inertia : a.mass * a.radius * c.law->rolling_lever;
+      couples.rolling = grip(m.spin - about * m.normal, inertia, rolling_now(c, m, pressed).holds);
+    }
+    if (c.law->drilling.length > 0)
+      couples.drilling = grip(about * m.normal, a.inertia, c.law->drilling.length * pressed);
+    const double drilling = couples.drilling.dot(m.normal);
+    lost -= 0.5 * way *
+            (work_of(Vector3(c.rolling_dashpot + couples.rolling), m.spin_before) +
+             work_of(c.drilling_dashpot + drilling, about_before));
+    c.rolling_dashpot = couples.rolling;
+    c.drilling_dashpot = drilling;
+    return couples;
+  }
+
+  /// The impact has become a contact that lasts, whose springs go on with its forces.
+  void settle(Contact& c, double& lost) const {
+    c.impact.until = 0;
+    c.stiffness = c.law->sliding.stiffness;
+    lost -= hand_over(c.stiffness, c.sliding, c.sliding_dashpot);
+    if constexpr (kTurns) {
+      lost -= hand_over(c.law->rolling.stiffness, c.rolling, c.rolling_dashpot);
+      lost -= hand_over(c.law->drilling.stiffness, c.drilling, c.drilling_dashpot);
+    }
+  }
+  /// Returns what the spring then has.
+  template <class V>
+  static double hand_over(double stiffness, SpringMemory<V>& spring, V& force) {
+    if (stiffness == 0) return 0;
+    spring.stretch = V((-1 / stiffness) * force);
+    force = V(0 * force);
+    return spring_energy(stiffness, spring.stretch);
+  }
+
+  /// A couple M against what rolls without slip and does not slide asks for the friction M×n/((1 +
+  /// q) R), which cannot break it loose: it is no part of what sticks, K (16).
+  void add_couples(const Contact& c, const Vector3& n, const Couples& couples,
+                   PileForce& force) const {
+    force.torque = couples.rolling + couples.drilling;
+    if (c.law->rolls_while_sliding || !may_roll(c)) return;
+    const double R = world_->bodies[c.first].radius, lever = c.law->rolling_lever;
+    force.all += couples.rolling.cross(n) / lever;
+    force.torque -= R / lever * couples.rolling;
   }
 
   /// Takes a contact that touches on to now, over `part` of the step, and counts its energy. Caps
@@ -211,18 +269,19 @@ class PileStep {
     Vector3& remembered = strikes ? c.impact.leaves : c.sliding.stretch;
     remembered = carried(remembered, c.normal, m.normal, angle);
     const Vector3 across =
-        strikes ? strike(c, m, normal, way, lost)
+        strikes ? strike(c, m, std::abs(normal), way, lost)
                 : slide(c, m, overlap, std::abs(pressed), way, world_->dilates, lost);
-    Vector3 torque = Vector3::Zero();
+    PileForce force{normal * m.normal + across, across};
     if constexpr (kTurns) {
       c.rolling.stretch = carried(c.rolling.stretch, c.normal, m.normal, angle);
-      torque = turn(c, m, std::abs(pressed), way, lost);
+      const Couples couples = strikes ? strike_turning(c, m, std::abs(normal), way, lost)
+                                      : turn(c, m, std::abs(pressed), way, lost);
+      add_couples(c, m.normal, couples, force);
     }
     const double dashpot = normal - elastic_force(c, overlap);
     lost += 0.5 * (c.normal_dashpot + dashpot) * (overlap - c.overlap);
     sum_->ledger.dissipated += lost;
     sum_->slid = sum_->slid || c.sliding.slides;
-    const PileForce force{normal * m.normal + across, across, torque};
     if (c.second < 0)
       sum_->ledger.work += 0.5 * way *
                            ((c.force.all + force.all).dot(m.carried_by) +
@@ -298,8 +357,8 @@ class PileStep {
     const auto& law = c.law->hard;
     if (!law || !(m.closing > 0) || c.law->sliding.static_friction == 0 || world_->dilates)
       return {};
-    return {time_ + world_->laws->collision_time(), law->restitution * m.closing,
-            friction_at(law->friction, m.slip.norm()), -law->tangential_restitution * m.slip};
+    return {time_ + world_->laws->collision_time(), friction_at(law->friction, m.slip.norm()),
+            -law->tangential_restitution * m.slip};
   }
 
   /// The contact lasted for `part` of the step before now and should have had part h ½ (F + F_end)
