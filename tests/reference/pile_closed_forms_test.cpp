@@ -223,6 +223,43 @@ TEST(PileImpact, SoHasASphereOnASurfaceAndOnTheSubstrate) {
     }
 }
 
+TEST(PileImpact, RollingAndDrillingFrictionHaveTheirPartOfTheImpulse) {
+  // J = m (1 + e) g. What sticking leaves of it is rolling friction, μ_r J on the centre of what
+  // goes on to roll; all of it is drilling friction, l J.
+  constexpr double kClosing = 0.3, kMu = 0.4, kRolling = 0.05, kLength = 1e-5, kFactor = 0.6;
+  for (const double slip : {0.0, 0.1, 0.3})
+    for (const bool goes_on : {true, false}) {
+      Scene scene = test::steel_scene(1);
+      scene.gravity = 0;
+      SubstrateContact& contact = scene.substrate[0];
+      contact.static_friction = contact.kinetic_friction = kMu;
+      contact.rolling = RollingFriction(kRolling);
+      contact.drilling_length = kLength;
+      contact.restitution = kFactor;
+      BodyState& ball = scene.initial[0];
+      // Rolls at v after the slip is gone, where nothing but that is taken from it.
+      const double v = goes_on ? 0.5 : 0.004, spin = goes_on ? 40 : 0.5;
+      ball.position.z() = (1 + 1e-6) * kRadius;
+      ball.velocity = {v + 2.0 / 7 * slip, 0, -kClosing};
+      ball.angular_velocity = {0, (v - 5.0 / 7 * slip) / kRadius, spin};
+      const ContactScene hard = with_hard_contacts(scene);
+      PileSolver solver(hard, scene.initial, {.step = kTime / 200, .collision_time = kTime});
+      const SolvedRun run = solver.run(until_time(1.5 * kTime), nullptr);
+      ASSERT_TRUE(run.reached) << run.reason;
+      const BodyState after = solver.states()[0];
+      const double impulse = (1 + kFactor) * kClosing;  // per mass, as all that follows
+      const double left = impulse - 2.0 / 7 * slip / kMu;
+      const double rolls = std::max(0.0, v - kRolling * left);
+      const double turns = std::max(0.0, spin - kLength * impulse / (0.4 * kRadius * kRadius));
+      // Rolling friction begins when half of the slip is gone in a step: some two of the 200 early,
+      // by π/2 of their mean impulse.
+      EXPECT_NEAR(after.velocity.x(), rolls, 0.02 * kRolling * impulse) << slip << goes_on;
+      EXPECT_NEAR(kRadius * after.angular_velocity.y(), rolls, 1e-3 * (slip + kClosing)) << slip;
+      EXPECT_NEAR(after.angular_velocity.z(), turns, 1e-3 * spin) << slip << goes_on;
+      EXPECT_LT(std::abs(run.balance->error()), 2e-3) << slip << goes_on;
+    }
+}
+
 TEST(PileImpact, WhatLastsGoesOnWithItsForce) {
   // A sphere whose weight holds it down when the time of an impact is over, but for the fastest.
   // Its friction is as large then as before: a jump would be an error of first order in the books.
@@ -291,6 +328,20 @@ TEST(PileSlope, RollingFrictionHoldsUpToItsTangent) {
       EXPECT_LT(speed, 1e-9);
     }
   }
+}
+
+TEST(PileSlope, RollingFrictionBreaksNothingLoose) {
+  // (2/7) tan θ < μ_s < (2/7) tan θ + μ_r: what holds it is no more than without it, K (16).
+  constexpr double kTangent = 0.5, kRolling = 0.05, kSpeed = 0.2, kUntil = 0.05;
+  ContactScene scene = on_slope(kTangent, 0.16);
+  scene.hard.substrate[0].rolling = RollingFriction(kRolling);
+  BodyState& ball = scene.hard.initial[0];
+  ball.velocity = {0, -kSpeed, 0};
+  ball.angular_velocity = rolling_angular_velocity(ball.velocity, kRadius);
+  const double cosine = 1 / std::hypot(1, kTangent);
+  const double gain = (5.0 / 7 * kTangent - kRolling) * cosine * kGravity * kUntil;
+  // It begins without the stretch and the overlap that hold it, for some of its collision times.
+  EXPECT_NEAR(downhill_speed(scene, kUntil), kSpeed + gain, 2e-3 * gain);
 }
 
 TEST(PileRolling, ABallRollsToRestAndASpinDies) {
