@@ -66,7 +66,6 @@ struct PileContact : std::conditional_t<kTurns, PileTurning, NoPileTurning> {
   /// What a hard contact's normal spring is longer by than the bodies overlap, since it was
   /// prepared, until it opens [m].
   double offset = 0;
-  PileImpact impact;
   const PileLaw* law = nullptr;
 
   // As of the instant before.
@@ -78,6 +77,7 @@ struct PileContact : std::conditional_t<kTurns, PileTurning, NoPileTurning> {
   double stiffness = 0;                       ///< k_t [N/m]
   Vector3 sliding_dashpot = Vector3::Zero();  ///< the tangential force without the spring's [N]
   SpringMemory<Vector3> sliding{Vector3::Zero()};
+  PileImpact impact;
 };
 
 }  // namespace slipcheck
