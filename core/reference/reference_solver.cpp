@@ -198,13 +198,8 @@ void ReferenceSolver::choose_piles() {
 }
 
 std::vector<SpringSpeeds> ReferenceSolver::spring_speeds(double softness) const {
-  std::vector<SpringSpeeds> each;
-  if (!is_piled()) return each;
-  const PileLaws laws(*scene_, collision_time_ > 0 ? softness * collision_time_ : 1);
-  each.reserve(scene_->hard.bodies.size());
-  for (std::size_t i = 0; i < scene_->hard.bodies.size(); ++i)
-    each.push_back(laws.spring_speeds(i));
-  return each;
+  if (!is_piled()) return {};
+  return PileLaws(*scene_, collision_time_ > 0 ? softness * collision_time_ : 1).spring_speeds();
 }
 
 bool ReferenceSolver::shares_steps() const {

@@ -40,6 +40,11 @@ struct PileForce {
   }
 };
 
+/// On the first of the two, against rolling and drilling.
+struct PileCouples {
+  Vector3 rolling = Vector3::Zero(), drilling = Vector3::Zero();  ///< [N m]
+};
+
 /// What resists rolling and drilling.
 struct PileTurning {
   SpringMemory<Vector3> rolling{Vector3::Zero()};
@@ -79,5 +84,13 @@ struct PileContact : std::conditional_t<kTurns, PileTurning, NoPileTurning> {
   SpringMemory<Vector3> sliding{Vector3::Zero()};
   PileImpact impact;
 };
+
+inline double work_of(double force, double way) { return force * way; }
+inline double work_of(const Vector3& force, const Vector3& way) { return force.dot(way); }
+
+template <class V>
+double spring_energy(double stiffness, const V& stretch) {
+  return 0.5 * stiffness * work_of(stretch, stretch);
+}
 
 }  // namespace slipcheck

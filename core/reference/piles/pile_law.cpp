@@ -205,7 +205,14 @@ PileLaw PileLaws::of(std::size_t body, int second) const {
   return law;
 }
 
-SpringSpeeds PileLaws::spring_speeds(std::size_t body) const {
+std::vector<SpringSpeeds> PileLaws::spring_speeds() const {
+  std::vector<SpringSpeeds> all;
+  all.reserve(scene_->hard.bodies.size());
+  for (std::size_t i = 0; i < scene_->hard.bodies.size(); ++i) all.push_back(spring_speeds_of(i));
+  return all;
+}
+
+SpringSpeeds PileLaws::spring_speeds_of(std::size_t body) const {
   const Scene& scene = scene_->hard;
   const Sphere& sphere = scene.bodies[body];
   const double g = scene.gravity_vector().norm(), weight = sphere.mass * g;

@@ -35,6 +35,14 @@ struct PileLaw {
   double rolling_lever = 0;  ///< length over that coefficient [m]
   /// Rolling resistance acts on what slides, too.
   bool rolls_while_sliding = true;
+
+  bool resists_rolling() const { return rolling.length > 0 || rolling_table; }
+  /// Against rolling at this speed of the centre [m/s] where it is pressed so [N].
+  SpringNow rolling_at(double pressed, double speed) const {
+    SpringNow now = rolling.at(pressed);
+    if (rolling_table) now.holds = now.slides = rolling_lever * (*rolling_table)(speed)*pressed;
+    return now;
+  }
 };
 
 /// The laws of a scene's contacts: soft ones as they are, hard ones as linear ones that last.
@@ -65,8 +73,8 @@ class PileLaws {
   /// Of a body and what Touch::second names: a body, the substrate or a surface.
   PileLaw of(std::size_t body, int second) const;
 
-  /// Of the contacts with the substrate and the surfaces, the fastest.
-  SpringSpeeds spring_speeds(std::size_t body) const;
+  /// By body, the fastest of its contacts with the substrate and the surfaces.
+  std::vector<SpringSpeeds> spring_speeds() const;
 
   /// The shortest half period [s] of a contact's springs, over all bodies.
   double shortest_contact() const;
@@ -79,6 +87,7 @@ class PileLaws {
   };
 
   Hard hard(const PairContact& contact) const;
+  SpringSpeeds spring_speeds_of(std::size_t body) const;
   PileLaw of_hard(const Hard& hard, const PairContact& contact, double mass, double kappa) const;
   PileLaw of_soft(const SoftContact& contact) const;
   void resist(const SubstrateContact& contact, const Sphere& sphere, PileLaw& law) const;

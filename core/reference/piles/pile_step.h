@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "reference/piles/pile_contact.h"
+#include "reference/piles/pile_impacts.h"
 #include "reference/piles/pile_loop.h"
 #include "reference/steps/step_solver.h"
 
@@ -16,17 +17,6 @@ namespace slipcheck {
 
 /// Of Coulomb's cap, what a contact is prepared with: the rest of it holds what shakes later.
 inline constexpr double kPreparedPart = 0.998;
-
-inline double work_of(double force, double way) { return force * way; }
-inline double work_of(const Vector3& force, const Vector3& way) { return force.dot(way); }
-
-template <class V>
-double spring_energy(double stiffness, const V& stretch) {
-  if constexpr (std::is_same_v<V, double>)
-    return 0.5 * stiffness * stretch * stretch;
-  else
-    return 0.5 * stiffness * stretch.squaredNorm();
-}
 
 /// What one contact of PileLoop does in a step. kLinear: all normal forces are linear; kTurns:
 /// rolling or drilling is resisted.
@@ -42,7 +32,8 @@ class PileStep {
     bool slid = false;
   };
 
-  PileStep(PileWorld& world, double time, Sum& sum) : world_(&world), time_(time), sum_(&sum) {}
+  PileStep(PileWorld& world, double time, Sum& sum)
+      : world_(&world), time_(time), sum_(&sum), impacts_(world, time) {}
 
   /// Two bodies that are `apart` from each other [m], by no more than `reach` or in contact.
   void act_on_bodies(Contact& c, const Vector3& apart, double reach, double distance) {
@@ -142,32 +133,17 @@ class PileStep {
     c.offset += mu * part * cut.norm();
   }
 
-  /// Of a contact of bodies, or of one and what carries it.
-  struct Couples {
-    Vector3 rolling = Vector3::Zero(), drilling = Vector3::Zero();  ///< [N m]
-  };
-
-  static bool may_roll(const Contact& c) {
-    return c.law->rolling.length > 0 || c.law->rolling_table;
-  }
-  /// Against rolling, up to which it is held.
-  static SpringNow rolling_now(const Contact& c, const PileMotion& m, double pressed) {
-    SpringNow law = c.law->rolling.at(pressed);
-    if (c.law->rolling_table)
-      law.holds = law.slides = c.law->rolling_lever * (*c.law->rolling_table)(m.speed) * pressed;
-    return law;
-  }
-
-  static Couples turn(Contact& c, const PileMotion& m, double pressed, double way, double& lost) {
+  static PileCouples turn(Contact& c, const PileMotion& m, double pressed, double way,
+                          double& lost) {
     const double about = m.spin.dot(m.normal);
-    Couples couples;
-    if (may_roll(c)) {
+    PileCouples couples;
+    if (c.law->resists_rolling()) {
       if (c.sliding.slides && !c.law->rolls_while_sliding) {
         lost += spring_energy(c.law->rolling.stiffness, c.rolling.stretch);
         c.rolling = {Vector3::Zero()};
         c.rolling_dashpot.setZero();
       } else {
-        const SpringNow law = rolling_now(c, m, pressed);
+        const SpringNow law = c.law->rolling_at(pressed, m.speed);
         const Vector3& w = m.spin_before;
         couples.rolling =
             take(law, law.stiffness, Vector3(way * (w - w.dot(m.normal) * m.normal)),
@@ -182,76 +158,12 @@ class PileStep {
     return couples;
   }
 
-  // --- the impact of a hard contact --------------------------------------------------------------
-
-  /// What takes half of a motion in a step that moves `inertia` [kg] or [kg m²].
-  double stops(double rate, double inertia) const { return 0.5 * inertia * rate / world_->step; }
-  /// Against such a motion: so much, up to the cap.
-  Vector3 grip(const Vector3& rate, double inertia, double cap) const {
-    const double size = rate.norm();
-    if (size == 0) return Vector3::Zero();
-    return -std::min(cap, stops(size, inertia)) / size * rate;
-  }
-
-  /// L (5)-(12), whatever the course of F_N: Coulomb's friction on what the slip is above what
-  /// sticking leaves of it.
-  Vector3 strike(Contact& c, const PileMotion& m, double pressed, double way, double& lost) const {
-    const Vector3 excess = m.slip - c.impact.leaves;
-    const double mass = c.law->hard->sliding_mass, cap = c.impact.friction * pressed;
-    const Vector3 force = grip(excess, mass, cap);
-    c.sliding.slides = stops(excess.norm(), mass) > cap;
-    lost -= 0.5 * way * work_of(Vector3(c.sliding_dashpot + force), m.slip_before);
-    c.sliding_dashpot = force;
-    return force;
-  }
-
-  /// The same against rolling and drilling.
-  Couples strike_turning(Contact& c, const PileMotion& m, double pressed, double way,
-                         double& lost) const {
-    const PileBody& a = world_->bodies[c.first];
-    const double about = m.spin.dot(m.normal), about_before = m.spin_before.dot(m.normal);
-    Couples couples;
-    if (may_roll(c) && (!c.sliding.slides || c.law->rolls_while_sliding)) {
-      const double inertia =
-          c.law->rolls_while_sliding ? a.inertia : a.mass * a.radius * c.law->rolling_lever;
-      couples.rolling = grip(m.spin - about * m.normal, inertia, rolling_now(c, m, pressed).holds);
-    }
-    if (c.law->drilling.length > 0)
-      couples.drilling = grip(about * m.normal, a.inertia, c.law->drilling.length * pressed);
-    const double drilling = couples.drilling.dot(m.normal);
-    lost -= 0.5 * way *
-            (work_of(Vector3(c.rolling_dashpot + couples.rolling), m.spin_before) +
-             work_of(c.drilling_dashpot + drilling, about_before));
-    c.rolling_dashpot = couples.rolling;
-    c.drilling_dashpot = drilling;
-    return couples;
-  }
-
-  /// The impact has become a contact that lasts, whose springs go on with its forces.
-  void settle(Contact& c, double& lost) const {
-    c.impact.until = 0;
-    c.stiffness = c.law->sliding.stiffness;
-    lost -= hand_over(c.stiffness, c.sliding, c.sliding_dashpot);
-    if constexpr (kTurns) {
-      lost -= hand_over(c.law->rolling.stiffness, c.rolling, c.rolling_dashpot);
-      lost -= hand_over(c.law->drilling.stiffness, c.drilling, c.drilling_dashpot);
-    }
-  }
-  /// Returns what the spring then has.
-  template <class V>
-  static double hand_over(double stiffness, SpringMemory<V>& spring, V& force) {
-    if (stiffness == 0) return 0;
-    spring.stretch = V((-1 / stiffness) * force);
-    force = V(0 * force);
-    return spring_energy(stiffness, spring.stretch);
-  }
-
   /// A couple M against what rolls without slip and does not slide asks for the friction M×n/((1 +
   /// q) R), which cannot break it loose: it is no part of what sticks, K (16).
-  void add_couples(const Contact& c, const Vector3& n, const Couples& couples,
+  void add_couples(const Contact& c, const Vector3& n, const PileCouples& couples,
                    PileForce& force) const {
     force.torque = couples.rolling + couples.drilling;
-    if (c.law->rolls_while_sliding || !may_roll(c)) return;
+    if (c.law->rolls_while_sliding || !c.law->resists_rolling()) return;
     const double R = world_->bodies[c.first].radius, lever = c.law->rolling_lever;
     force.all += couples.rolling.cross(n) / lever;
     force.torque -= R / lever * couples.rolling;
@@ -264,18 +176,18 @@ class PileStep {
     const double way = part * world_->step;
     double lost = 0;
     const double angle = way * m.turning_before;
-    if (c.impact.until > 0 && time_ >= c.impact.until) settle(c, lost);
+    if (c.impact.until > 0 && time_ >= c.impact.until) impacts_.end(c, lost);
     const bool strikes = c.impact.until > 0;
     Vector3& remembered = strikes ? c.impact.leaves : c.sliding.stretch;
     remembered = carried(remembered, c.normal, m.normal, angle);
     const Vector3 across =
-        strikes ? strike(c, m, std::abs(normal), way, lost)
+        strikes ? impacts_.slide(c, m, std::abs(normal), way, lost)
                 : slide(c, m, overlap, std::abs(pressed), way, world_->dilates, lost);
     PileForce force{normal * m.normal + across, across};
     if constexpr (kTurns) {
       c.rolling.stretch = carried(c.rolling.stretch, c.normal, m.normal, angle);
-      const Couples couples = strikes ? strike_turning(c, m, std::abs(normal), way, lost)
-                                      : turn(c, m, std::abs(pressed), way, lost);
+      const PileCouples couples = strikes ? impacts_.turn(c, m, std::abs(normal), way, lost)
+                                          : turn(c, m, std::abs(pressed), way, lost);
       add_couples(c, m.normal, couples, force);
     }
     const double dashpot = normal - elastic_force(c, overlap);
@@ -339,7 +251,7 @@ class PileStep {
     c.sliding = {Vector3::Zero()};
     c.sliding_dashpot.setZero();
     c.normal_dashpot = 0;
-    c.impact = impact_of(c, m);
+    c.impact = impacts_.begin(*c.law, m);
     if constexpr (kTurns) static_cast<PileTurning&>(c) = {};
     c.force = {};
     if (!within) sum_->ledger.dissipated -= elastic(c);  // came with it
@@ -351,14 +263,6 @@ class PileStep {
     push(c, within ? 0.5 * ((1 + part) * c.force + part * begun) : c.force, m.normal);
     c.impulse += std::abs(normal) * world_->step;
     sum_->collisions += c.second >= 0;
-  }
-
-  PileImpact impact_of(const Contact& c, const PileMotion& m) const {
-    const auto& law = c.law->hard;
-    if (!law || !(m.closing > 0) || c.law->sliding.static_friction == 0 || world_->dilates)
-      return {};
-    return {time_ + world_->laws->collision_time(), friction_at(law->friction, m.slip.norm()),
-            -law->tangential_restitution * m.slip};
   }
 
   /// The contact lasted for `part` of the step before now and should have had part h ½ (F + F_end)
@@ -476,6 +380,7 @@ class PileStep {
   PileWorld* world_;
   double time_;  ///< now [s]
   Sum* sum_;
+  PileImpacts<kTurns> impacts_;
 };
 
 }  // namespace slipcheck
