@@ -22,11 +22,15 @@ ObservableKey ObservableKey::of(std::string_view other_owner) const {
 std::string ObservableKey::text() const {
   std::string all;
   all.reserve(owner.size() + 1 + observable.size() + 2);
-  all += owner;
+  write(all);
+  return all;
+}
+
+void ObservableKey::write(std::string& all) const {
+  all = owner;
   if (!owner.empty()) all += '.';
   all += observable;
   if (component != '\0') (all += '.') += component;
-  return all;
 }
 
 std::array<std::string, 3> ObservableKey::components() const {

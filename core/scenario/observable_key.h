@@ -23,6 +23,8 @@ struct ObservableKey {
   /// Of a component the vector.
   ObservableKey whole() const { return {owner, observable}; }
   std::string text() const;
+  /// The same into a string that may have room for it.
+  void write(std::string& all) const;
   /// The text without the owner: "final_velocity.x".
   std::string bare() const { return of("").text(); }
   /// The texts of the vector's components, whichever of them, or the whole, this is.

@@ -26,7 +26,7 @@ bool names_observable(const Scenario& scenario, std::string_view key, std::strin
   return !name.owner.ends_with("-substrate") || scenario.bodies.size() == 1;
 }
 
-std::optional<Tolerance> tolerance_of(const Scenario& scenario, const std::string& full_name) {
+std::optional<Tolerance> tolerance_of(const Scenario& scenario, std::string_view full_name) {
   const std::string* key = nullptr;
   const Tolerance* best = nullptr;
   for (const auto& [name, tolerance] : scenario.compare.tolerance) {
@@ -42,7 +42,7 @@ std::optional<Tolerance> tolerance_of(const Scenario& scenario, const std::strin
   return tolerance;
 }
 
-std::optional<Tolerance> tolerance_of_part(const Scenario& scenario, const std::string& full_name) {
+std::optional<Tolerance> tolerance_of_part(const Scenario& scenario, std::string_view full_name) {
   if (auto tolerance = tolerance_of(scenario, full_name)) return tolerance;
   const ObservableKey key = observable_key(full_name);
   if (key.component == '\0') return std::nullopt;

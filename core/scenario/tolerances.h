@@ -17,9 +17,9 @@ bool names_observable(const Scenario& scenario, std::string_view key, std::strin
 /// The tolerance that judges an observable: of those that name it the one that says most of its
 /// owner. None where none names it, or that one is `none`. `absolute` is set for restitution
 /// coefficients.
-std::optional<Tolerance> tolerance_of(const Scenario& scenario, const std::string& full_name);
+std::optional<Tolerance> tolerance_of(const Scenario& scenario, std::string_view full_name);
 
 /// The same; of a vector's component without a tolerance of its own, that of the vector.
-std::optional<Tolerance> tolerance_of_part(const Scenario& scenario, const std::string& full_name);
+std::optional<Tolerance> tolerance_of_part(const Scenario& scenario, std::string_view full_name);
 
 }  // namespace slipcheck

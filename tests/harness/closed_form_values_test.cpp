@@ -76,8 +76,8 @@ TEST(ClosedFormValues, AreNotShownWhereTheRunEndsBeforeThePairMeets) {
   EXPECT_TRUE(before.closed_form.empty());
   // Met, but still sliding: only what has been seen by then.
   const ReferenceResult sliding = test::run_hard(scene, until_time(0.03), kNames);
-  EXPECT_EQ(sliding.closed_form.count("i-j.restitution"), 1u);
-  EXPECT_EQ(sliding.closed_form.count("i.sliding_time"), 0u);
+  EXPECT_TRUE(sliding.closed_form.contains("i-j.restitution"));
+  EXPECT_FALSE(sliding.closed_form.contains("i.sliding_time"));
 }
 
 TEST(ClosedFormValues, AreNotShownWhereThePairCollidesAgain) {

@@ -313,7 +313,7 @@ TEST(PhaseErrors, AreTheLargestDeviationInItsTolerance) {
                        {"i.final_velocity.y", {4, 0}}, {"i.final_velocity.z", {0, 0}},
                        {"i.stopping_time", {1, 0}}};
   std::map<std::string, double> right;
-  for (const auto& [name, value] : truth.observables) right[name] = value.value;
+  for (const auto& [name, value] : truth.observables) right.emplace(name, value.value);
   std::vector<std::map<std::string, double>> phases(6, right);
   phases[1]["i.sliding_time"] = 2.06;     // 3 % of 1 %
   phases[1]["i-j.restitution"] = 0.91;    // 0.01 of 0.005

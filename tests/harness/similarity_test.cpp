@@ -42,7 +42,8 @@ void expect_similar(const Scenario& scenario, double lambda, double tolerance) {
       ++compared;
       const double scaled = seen.value * factor;
       // What is zero but for rounding is so on the scale of what happens.
-      EXPECT_NEAR(value(after, full), scaled, tolerance * std::max(std::abs(scaled), factor))
+      EXPECT_NEAR(value(after, std::string(full)), scaled,
+                  tolerance * std::max(std::abs(scaled), factor))
           << full << " at " << lambda;
     }
   };
@@ -134,9 +135,10 @@ std::map<std::string, double> turned_back(const PreparedScene& scene, const Vect
   const ReferenceResult result =
       run_reference(solver, run_end(scene.scenario), body_names(scene.scenario));
   std::map<std::string, double> values;
-  for (const auto& [name, seen] : result.observables) {
-    const ObservableKey key = observable_key(name);
+  for (const auto& [text, seen] : result.observables) {
+    const ObservableKey key = observable_key(text);
     const auto [x, y, z] = key.components();
+    const std::string name(text);
     if (key.component == 'x')
       values[name] = heading.x() * value(result, x) + heading.y() * value(result, y);
     else if (key.component == 'y')
@@ -159,7 +161,7 @@ TEST(Similarity, TheReferenceKnowsNoDirection) {
       ASSERT_EQ(seen.size(), scene.reference.observables.size()) << name;
       for (const auto& [observable, expected] : scene.reference.observables) {
         const double scale = std::max(std::abs(expected.value), 1.0);
-        EXPECT_NEAR(seen.at(observable), expected.value, 1e-8 * scale)
+        EXPECT_NEAR(seen.at(std::string(observable)), expected.value, 1e-8 * scale)
             << name << ": " << observable << " in heading " << k;
       }
     }

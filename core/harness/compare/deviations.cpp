@@ -215,8 +215,10 @@ std::map<std::string, Deviation> deviations(const Scenario& scenario,
                                             const Ensemble& ensemble) {
   const Judge judge(scenario, reference);
   std::map<std::string, Deviation> result;
-  for (const auto& [name, value] : reference.observables)
-    result[name] = judge.deviation(ensemble, name);
+  for (const auto& [text, value] : reference.observables) {
+    const std::string name(text);
+    result.emplace(name, judge.deviation(ensemble, name));
+  }
   for (const auto& [name, value] : ensemble)
     if (!result.contains(name))
       if (auto surplus = judge.deviation_of_surplus(name)) result[name] = std::move(*surplus);
@@ -243,7 +245,8 @@ std::vector<double> phase_errors(const Scenario& scenario, const ReferenceResult
       if (!std::isnan(value.values[p])) seen.emplace(name, value.values[p]);
     const auto note = [&](double error) { errors[p] = std::fmax(errors[p], error); };
     const Ensemble alone = ensemble_values({seen});
-    for (const auto& [name, value] : reference.observables) {
+    for (const auto& [text, value] : reference.observables) {
+      const std::string name(text);
       if (!tolerance_of(scenario, name)) continue;
       const Deviation off = judge.deviation(alone, name);
       if (off.verdict == Verdict::undecided) continue;

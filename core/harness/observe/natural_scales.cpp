@@ -22,9 +22,9 @@ bool NaturalScales::is_rounding(const std::string& full_name, double difference)
   return difference <= kRounding * of(full_name);
 }
 
-NaturalScales natural_scales(const ContactScene& scene, double end) {
-  NaturalScales scales{
-      .speed = speed_scale(scene), .small = std::numeric_limits<double>::infinity(), .time = end};
+NaturalScales natural_scales(const ContactScene& scene) {
+  NaturalScales scales{.speed = speed_scale(scene),
+                       .small = std::numeric_limits<double>::infinity()};
   for (const Sphere& sphere : scene.hard.bodies) {
     scales.large = std::max(scales.large, sphere.radius);
     scales.small = std::min(scales.small, sphere.radius);

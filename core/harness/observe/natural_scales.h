@@ -20,7 +20,7 @@ struct NaturalScales {
   bool is_rounding(const std::string& full_name, double difference) const;
 };
 
-/// Of a scene that runs until `end` [s].
-NaturalScales natural_scales(const ContactScene& scene, double end);
+/// Of a scene; the time is for who runs it to say.
+NaturalScales natural_scales(const ContactScene& scene);
 
 }  // namespace slipcheck

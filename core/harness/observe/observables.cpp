@@ -98,15 +98,23 @@ std::string owner_of(const PairObservables& pair, const Observables& observables
 
 std::string value_name(const Observables& observables, const std::vector<std::string>& body_names,
                        std::size_t index) {
+  std::string name;
+  write_value_name(observables, body_names, index, name);
+  return name;
+}
+
+void write_value_name(const Observables& observables, const std::vector<std::string>& body_names,
+                      std::size_t index, std::string& name) {
   static const std::vector<ObservableKey> kKeys = keys_of_body();
   const std::size_t of_bodies = kOfBody * observables.bodies.size();
-  if (index < of_bodies) return kKeys[index % kOfBody].of(body_names[index / kOfBody]).text();
+  if (index < of_bodies) return kKeys[index % kOfBody].of(body_names[index / kOfBody]).write(name);
   const std::size_t left = index - of_bodies;
-  if (left == kPairScalars.size() * observables.pairs.size()) return "all.height";
+  if (left == kPairScalars.size() * observables.pairs.size())
+    return ObservableKey{"all", "height"}.write(name);
   const PairObservables& pair = observables.pairs[left / kPairScalars.size()];
-  return ObservableKey{owner_of(pair, observables, body_names),
-                       kPairScalars[left % kPairScalars.size()].name}
-      .text();
+  ObservableKey{owner_of(pair, observables, body_names),
+                kPairScalars[left % kPairScalars.size()].name}
+      .write(name);
 }
 
 const BodyObservables* body_of_value(const Observables& observables, std::size_t index) {

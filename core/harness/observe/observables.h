@@ -69,6 +69,9 @@ struct Observables {
 /// surfaces beside the substrate stand after those of the bodies.
 std::string value_name(const Observables& observables, const std::vector<std::string>& body_names,
                        std::size_t index);
+/// The same into a string that may have room for it.
+void write_value_name(const Observables& observables, const std::vector<std::string>& body_names,
+                      std::size_t index, std::string& name);
 
 /// The body of such a value, null of a pair's or of all.
 const BodyObservables* body_of_value(const Observables& observables, std::size_t index);

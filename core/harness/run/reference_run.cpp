@@ -19,16 +19,21 @@
 namespace slipcheck {
 namespace {
 
-/// Restores the rounding mode on leaving.
+/// Restores the rounding mode on leaving. To set the one that holds would cost as much as another.
 class RoundingMode {
  public:
-  explicit RoundingMode(int mode) : before_(std::fegetround()) { std::fesetround(mode); }
-  ~RoundingMode() { std::fesetround(before_); }
+  explicit RoundingMode(int mode) : before_(std::fegetround()), mode_(mode) { change(mode); }
+  ~RoundingMode() { change(before_); }
   RoundingMode(const RoundingMode&) = delete;
   RoundingMode& operator=(const RoundingMode&) = delete;
 
  private:
+  void change(int mode) const {
+    if (mode_ != before_) std::fesetround(mode);
+  }
+
   int before_;
+  int mode_;
 };
 
 /// Shows several the same frames; all or none of a partial one.
@@ -47,10 +52,19 @@ class EachSink final : public FrameSink {
 /// bodies takes.
 enum class Timed : bool { no, yes };
 
-/// keeper: null, or what keeps it on its way. extras: null, or whose samples are taken.
-ObservedRun solve(const ReferenceSolver& solver, const RunEnd& end, int rounding,
-                  const SolverAccuracy& accuracy, ReferenceKeeper* keeper = nullptr,
+/// What is run several times.
+struct RunTask {
+  const ReferenceSolver& solver;
+  const RunEnd& end;
+  double speed;                       ///< speed_scale() of its scene
+  ReferenceKeeper* keeper = nullptr;  ///< what keeps it on its way, where it keeps_state()
+};
+
+/// extras: null, or whose samples are taken.
+ObservedRun solve(const RunTask& task, int rounding, const SolverAccuracy& accuracy,
                   const ReferenceExtras* extras = nullptr, Timed timed = Timed::no) {
+  const ReferenceSolver& solver = task.solver;
+  ReferenceKeeper* const keeper = task.keeper;
   if (keeper)
     if (const ObservedRun* before = keeper->next()) return *before;
   const RoundingMode mode(rounding);
@@ -58,10 +72,10 @@ ObservedRun solve(const ReferenceSolver& solver, const RunEnd& end, int rounding
   const bool whole = extras && extras->whole;
   std::optional<Observer> observer;
   if (!whole)
-    observer.emplace(scene, 0, speed_scale(solver.scene()), solver.is_resolved(),
+    observer.emplace(scene, 0, task.speed, solver.is_resolved(),
                      solver.spring_speeds(accuracy.softness));
   std::optional<AssemblyObserver> assembly;
-  if (extras) assembly.emplace(solver.scene(), end.last(), extras->samples, extras->states);
+  if (extras) assembly.emplace(solver.scene(), task.end.last(), extras->samples, extras->states);
   std::vector<FrameSink*> sinks;
   if (observer) sinks.push_back(&*observer);
   if (assembly) sinks.push_back(&*assembly);
@@ -75,8 +89,8 @@ ObservedRun solve(const ReferenceSolver& solver, const RunEnd& end, int rounding
     });
   ObservedRun solved;
   const double begin = timed == Timed::yes ? thread_cpu_seconds() : 0;
-  solved.run =
-      solver.run(end, &sink, accuracy, keeper, extras ? extras->started : std::function<void()>());
+  solved.run = solver.run(task.end, &sink, accuracy, keeper,
+                          extras ? extras->started : std::function<void()>());
   if (timed == Timed::yes)
     solved.cpu_seconds = thread_cpu_seconds() - begin + (keeper ? keeper->cpu_before() : 0);
   if (observer) solved.seen = observer->finish(solved.run.end_time);
@@ -131,29 +145,29 @@ struct SolvedRuns {
   std::vector<Observables> others;
 };
 
-SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double tolerance,
-                     ReferenceKeeper* keeper, const ReferenceExtras* extras) {
+SolvedRuns solve_all(const RunTask& task, double tolerance, const ReferenceExtras* extras) {
+  const ReferenceSolver& solver = task.solver;
   SolvedRuns runs;
   if (solver.is_exact()) {
-    runs.others.push_back(solve(solver, end, FE_UPWARD, {tolerance, 1.5}).seen);
-    runs.others.push_back(solve(solver, end, FE_DOWNWARD, {tolerance, 0.5}).seen);
+    runs.others.push_back(solve(task, FE_UPWARD, {tolerance, 1.5}).seen);
+    runs.others.push_back(solve(task, FE_DOWNWARD, {tolerance, 0.5}).seen);
     if (solver.hardens())
       runs.others.push_back(
-          solve(solver, end, FE_TONEAREST, {.tolerance = tolerance, .softness = 2}).seen);
+          solve(task, FE_TONEAREST, {.tolerance = tolerance, .softness = 2}).seen);
   } else if (solver.is_piled()) {
     for (const double factor : kOtherSteps)
-      runs.others.push_back(solve(solver, end, FE_TONEAREST, {.step = factor}, keeper).seen);
+      runs.others.push_back(solve(task, FE_TONEAREST, {.step = factor}).seen);
     if (solver.softened_to() > 0)
-      runs.others.push_back(solve(solver, end, FE_TONEAREST, {.softness = 2}, keeper).seen);
+      runs.others.push_back(solve(task, FE_TONEAREST, {.softness = 2}).seen);
   } else if (solver.is_stepped()) {
     for (const double factor : kOtherSteps)
-      runs.others.push_back(solve(solver, end, FE_TONEAREST, {tolerance, 1, factor}, keeper).seen);
+      runs.others.push_back(solve(task, FE_TONEAREST, {tolerance, 1, factor}).seen);
   } else {
-    runs.others.push_back(solve(solver, end, FE_TONEAREST,
-                                {.tolerance = 10 * tolerance, .cut_offs = 1.5, .softness = 2})
-                              .seen);
+    runs.others.push_back(
+        solve(task, FE_TONEAREST, {.tolerance = 10 * tolerance, .cut_offs = 1.5, .softness = 2})
+            .seen);
   }
-  runs.value = solve(solver, end, FE_TONEAREST, {tolerance, 1}, keeper, extras, Timed::yes);
+  runs.value = solve(task, FE_TONEAREST, {tolerance, 1}, extras, Timed::yes);
   if (runs.value.run.collapses == 0) return runs;
   // Where a rule took part, its size, another rule and another order of what comes at one instant
   // tell what it decided; and so do contacts that last, which need none, where friction with the
@@ -161,7 +175,7 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
   const SolverAccuracy other{.tolerance = tolerance, .cut_offs = 10, .other_rule = true};
   const SolverAccuracy reversed{.tolerance = tolerance, .reversed = true};
   for (const SolverAccuracy& accuracy : {other, reversed})
-    runs.others.push_back(solve(solver, end, FE_TONEAREST, accuracy).seen);
+    runs.others.push_back(solve(task, FE_TONEAREST, accuracy).seen);
   const Scene& scene = solver.scene().hard;
   const auto lasting = is_rubbed(scene) ? with_lasting_contacts(scene) : std::nullopt;
   if (lasting) {
@@ -169,9 +183,10 @@ SolvedRuns solve_all(const ReferenceSolver& solver, const RunEnd& end, double to
     // needed.
     const ContactScene& shown = scene.surfaces.empty() ? *lasting : solver.scene();
     const ReferenceSolver resolved(shown, Compare::Reference::contact);
-    RunEnd soon = end;  // what lasts may creep, and never roll
-    soon.limit = std::min(end.limit, 2 * runs.value.run.end_time);
-    runs.others.push_back(solve(resolved, soon, FE_TONEAREST, {.tolerance = 1e-8}).seen);
+    RunEnd soon = task.end;  // what lasts may creep, and never roll
+    soon.limit = std::min(soon.limit, 2 * runs.value.run.end_time);
+    const RunTask lasts{resolved, soon, speed_scale(resolved.scene())};
+    runs.others.push_back(solve(lasts, FE_TONEAREST, {.tolerance = 1e-8}).seen);
   }
   return runs;
 }
@@ -220,11 +235,13 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
   ReferenceKeeper* const keeper = keeping ? &*keeping : nullptr;
   const bool samples = extras.samples > 0 && is_soft_assembly(solver) && end.last() > 0;
   const ReferenceExtras* const sampled = samples ? &extras : nullptr;
-  SolvedRuns runs = solve_all(solver, end, tolerance, keeper, sampled);
+  result.scales = natural_scales(solver.scene());
+  const RunTask task{solver, end, result.scales.speed, keeper};
+  SolvedRuns runs = solve_all(task, tolerance, sampled);
   // A scene whose scales lie too far apart for its last digits.
   while (runs.value.run.failed && !solver.is_exact() && !solver.is_piled() && tolerance < 1e-9) {
     tolerance *= 10;
-    runs = solve_all(solver, end, tolerance, keeper, sampled);
+    runs = solve_all(task, tolerance, sampled);
   }
   if (tolerance > SolverAccuracy{}.tolerance)
     result.warnings.push_back("integrated at a relative tolerance of 1e" +
@@ -233,7 +250,7 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
   result.cpu_seconds = solved.cpu_seconds;
   result.run = solved.run;
   result.assembly = solved.assembly;
-  result.scales = natural_scales(solver.scene(), solved.run.end_time);
+  result.scales.time = solved.run.end_time;
   // What the integrator cannot run has no contact to put phases to; the warning below says so.
   result.first_contact = solved.run.failed ? std::numeric_limits<double>::infinity()
                                            : solver.first_contact(result.run.end_time, tolerance);
@@ -251,19 +268,18 @@ ReferenceResult run_reference(const ReferenceSolver& solver, const RunEnd& end,
   std::vector<std::string> not_numbers;
   result.observables.reserve(values.size() + 1);
   if (has_closed_form) result.closed_form.reserve(values.size());
+  std::string name;
   for (const std::size_t k : order_of_names(solved.seen, names)) {
     const double value = values[k];
     if (std::isnan(value)) {
       if (!is_not_observed(value)) not_numbers.push_back(value_name(solved.seen, names, k));
       continue;
     }
-    std::string name = value_name(solved.seen, names, k);
+    write_value_name(solved.seen, names, k, name);
     double least = solver.is_stepped() ? change_within(2 * solver.step(), name, solved.seen, k) : 0;
     if (!springs.empty()) least = std::max(least, change_by_springs(springs, name, solved.seen, k));
-    if (!std::isnan(closed[k]))
-      result.closed_form.emplace_hint(result.closed_form.end(), name, closed[k]);
-    result.observables.emplace_hint(result.observables.end(), std::move(name),
-                                    UncertainValue{value, std::max(least, uncertainties[k])});
+    if (!std::isnan(closed[k])) result.closed_form.append(name, closed[k]);
+    result.observables.append(name, {value, std::max(least, uncertainties[k])});
   }
   if (!scene.periodic.isZero(0) && result.run.end_time > 0) {
     // Counts scatter by their square root where collisions are independent.
@@ -321,7 +337,8 @@ ReferenceResult run_reference_whole(const ReferenceSolver& solver, const RunEnd&
   std::optional<ReferenceKeeper> keeping;
   if (extras.checkpoints) keeping.emplace(*extras.checkpoints);
   ReferenceKeeper* const keeper = keeping ? &*keeping : nullptr;
-  const ObservedRun solved = solve(solver, end, FE_TONEAREST, {}, keeper, &extras, Timed::yes);
+  // Nothing is observed of bodies, and no speed is asked for.
+  const ObservedRun solved = solve({solver, end, 0, keeper}, FE_TONEAREST, {}, &extras, Timed::yes);
   result.cpu_seconds = solved.cpu_seconds;
   result.run = solved.run;
   result.assembly = solved.assembly;

@@ -85,7 +85,7 @@ class ResultRows {
  private:
   std::set<std::string> names(const EngineRecord* run) const {
     std::set<std::string> names;
-    for (const auto& [name, value] : scene_.reference.observables) names.insert(name);
+    for (const auto& [name, value] : scene_.reference.observables) names.emplace(name);
     for (const auto& [name, reason] : absent_) names.insert(name);
     if (run)
       for (const auto& [name, value] : run->observables) names.insert(name);

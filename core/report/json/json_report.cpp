@@ -71,8 +71,9 @@ std::string no_bound(const ReferenceResult& reference) {
 std::map<std::string, ShownObservable> shown_observables(const SceneRecord& scene) {
   std::map<std::string, ShownObservable> shown;
   for (const auto& [name, seen] : scene.reference.observables)
-    shown[name] = {seen.value, seen.uncertainty,
-                   std::isinf(seen.uncertainty) ? no_bound(scene.reference) : ""};
+    shown.emplace(name,
+                  ShownObservable{seen.value, seen.uncertainty,
+                                  std::isinf(seen.uncertainty) ? no_bound(scene.reference) : ""});
   for (const auto& [name, reason] : absent_observables(scene))
     shown[name] = {std::nullopt, std::nullopt, reason};
   return shown;

@@ -120,7 +120,7 @@ std::vector<ComparisonRow> comparison_rows(const SceneRecord& scene, const Engin
   std::vector<ComparisonRow> rows;
   for (const std::string& name : names) {
     const EnsembleValue* ensemble = find_in(run.observables, name);
-    const bool in_reference = scene.reference.observables.count(name) > 0;
+    const bool in_reference = scene.reference.observables.contains(name);
     const Deviation* deviation = find_in(run.errors, name);
     if (!ensemble && !in_reference && !deviation) continue;
     const QuantityFormat format = format_for(scene, name, ensemble);

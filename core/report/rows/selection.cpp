@@ -10,7 +10,7 @@
 namespace slipcheck {
 namespace {
 
-bool is_component(const std::string& full_name) {
+bool is_component(std::string_view full_name) {
   return observable_key(full_name).component != '\0';
 }
 
@@ -30,16 +30,16 @@ std::vector<std::string> owners(const SceneRecord& scene, ObservableScope scope)
 
 }  // namespace
 
-const ObservableName* observable_of(const std::string& full_name) {
+const ObservableName* observable_of(std::string_view full_name) {
   return observable_key(full_name).known();
 }
 
-const Dimension& dimension_of(const std::string& full_name) {
+const Dimension& dimension_of(std::string_view full_name) {
   const ObservableName* observable = observable_of(full_name);
   return observable ? observable->dimension : kPureNumber;
 }
 
-bool has_tolerance(const Scenario& scenario, const std::string& full_name) {
+bool has_tolerance(const Scenario& scenario, std::string_view full_name) {
   return tolerance_of(scenario, full_name).has_value();
 }
 
@@ -73,17 +73,17 @@ std::vector<std::string> shown_observables(const SceneRecord& scene, bool all) {
   for (const EngineRecord& run : scene.runs)
     if (run.expect)
       for (const auto& [name, expected] : run.expect->observables)
-        if (scene.reference.observables.count(name)) names.insert(name);
+        if (scene.reference.observables.contains(name)) names.insert(name);
   const bool has_engines = !scene.runs.empty();
   for (const auto& [name, value] : scene.reference.observables) {
     const ObservableName* observable = observable_of(name);
     if (all || has_tolerance(scene.scenario, name) || (observable && observable->is_restitution) ||
         (!has_engines && !is_component(name)))
-      names.insert(name);
+      names.emplace(name);
   }
   if (names.empty())
     for (const auto& [name, value] : scene.reference.observables)
-      if (!is_component(name)) names.insert(name);
+      if (!is_component(name)) names.emplace(name);
   return {names.begin(), names.end()};
 }
 

@@ -10,13 +10,13 @@
 namespace slipcheck {
 
 /// The observable of a full name as in "i.final_velocity.x"; null if there is none.
-const ObservableName* observable_of(const std::string& full_name);
+const ObservableName* observable_of(std::string_view full_name);
 
 /// Its dimension, a pure number where the name is unknown.
-const Dimension& dimension_of(const std::string& full_name);
+const Dimension& dimension_of(std::string_view full_name);
 
 /// Whether the scene states a tolerance for it.
-bool has_tolerance(const Scenario& scenario, const std::string& full_name);
+bool has_tolerance(const Scenario& scenario, std::string_view full_name);
 
 /// What a tolerance names but the reference does not show, by full name with the reason; under the
 /// tolerance's own key where the reference shows nothing that it names.

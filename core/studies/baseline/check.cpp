@@ -24,8 +24,8 @@ double finite_or_zero(double value) { return std::isfinite(value) ? value : 0; }
 template <class Map>
 std::set<std::string> names_of(const Map& one, const Map& other) {
   std::set<std::string> names;
-  for (const auto& [name, value] : one) names.insert(name);
-  for (const auto& [name, value] : other) names.insert(name);
+  for (const auto& [name, value] : one) names.emplace(name);
+  for (const auto& [name, value] : other) names.emplace(name);
   return names;
 }
 

@@ -53,7 +53,7 @@ std::map<std::string, ErrorFloor> error_floors(const Scenario& scenario,
   // A run that is off by the uncertainties has errors of their size.
   std::map<std::string, double> off;
   for (const auto& [name, value] : reference.observables)
-    off[name] = value.value + value.uncertainty;
+    off.emplace(name, value.value + value.uncertainty);
   std::map<std::string, ErrorFloor> floors;
   for (const auto& [name, deviation] : deviations(scenario, reference, ensemble_values({off}))) {
     const auto value = reference.observables.find(name);

@@ -88,7 +88,7 @@ class Curves {
 WorkPrecision Curves::exact_point() const {
   Named seen;
   for (const auto& [name, value] : scene_.reference.observables)
-    seen[name] = value.value + value.uncertainty;
+    seen.emplace(name, value.value + value.uncertainty);
   WorkPrecision point = point_of(0, {seen}, {0});
   point.errors[kTrajectory] = {};
   point.errors[kTrajectory].reason = "the others are held against this one";

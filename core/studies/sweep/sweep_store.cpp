@@ -227,12 +227,12 @@ void SweepStore::create(const StoreHead& head) {
   transaction.commit();
 }
 
-std::int64_t SweepStore::name_id(const std::string& name) {
-  const auto [known, is_new] = names_.try_emplace(name, 0);
+std::int64_t SweepStore::name_id(std::string_view name) {
+  const auto [known, is_new] = names_.try_emplace(std::string(name), 0);
   if (is_new) {
-    statements_->name.bind(1, std::string_view(name)).run();
+    statements_->name.bind(1, name).run();
     known->second = sqlite3_last_insert_rowid(file_->get());
-    new_names_.push_back(name);
+    new_names_.emplace_back(name);
   }
   return known->second;
 }

@@ -96,7 +96,7 @@ class SweepStore {
   struct Statements;
 
   void create(const StoreHead& head);
-  std::int64_t name_id(const std::string& name);
+  std::int64_t name_id(std::string_view name);
   void add_scene(const FinishedRun& run);
   void add_observables(const FinishedRun& run);
 
