@@ -22,7 +22,8 @@ int main(int argc, char** argv) {
     const slipcheck::ReferenceResult& reference = scenes.front().reference;
     for (const auto& [name, seen] : reference.observables) {
       if (!name.ends_with(".effective_restitution")) continue;
-      std::printf("%s = %.17g +- %.2g", name.c_str(), seen.value, seen.uncertainty);
+      std::printf("%.*s = %.17g +- %.2g", static_cast<int>(name.size()), name.data(), seen.value,
+                  seen.uncertainty);
       const auto closed = reference.closed_form.find(name);
       if (closed != reference.closed_form.end()) std::printf(", closed form %.17g", closed->second);
       std::printf("\n");

@@ -222,7 +222,7 @@ class LammpsEngine final : public Engine {
       frame.bodies = left_states();
       if (!run.blown_up)
         frame.touches = momentum_touches(setup_->scene, last, frame.bodies, parts * length,
-                                         now - parts * length);
+                                         now - parts * length, OverlapPushes::yes);
       frame.part = k == setup_->settings.frames ? 1.0 : k / double(setup_->settings.frames);
       last = frame.bodies;
       parts = 0;

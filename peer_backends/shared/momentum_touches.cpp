@@ -3,13 +3,15 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace slipcheck {
 namespace {
 
 struct Candidate {
   int first, second;
-  Vector3 normal;  // from the second to the first
+  Vector3 normal;         // from the second to the first
+  bool overlaps = false;  // two bodies do before or after
 };
 
 /// Gap [m] that counts as touching: resting bodies hover by rounding.
@@ -54,8 +56,9 @@ std::vector<Candidate> candidates(const Scene& scene, std::span<const BodyState>
       const double when = square > 0 ? std::clamp(-apart.dot(rate) / square, 0.0, time_step) : 0.0;
       const double nearest = std::min((apart + when * rate).norm(), now.norm());
       if (nearest < reach + margin)
-        found.push_back(
-            {static_cast<int>(i), static_cast<int>(j), (apart + now).stableNormalized()});
+        found.push_back({static_cast<int>(i), static_cast<int>(j),
+                         (apart + now).stableNormalized(),
+                         std::min(apart.norm(), now.norm()) < reach});
     }
   }
   return found;
@@ -65,7 +68,7 @@ std::vector<Candidate> candidates(const Scene& scene, std::span<const BodyState>
 
 std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyState> before,
                                     std::span<const BodyState> after, double time_step,
-                                    double time) {
+                                    double time, OverlapPushes overlaps) {
   const std::vector<Candidate> found = candidates(scene, before, after, time_step, time);
   if (found.empty()) return {};
   const auto bodies = static_cast<Eigen::Index>(scene.bodies.size());
@@ -90,7 +93,10 @@ std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyStat
   std::vector<Touch> touches;
   for (Eigen::Index c = 0; c < count; ++c) {
     const Candidate& each = found[static_cast<std::size_t>(c)];
-    if (impulses[c] > 1e-9 * largest) touches.push_back({each.first, each.second, impulses[c]});
+    const bool pushes = overlaps == OverlapPushes::yes && each.overlaps;
+    if (impulses[c] > 1e-9 * largest || pushes)
+      touches.push_back({each.first, each.second,
+                         std::max(impulses[c], std::numeric_limits<double>::min())});
   }
   return touches;
 }

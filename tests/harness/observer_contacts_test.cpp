@@ -283,6 +283,69 @@ TEST(ObserverOfAnEngine, ContactTimeIsThatOfTheStepsThatTouch) {
   EXPECT_NEAR(pair.restitution, 0.8, 1e-14);
 }
 
+/// A body as heavy as the other meets it head-on at g = 0.4 m/s: the relative velocity is g cos(ωt)
+/// for half the contact, then e g cos(ωt), the overlap (g/ω) sin(ωt) and e times that. What pushes
+/// in a step is the change of momentum.
+std::vector<Frame> lasting_collision(double steps_in_contact, double e, double h) {
+  const double mass = test::head_on(0.2, -0.2, 0.9).bodies[0].mass;
+  const double contact = steps_in_contact * h, omega = M_PI / contact, begin = 1.3 * h;
+  const auto speed = [&](double t) {
+    if (t <= 0) return 0.2;
+    return t < contact ? (t > contact / 2 ? e : 1) * 0.2 * std::cos(omega * t) : -e * 0.2;
+  };
+  const auto gap = [&](double t) {
+    if (t <= 0) return -0.4 * t;
+    if (t >= contact) return 0.4 * e * (t - contact);
+    return -(t > contact / 2 ? e : 1) * 0.4 / omega * std::sin(omega * t);
+  };
+  std::vector<Frame> frames;
+  for (int n = 0; (n - 3) * h < begin + contact; ++n) {
+    const double t = n * h - begin, v = speed(t);
+    Frame frame = frame_of({n * h, gap(t), v, -v});
+    const double impulse = mass * (speed(t - h) - v);
+    if (impulse > 0) frame.touches.push_back({0, 1, impulse});
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+TEST(ObserverOfAnEngine, ACollisionEndsWithTheLastStepThatPushesHoweverLongItLasts) {
+  const Scene scene = test::head_on(0.2, -0.2, 0.9);
+  for (const double steps : {0.5, 1.0, 2.0, 3.4, 7.0, 20.0, 45.0, 100.0, 1000.0}) {
+    const double h = 1e-2 / std::max(10.0, steps);
+    for (const double e : {1.0, 0.5}) {
+      const std::vector<Frame> frames = lasting_collision(steps, e, h);
+      Observer observer(scene, h, 0.2, true);
+      std::size_t colliding = 0;
+      for (std::size_t n = 0; n < frames.size(); ++n) {
+        observer.take(static_cast<double>(n) * h, frames[n]);
+        if (observer.anything_collides()) ++colliding;
+      }
+      const PairObservables pair =
+          observer.finish(static_cast<double>(frames.size() - 1) * h).pairs.at(0);
+      EXPECT_NEAR(pair.restitution, e, 1e-12) << steps << " steps";
+      // In every frame from the first push to the last; the pair's is in whole steps.
+      EXPECT_NEAR(static_cast<double>(colliding), pair.contact_time / h, 1e-6) << steps << " steps";
+      EXPECT_NEAR(pair.contact_time, steps * h, 2 * h);
+      EXPECT_FALSE(observer.anything_collides());
+    }
+  }
+}
+
+TEST(ObserverOfAnEngine, WhatLeansOnAfterItsBlowCollidesNoMore) {
+  const double h = 1e-3;
+  const Scene scene = test::head_on(0.2, -0.2, 0.9);
+  Observer observer(scene, h, 0.2, true);
+  observer.take(0, frame_of({0, 1e-4, 0.2, -0.2}));
+  for (int n = 1; n <= 20; ++n) {
+    Frame frame = frame_of({n * h, 0, 1e-6, -1e-6});
+    frame.touches.push_back({0, 1, (n == 1 ? 0.2 : 1e-7) * scene.bodies[0].mass});
+    observer.take(n * h, frame);
+    EXPECT_EQ(observer.anything_collides(), n == 1) << n;
+  }
+  EXPECT_NEAR(observer.finish(20 * h).pairs.at(0).contact_time, h, 1e-15);
+}
+
 TEST(ObserverOfAnEngine, EffectiveRestitutionOfSlidesThatEndTogetherUpToRounding) {
   // A solid sphere's slip falls by (7/2) μ g h in a step, its velocity changes by μ g h, and in all
   // by 2/7 of the first slip. What is left after ten steps counts as zero: less than half a step's.

@@ -34,6 +34,24 @@ TEST(MomentumTouches, BallsThatBrakeBesideEachOtherDoNotTouch) {
   }
 }
 
+/// Two that part while friction brakes them by more than their overlap still pushes.
+TEST(MomentumTouches, AnOverlapTellsWhereFrictionIsMoreThanWhatPushes) {
+  Scene scene = test::head_on(-0.15, 0.15, 0.9, 0.00199);
+  std::vector<BodyState> after = scene.initial;
+  after[0].velocity.x() += 1e-4;
+  after[1].velocity.x() -= 1e-4;
+  const auto touches = [&](OverlapPushes overlaps) {
+    return momentum_touches(scene, scene.initial, after, 1e-3, 0, overlaps).size();
+  };
+  EXPECT_EQ(touches(OverlapPushes::no), 2u);  // each with the substrate
+  EXPECT_EQ(touches(OverlapPushes::yes), 3u);
+  // Before or after the step is enough; else there was none.
+  for (BodyState& state : after) state.position.x() *= 1.1;
+  EXPECT_EQ(touches(OverlapPushes::yes), 3u);
+  scene.initial = after;
+  EXPECT_EQ(touches(OverlapPushes::yes), 2u);
+}
+
 TEST(MomentumTouches, ABallThatFliesTouchesNothing) {
   Scene scene = test::head_on(0.15, 0.15, 0.9);
   scene.initial[0].position.z() = scene.initial[1].position.z() = 0.1;

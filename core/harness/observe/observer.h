@@ -52,10 +52,10 @@ class FallingQuantity {
 /// nothing grows with the run's length.
 ///
 /// The reference shows its frames at the events themselves (`step` = 0). An engine shows one frame
-/// a step: a collision ends with the step that applied its impulse, and what ends inside a step
-/// (the slip, the speed, the spin) is found from how it fell before. What counts as zero is half of
-/// what friction takes in a step, since friction stops a body inside a step; but slip that the next
-/// step takes away too was still sliding, and so the next frame is waited for.
+/// a step: a collision ends with the last step that pushes the bodies apart, and what ends inside a
+/// step (the slip, the speed, the spin) is found from how it fell before. What counts as zero is
+/// half of what friction takes in a step, since friction stops a body inside a step; but slip that
+/// the next step takes away too was still sliding, and so the next frame is waited for.
 ///
 /// A body is on the substrate while it touches it and neither comes down nor leaves by more than
 /// what gravity adds in a step: one that bounces flies. It rolls once two frames show no vertical
@@ -89,6 +89,9 @@ class Observer final : public FrameSink {
   double weakest_collision() const { return kOfSceneSpeed * closing_scale_; }
 
   bool anything_slides_or_flies() const;
+  /// Two bodies, or one and a surface, are in the middle of a collision, where they may show no
+  /// slip and no speed for an instant.
+  bool anything_collides() const;
   bool everything_rests() const;
   /// States now, as they would be if each body rolled on what carries it, and nothing of slip and
   /// height were left that an engine leaves.
@@ -178,6 +181,8 @@ class Observer final : public FrameSink {
     double restitution = kNotObserved, tangential_restitution = kNotObserved;
     double effective = kNotObserved;
     double begin_time = 0, contact_time = 0, max_overlap = 0;
+    double end_time = 0;  ///< of its last step so far [s]
+    double blows = 0;     ///< half of what they changed of the relative velocity [m/s]
     bool slid_before = false;
     double sliding_onset = kNotObserved;
   };
@@ -232,7 +237,7 @@ class Observer final : public FrameSink {
   void note_touches(double t0, double t1, const Frame& frame);
   void note_collision(Pair& pair, const Touch& touch, double t0, double t1, const Frame& frame);
   /// Whether this touch belongs to a collision, and whether it is the first.
-  bool continues_or_begins(Pair& pair, const Touch& touch, double t0);
+  bool continues_or_begins(Pair& pair, const Touch& touch, double t0, double t1);
   void resolve(Pair& pair, double t0, double t1, const Frame& frame);
   void follow_sliding(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
   void follow_stopping(Body& body, std::size_t i, double t0, double t1, const Frame& frame);

@@ -103,7 +103,7 @@ void Observer::note_touches(double t0, double t1, const Frame& frame) {
   });
 }
 
-bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
+bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0, double t1) {
   pair.touched_now = true;
   // The reference's contact is a collision or none from its beginning on.
   if ((step_ == 0 || pair.from_start) && pair.touched_before) return pair.colliding;
@@ -122,18 +122,26 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0) {
   const auto rubs = [&](int k) {
     return is_body(k) ? scene_->on_substrate(index(k)).kinetic_friction : 0;
   };
-  const double leaning =
-      ((rubs(pair.first) + rubs(pair.second)) * scene_->gravity + scene_->downhill.norm()) * step_;
-  if (approach <= weakest && (step_ == 0 || blow <= weakest + leaning)) {
-    pair.colliding = false;
-    return false;
+  const double leans =
+      (rubs(pair.first) + rubs(pair.second)) * scene_->gravity + scene_->downhill.norm();
+  const double least_blow = weakest + leans * step_;
+  const bool collides = approach > weakest || (step_ > 0 && blow > least_blow);
+  if (pair.colliding) {
+    // One that lasts is at its deepest when it neither closes nor parts, and pushes most. What
+    // pushes while the bodies part belongs to it, however little.
+    const double mean = pair.blows / (pair.end_time - pair.begin_time);
+    pair.colliding =
+        collides || -approach > weakest || blow > (kOfPairsFastest * mean + leans) * (t1 - t0);
+    pair.blows += blow;
+    return pair.colliding;
   }
-  if (pair.colliding) return true;
+  if (!collides) return false;
 
   pair.colliding = true;
   pair.n = n;
   pair.approach = approach > weakest ? approach : kNotObserved;
-  pair.fastest = std::max({pair.fastest, approach, blow > weakest + leaning ? blow : 0});
+  pair.fastest = std::max({pair.fastest, approach, blow > least_blow ? blow : 0});
+  pair.blows = blow;
   const Vector3 u = contact_velocity(a, si, b, sj, n);
   pair.tangential = u - n.dot(u) * n;
   pair.begin_time = t0;
@@ -163,22 +171,23 @@ void Observer::resolve(Pair& pair, double t0, double t1, const Frame& frame) {
 
 void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double t1,
                               const Frame& frame) {
-  if (!continues_or_begins(pair, touch, t0)) return;
+  if (!continues_or_begins(pair, touch, t0, t1)) return;
   if (resolved_) resolve(pair, t0, t1, frame);
 
   const std::size_t i = index(pair.first);
   const Sphere& a = scene_->bodies[i];
   const BodyState& after_i = frame.bodies[i];
   const auto [b, after_j] = second_of(pair, t1, frame.bodies);
-  // The line of centres turns while a contact lasts; an engine's normal is that before the step.
+  // The line of centres turns while a contact lasts; that of a step alone is the one before it.
   const Vector3 tangential = pair.tangential;
   Vector3 direction = tangential;
-  if (step_ == 0 && t1 > pair.begin_time) {
+  if (t1 > pair.begin_time && (step_ == 0 || t0 > pair.begin_time)) {
     pair.n = apart(after_i, after_j).normalized();
     direction -= pair.n.dot(direction) * pair.n;
     if (direction.squaredNorm() > 0) direction *= tangential.norm() / direction.norm();
   }
   pair.collided = true;
+  pair.end_time = t1;
   const double parting = pair.n.dot(after_i.velocity - after_j.velocity);
   pair.restitution = parting / pair.approach;
   // What comes later is weighed against what it began with.
@@ -215,6 +224,12 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
     body.jumping = false;
     body.lift_off_speed = body.flight_time = kNotObserved;
   });
+}
+
+bool Observer::anything_collides() const {
+  // What overlaps from the start on may stay so for good.
+  return std::ranges::any_of(
+      touching_, [this](std::size_t k) { return pairs_[k].colliding && !pairs_[k].from_start; });
 }
 
 bool Observer::has_settled(const Pair& pair) const {

@@ -66,6 +66,7 @@ class PlaneRun final : public PhaseRun {
       end_time_ = end().time;
       return come_to_end(time >= end().time);
     }
+    if (observer_.anything_collides()) return time >= end().limit;
     if (end().until == Run::Until::rest && observer_.everything_rests()) {
       end_time_ = observer_.last_stop();
       return come_to_end(true);
