@@ -129,11 +129,15 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0, do
   if (pair.colliding) {
     // One that lasts is at its deepest when it neither closes nor parts, and pushes most. What
     // pushes while the bodies part belongs to it, however little.
-    const double mean = pair.blows / (pair.end_time - pair.begin_time);
-    pair.colliding =
-        collides || -approach > weakest || blow > (kOfPairsFastest * mean + leans) * (t1 - t0);
-    pair.blows += blow;
-    return pair.colliding;
+    const double lasted = pair.end_time - pair.begin_time;
+    const double steady = kOfPairsFastest * pair.blows / lasted + leans;
+    if (collides || -approach > weakest || blow > steady * (t1 - t0)) {
+      pair.blows += blow;
+      return true;
+    }
+    // A slow one may push no more than bodies that lean, but not for as long as it has lasted.
+    pair.colliding = t1 - pair.end_time < lasted;
+    return false;
   }
   if (!collides) return false;
 
