@@ -42,6 +42,29 @@ TEST(ReferenceRun, AChaoticSceneSaysHowLittleItKnows) {
   EXPECT_GT(worst, 1e-3);
 }
 
+/// So soft a contact that static friction keeps both rolling in it (F ≤ 3.5 μ m g): a spring and a
+/// dashpot between two masses of 7/5 m, and the run ends with the contact.
+TEST(ReferenceRun, BallsThatRollThroughTheirCollisionPartWithItsRestitution) {
+  ContactScene scene = test::soft(test::head_on(0.015, -0.015, 0.9));
+  const double mass = scene.hard.bodies[0].mass, k = 2, c = 5e-3;
+  scene.soft[0] = SoftContact{LinearForce{k, c}, ContactEnd::zero_overlap, NoTangentialForce{}};
+  const double damping = c / (2 * std::sqrt(k * 0.7 * mass));
+  const double expected = std::exp(-M_PI * damping / std::sqrt(1 - damping * damping));
+  ASSERT_LT(0.03 * std::sqrt(k * 0.7 * mass),
+            3.5 * scene.hard.substrate[0].static_friction * mass * scene.hard.gravity);
+  for (const auto asked : {Compare::Reference::contact, Compare::Reference::steps}) {
+    const ReferenceResult result =
+        run_reference(ReferenceSolver(scene, asked), {Run::Until::rolling, 0, 10}, {"i", "j"});
+    EXPECT_TRUE(result.run.reached);
+    for (const char* name : {"i-j.restitution", "i-j.effective_restitution"}) {
+      ASSERT_TRUE(result.observables.contains(name)) << result.solver;
+      const UncertainValue seen = result.observables.at(name);
+      EXPECT_NEAR(seen.value, expected, seen.uncertainty + 1e-9) << result.solver << " " << name;
+      EXPECT_LT(seen.uncertainty, 2e-3) << result.solver << " " << name;
+    }
+  }
+}
+
 TEST(ReferenceRun, SoftContactsHaveTheUncertaintyOfTheIntegration) {
   const ContactScene scene = test::soft(test::head_on(0.15, -0.15, 0.9));
   const RunEnd end{Run::Until::rolling, 0, 10};

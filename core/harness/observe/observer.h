@@ -100,6 +100,9 @@ class Observer final : public FrameSink {
   double last_slide_end() const;
   double last_stop() const;
 
+  /// Collisions that lasted until now are over: else that shows only in a frame without the touch.
+  void end_collisions();
+
   /// The observables of a run that ended at `end` [s], in the last interval or after it.
   Observables finish(double end) const;
 

@@ -236,6 +236,12 @@ bool Observer::anything_collides() const {
       touching_, [this](std::size_t k) { return pairs_[k].colliding && !pairs_[k].from_start; });
 }
 
+void Observer::end_collisions() {
+  for (const std::size_t k : touching_) pairs_[k].colliding = pairs_[k].from_start = false;
+  for (Pair& pair : pairs_)
+    if (has_settled(pair)) settle_effective_restitution(pair, time_, time_, last_);
+}
+
 bool Observer::has_settled(const Pair& pair) const {
   if (!pair.awaits_rolling || pair.colliding) return false;
   bool all_roll = true;

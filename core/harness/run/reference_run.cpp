@@ -93,6 +93,9 @@ ObservedRun solve(const RunTask& task, int rounding, const SolverAccuracy& accur
                           extras ? extras->started : std::function<void()>());
   if (timed == Timed::yes)
     solved.cpu_seconds = thread_cpu_seconds() - begin + (keeper ? keeper->cpu_before() : 0);
+  // The last of what made bodies slide may be the contact of two that roll at its end.
+  if (observer && task.end.until == Run::Until::rolling && solved.run.reached && !solver.is_piled())
+    observer->end_collisions();
   if (observer) solved.seen = observer->finish(solved.run.end_time);
   if (assembly) solved.assembly = assembly->assembly();
   if (keeper) keeper->finish(solved);
