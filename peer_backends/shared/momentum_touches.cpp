@@ -56,8 +56,7 @@ std::vector<Candidate> candidates(const Scene& scene, std::span<const BodyState>
       const double when = square > 0 ? std::clamp(-apart.dot(rate) / square, 0.0, time_step) : 0.0;
       const double nearest = std::min((apart + when * rate).norm(), now.norm());
       if (nearest < reach + margin)
-        found.push_back({static_cast<int>(i), static_cast<int>(j),
-                         (apart + now).stableNormalized(),
+        found.push_back({static_cast<int>(i), static_cast<int>(j), (apart + now).stableNormalized(),
                          std::min(apart.norm(), now.norm()) < reach});
     }
   }
@@ -67,8 +66,8 @@ std::vector<Candidate> candidates(const Scene& scene, std::span<const BodyState>
 }  // namespace
 
 std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyState> before,
-                                    std::span<const BodyState> after, double time_step,
-                                    double time, OverlapPushes overlaps) {
+                                    std::span<const BodyState> after, double time_step, double time,
+                                    OverlapPushes overlaps) {
   const std::vector<Candidate> found = candidates(scene, before, after, time_step, time);
   if (found.empty()) return {};
   const auto bodies = static_cast<Eigen::Index>(scene.bodies.size());
@@ -95,8 +94,8 @@ std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyStat
     const Candidate& each = found[static_cast<std::size_t>(c)];
     const bool pushes = overlaps == OverlapPushes::yes && each.overlaps;
     if (impulses[c] > 1e-9 * largest || pushes)
-      touches.push_back({each.first, each.second,
-                         std::max(impulses[c], std::numeric_limits<double>::min())});
+      touches.push_back(
+          {each.first, each.second, std::max(impulses[c], std::numeric_limits<double>::min())});
   }
   return touches;
 }
