@@ -332,6 +332,30 @@ TEST(ObserverOfAnEngine, ACollisionEndsWithTheLastStepThatPushesHoweverLongItLas
   }
 }
 
+/// What an engine shows of the same: the support goes in the second of five steps of a collision,
+/// after which the ball rises with 0.02 m/s.
+TEST(ObserverOfAnEngine, FlightCountsFromTheEndOfTheSupportInsideACollisionOfSeveralSteps) {
+  const double h = 1e-3, mass = test::head_on(0.2, -0.2, 0.9).bodies[0].mass;
+  const Scene scene = test::head_on(0.2, -0.2, 0.9);
+  Observer observer(scene, h, 0.2, true);
+  observer.take(0, frame_of({0, 1e-4, 0.2, -0.2}));
+  const double speeds[] = {0.2, 0.12, 0, -0.08, -0.16, -0.17};
+  for (int n = 1; n <= 5; ++n) {
+    Frame frame = frame_of(
+        {n * h, -1e-4, speeds[n], -speeds[n], false, 0, 0, n < 2, 1e-6 * n, n < 2 ? 0 : 0.004 * n});
+    frame.touches.push_back({0, 1, (speeds[n - 1] - speeds[n]) * mass});
+    observer.take(n * h, frame);
+  }
+  double rise = 0.02, height = 5e-6;
+  int n = 6;
+  for (; height > 0; ++n, rise -= scene.gravity * h, height += rise * h)
+    observer.take(n * h, frame_of({n * h, 1e-3, -0.17, 0.17, false, 0, 0, false, height, rise}));
+  observer.take(n * h, frame_of({n * h, 1e-3, -0.17, 0.17}));
+  const BodyObservables body = observer.finish(n * h).bodies[0];
+  EXPECT_NEAR(body.lift_off_speed, 0.02, 1e-15);
+  EXPECT_NEAR(body.flight_time, (n - 2) * h, h);
+}
+
 TEST(ObserverOfAnEngine, WhatLeansOnAfterItsBlowCollidesNoMore) {
   const double h = 1e-3;
   const Scene scene = test::head_on(0.2, -0.2, 0.9);

@@ -146,6 +146,36 @@ TEST(Observer, ABounceIsAJumpWithTheHeightOfItsSpeed) {
   EXPECT_NEAR(seen.pairs[0].restitution, 0.8, 1e-14);
 }
 
+/// It leaves with the speed of the last step that throws it up, and flies from there.
+TEST(Observer, AnEngineMayTakeSeveralStepsToThrowABodyUp) {
+  const double h = 1e-3, g = 9.81;
+  Scene scene = test::steel_scene(1);
+  BodyState& s = scene.initial[0];
+  s.position.z() = 0.003;
+  s.velocity.z() = -1;
+  Observer observer(scene, h, 1);
+  observer.take(0, {{s}, {}});
+  int n = 0;
+  const auto step = [&](double v, bool touches) {
+    s.position.z() += h * 0.5 * (s.velocity.z() + v);
+    s.velocity.z() = v;
+    Frame frame{{s}, {}};
+    if (touches) frame.touches.push_back({0, kSubstrate, 1e-3});
+    observer.take(++n * h, frame);
+  };
+  step(-1 - g * h, false);
+  for (const double v : {-0.3, 0.4, 0.7, 0.79, 0.8}) step(v, true);
+  const int begin = n - 1;
+  while (s.velocity.z() > -0.7) step(s.velocity.z() - g * h, false);
+  EXPECT_NEAR(observer.finish(n * h).pairs.at(0).restitution, 0.8 / (1 + g * h), 1e-12);
+  step(0, true);
+  const Observables seen = observer.finish(n * h);
+  EXPECT_NEAR(seen.bodies[0].lift_off_speed, 0.8, 1e-15);
+  // In that step it rises by half of h (0.79 + 0.8).
+  EXPECT_NEAR(seen.bodies[0].jump_height, 0.8 * 0.8 / (2 * g) + h * 0.5 * (0.79 + 0.8), 1e-12);
+  EXPECT_NEAR(seen.bodies[0].flight_time, (n - begin) * h, h);
+}
+
 TEST(Observer, EffectiveRestitutionOfACollisionThatAnotherInterruptsIsNotObserved) {
   Scene scene = test::steel_scene(3);
   scene.initial = {test::rolling_at(-0.01, 0, 0.2, 0), test::rolling_at(0, 0, 0, 0),

@@ -43,7 +43,8 @@ void Observer::follow_flight(Body& body, std::size_t i, bool touches, double t0,
     if (is_free && v1 > slowest && std::isnan(body.lift_off_speed)) {
       lift_off(body, t0, s0);
       body.lift_off_speed = v1;
-      if (step_ == 0 && !touches) {
+      const bool is_late = step_ == 0 || (body.collided_now && body.collision_begin < t0);
+      if (is_late && !touches) {
         // Since the support went, though that was in the middle of a collision.
         const bool flew_before = body.collided_now && body.unsupported_since < body.collision_begin;
         body.lift_off_time = flew_before ? body.collision_begin : body.unsupported_since;
@@ -52,6 +53,11 @@ void Observer::follow_flight(Body& body, std::size_t i, bool touches, double t0,
       body.peak = std::max(level0, level1);
     }
     return;
+  }
+  // An engine may take several steps to throw a body up.
+  if (step_ > 0 && body.touched && v0 > slowest && v1 > v0) {
+    lift_off(body, t0, s0);
+    body.lift_off_speed = v1;
   }
   double peak = std::max(level0, level1);
   if (v0 > 0 && v1 <= 0 && t1 > t0) peak = level0 + 0.5 * v0 * v0 * (t1 - t0) / (v0 - v1);
