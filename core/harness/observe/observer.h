@@ -110,6 +110,8 @@ class Observer final : public FrameSink {
   /// A collision closes at least at these fractions of the pair's fastest and of the scene's speed.
   static constexpr double kOfPairsFastest = 0.07;
   static constexpr double kOfSceneSpeed = 1e-3;
+  /// It goes on in an engine while it pushes by this fraction of its mean force so far.
+  static constexpr double kOfMeanForce = 0.01;
   static constexpr int kSupportedFrames = 10;
   /// Of gravity's speed in a step: what an engine leaves to a body that stays on the substrate.
   static constexpr double kQuiet = 0.05;

@@ -130,7 +130,7 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0, do
     // One that lasts is at its deepest when it neither closes nor parts, and pushes most. What
     // pushes while the bodies part belongs to it, however little.
     const double lasted = pair.end_time - pair.begin_time;
-    const double steady = kOfPairsFastest * pair.blows / lasted + leans;
+    const double steady = kOfMeanForce * pair.blows / lasted + leans;
     if (collides || -approach > weakest || blow > steady * (t1 - t0)) {
       pair.blows += blow;
       return true;
