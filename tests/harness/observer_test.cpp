@@ -146,6 +146,28 @@ TEST(Observer, ABounceIsAJumpWithTheHeightOfItsSpeed) {
   EXPECT_NEAR(seen.pairs[0].restitution, 0.8, 1e-14);
 }
 
+/// At its top it is as near to the plane and as slow as a body that an engine put to sleep.
+TEST(Observer, ALowJumpOfAnEngineIsOneFlight) {
+  const double h = 5e-5, g = 9.81, v = 6e-3;
+  Scene scene = test::steel_scene(1);
+  Observer observer(scene, h, 1);
+  BodyState s = scene.initial[0];
+  s.position.z() = scene.bodies[0].radius;
+  observer.take(0, on_plane({s}));
+  int n = 0;
+  s.velocity.z() = v;
+  observer.take(++n * h, on_plane({s}));
+  while (s.velocity.z() > -v) {
+    s.position.z() += h * (s.velocity.z() - 0.5 * g * h);
+    s.velocity.z() -= g * h;
+    observer.take(++n * h, {{s}, {}});
+  }
+  s.velocity.z() = 0;
+  observer.take(++n * h, on_plane({s}));
+  // Known to the steps in which it rises, ends its way and lands.
+  EXPECT_NEAR(observer.finish(n * h).bodies[0].flight_time, 2 * v / g, 3 * h);
+}
+
 /// It leaves with the speed of the last step that throws it up, and flies from there.
 TEST(Observer, AnEngineMayTakeSeveralStepsToThrowABodyUp) {
   const double h = 1e-3, g = 9.81;

@@ -142,14 +142,16 @@ bool Observer::can_rest(std::size_t i, double time) const {
 
 // --- frame by frame ------------------------------------------------------------------------------
 
-bool Observer::touches_substrate(std::size_t i, const Frame& frame) const {
+bool Observer::touches_substrate(std::size_t i, double t1, const Frame& frame) const {
   if (bodies_[i].touched) return true;
-  // A sleeping body of an engine is not solved for, yet it lies on the plane.
+  // A sleeping body of an engine is not solved for, yet it lies on the plane and does not fall, as
+  // it would at the top of a low jump.
   const BodyState& state = frame.bodies[i];
   const double radius = scene_->bodies[i].radius;
   const double above = on_surfaces_ ? gap(i, time_, state) : state.position.z() - radius;
-  return step_ > 0 && above < 1e-3 * radius &&
-         std::abs(rise(bodies_[i], state)) < bodies_[i].zero.rise;
+  const double v0 = rise(bodies_[i], last_.bodies[i]), v1 = rise(bodies_[i], state);
+  return step_ > 0 && above < 1e-3 * radius && std::abs(v1) < bodies_[i].zero.rise &&
+         v0 - v1 <= 0.5 * scene_->gravity * (t1 - time_);
 }
 
 void Observer::take(double time, const Frame& frame) {
@@ -222,7 +224,7 @@ void Observer::follow(std::size_t i, double t1, const Frame& frame) {
   Body& body = bodies_[i];
   const double t0 = std::exchange(body.seen, t1);
   if (on_surfaces_) look_at_ground_of(i, t0, t1, frame.bodies[i]);
-  const bool touches = touches_substrate(i, frame);
+  const bool touches = touches_substrate(i, t1, frame);
   follow_landing(body, i, frame);
   follow_flight(body, i, touches, t0, t1, frame);
   follow_support(body, touches, t1, frame.bodies[i]);

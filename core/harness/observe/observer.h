@@ -200,7 +200,7 @@ class Observer final : public FrameSink {
   /// The same of what carries one body, beside surfaces.
   void look_at_ground_of(std::size_t i, double t0, double t1, const BodyState& now);
   void keep_frames_of_the_end();
-  bool touches_substrate(std::size_t i, const Frame& frame) const;
+  bool touches_substrate(std::size_t i, double t1, const Frame& frame) const;
   void follow_support(Body& body, bool touches, double t1, const BodyState& now) const;
 
   // What carries a body: the substrate, or beside surfaces that which it touches below itself.

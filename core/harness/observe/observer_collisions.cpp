@@ -167,7 +167,7 @@ void Observer::resolve(Pair& pair, double t0, double t1, const Frame& frame) {
   if (pair.slid_before || !std::isnan(pair.sliding_onset)) return;
   for_bodies_of(pair, [&](std::size_t k) {
     if (on_surfaces_) look_at_ground_of(k, t0, t1, frame.bodies[k]);
-    if (touches_substrate(k, frame) && !slips(k, last_.bodies[k], ground0_) &&
+    if (touches_substrate(k, t1, frame) && !slips(k, last_.bodies[k], ground0_) &&
         slips(k, frame.bodies[k], ground1_))
       pair.sliding_onset = t0 - pair.begin_time;
   });
