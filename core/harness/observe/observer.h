@@ -110,7 +110,8 @@ class Observer final : public FrameSink {
   /// A collision closes at least at these fractions of the pair's fastest and of the scene's speed.
   static constexpr double kOfPairsFastest = 0.07;
   static constexpr double kOfSceneSpeed = 1e-3;
-  /// It goes on in an engine while it pushes by this fraction of its mean force so far.
+  /// It goes on in an engine while it drives the bodies apart by this fraction of what its mean
+  /// force so far does.
   static constexpr double kOfMeanForce = 0.01;
   static constexpr int kSupportedFrames = 10;
   /// Of gravity's speed in a step: what an engine leaves to a body that stays on the substrate.
@@ -242,7 +243,8 @@ class Observer final : public FrameSink {
   void note_touches(double t0, double t1, const Frame& frame);
   void note_collision(Pair& pair, const Touch& touch, double t0, double t1, const Frame& frame);
   /// Whether this touch belongs to a collision, and whether it is the first.
-  bool continues_or_begins(Pair& pair, const Touch& touch, double t0, double t1);
+  bool continues_or_begins(Pair& pair, const Touch& touch, double t0, double t1,
+                           const Frame& frame);
   void resolve(Pair& pair, double t0, double t1, const Frame& frame);
   void follow_sliding(Body& body, std::size_t i, double t0, double t1, const Frame& frame);
   void follow_stopping(Body& body, std::size_t i, double t0, double t1, const Frame& frame);

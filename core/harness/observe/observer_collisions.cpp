@@ -103,7 +103,8 @@ void Observer::note_touches(double t0, double t1, const Frame& frame) {
   });
 }
 
-bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0, double t1) {
+bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0, double t1,
+                                   const Frame& frame) {
   pair.touched_now = true;
   // The reference's contact is a collision or none from its beginning on.
   if ((step_ == 0 || pair.from_start) && pair.touched_before) return pair.colliding;
@@ -122,20 +123,23 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0, do
   const auto rubs = [&](int k) {
     return is_body(k) ? scene_->on_substrate(index(k)).kinetic_friction : 0;
   };
-  const double leans =
-      (rubs(pair.first) + rubs(pair.second)) * scene_->gravity + scene_->downhill.norm();
-  const double least_blow = weakest + leans * step_;
+  const double leaning =
+      ((rubs(pair.first) + rubs(pair.second)) * scene_->gravity + scene_->downhill.norm()) * step_;
+  const double least_blow = weakest + leaning;
   const bool collides = approach > weakest || (step_ > 0 && blow > least_blow);
   if (pair.colliding) {
-    // One that lasts is at its deepest when it neither closes nor parts, and pushes most. What
-    // pushes while the bodies part belongs to it, however little.
+    // One that lasts is at its deepest when it neither closes nor parts, and pushes most; bodies
+    // that rest on each other push and go no faster. What pushes while they part belongs to it,
+    // however little.
+    const double parting =
+        n.dot(frame.bodies[i].velocity - second_of(pair, t1, frame.bodies).state.velocity);
     const double lasted = pair.end_time - pair.begin_time;
-    const double steady = kOfMeanForce * pair.blows / lasted + leans;
-    if (collides || -approach > weakest || blow > steady * (t1 - t0)) {
+    const double steady = kOfMeanForce * pair.blows / lasted * (t1 - t0);
+    if (collides || -approach > weakest || 0.5 * (parting + approach) > steady) {
       pair.blows += blow;
       return true;
     }
-    // A slow one may push no more than bodies that lean, but not for as long as it has lasted.
+    // What else acts may outweigh the push of a slow one, but not for as long as it has lasted.
     pair.colliding = t1 - pair.end_time < lasted;
     return false;
   }
@@ -175,7 +179,7 @@ void Observer::resolve(Pair& pair, double t0, double t1, const Frame& frame) {
 
 void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double t1,
                               const Frame& frame) {
-  if (!continues_or_begins(pair, touch, t0, t1)) return;
+  if (!continues_or_begins(pair, touch, t0, t1, frame)) return;
   if (resolved_) resolve(pair, t0, t1, frame);
 
   const std::size_t i = index(pair.first);
