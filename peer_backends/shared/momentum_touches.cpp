@@ -113,10 +113,6 @@ bool in_impact(const Scene& scene, std::span<const BodyState> states, double len
           std::abs(nearest.normal.dot(slip)) > 10 * scene.gravity_vector().norm() * length)
         return true;
     }
-    for (std::size_t j = i + 1; j < states.size(); ++j) {
-      const Vector3 apart = scene.to_nearest_image(states[i].position - states[j].position);
-      if (apart.norm() < radius + scene.bodies[j].radius) return true;
-    }
   }
   return false;
 }

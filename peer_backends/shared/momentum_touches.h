@@ -22,9 +22,9 @@ std::vector<Touch> momentum_touches(const Scene& scene, std::span<const BodyStat
                                     std::span<const BodyState> after, double time_step,
                                     double time = 0, OverlapPushes overlaps = OverlapPushes::no);
 
-/// Whether bodies are in the middle of an impact: two overlap, or one overlaps the substrate or a
-/// surface and moves to or from it faster than gravity makes it in ten times `length` [s]. A state
-/// in there, at `time` [s], is neither before nor after the impact.
+/// Whether a body is in the middle of an impact on the substrate or a surface: it overlaps it and
+/// moves to or from it faster than gravity makes it in ten times `length` [s]. A state in there, at
+/// `time` [s], is neither before nor after the impact. (Of two bodies an observer sees that.)
 bool in_impact(const Scene& scene, std::span<const BodyState> states, double length,
                double time = 0);
 

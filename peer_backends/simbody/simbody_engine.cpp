@@ -226,7 +226,7 @@ class SimbodyEngine final : public Engine {
     setup_->frame.leave(frame.bodies, time);
     if (!blown_up_)
       frame.touches = momentum_touches(setup_->scene, before, frame.bodies, length,
-                                       start_time_ + time - length);
+                                       start_time_ + time - length, OverlapPushes::yes);
     return frame;
   }
 

@@ -99,16 +99,15 @@ TEST(MomentumTouches, ASurfaceThatComesPushesAlongItsOwnNormal) {
   EXPECT_TRUE(momentum_touches(scene, scene.initial, after, 1e-3, 0).empty());  // not there yet
 }
 
-TEST(InImpact, IsWhatOverlapsAndDoesNotRest) {
+TEST(InImpact, IsWhatOverlapsTheSubstrateAndDoesNotRest) {
   Scene scene = test::steel_scene(1);
   scene.initial[0].position.z() = 0.002 - 1e-6;
   EXPECT_FALSE(in_impact(scene, scene.initial, 1e-4));
   scene.initial[0].velocity.z() = 0.1;
   EXPECT_TRUE(in_impact(scene, scene.initial, 1e-4));
-  EXPECT_TRUE(
-      in_impact(test::free_pair(0, 0, 0.0019), test::free_pair(0, 0, 0.0019).initial, 1e-4));
+  // Of two bodies the observer sees a collision of several steps as one.
   EXPECT_FALSE(
-      in_impact(test::free_pair(0, 0, 0.0021), test::free_pair(0, 0, 0.0021).initial, 1e-4));
+      in_impact(test::free_pair(0, 0, 0.0019), test::free_pair(0, 0, 0.0019).initial, 1e-4));
 }
 
 }  // namespace
