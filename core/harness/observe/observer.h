@@ -112,7 +112,7 @@ class Observer final : public FrameSink {
   static constexpr double kOfSceneSpeed = 1e-3;
   /// It goes on in an engine while it drives the bodies apart by this fraction of what its mean
   /// force so far does.
-  static constexpr double kOfMeanForce = 0.01;
+  static constexpr double kOfMeanForce = 0.003;
   static constexpr int kSupportedFrames = 10;
   /// Of gravity's speed in a step: what an engine leaves to a body that stays on the substrate.
   static constexpr double kQuiet = 0.05;

@@ -129,13 +129,13 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0, do
   const bool collides = approach > weakest || (step_ > 0 && blow > least_blow);
   if (pair.colliding) {
     // One that lasts is at its deepest when it neither closes nor parts, and pushes most; bodies
-    // that rest on each other push and go no faster. What pushes while they part belongs to it,
-    // however little.
+    // that rest on each other push and go no faster. Of a contact that lasts in the reference too
+    // what pushes while they part belongs to it, however little.
     const double parting =
         n.dot(frame.bodies[i].velocity - second_of(pair, t1, frame.bodies).state.velocity);
     const double lasted = pair.end_time - pair.begin_time;
     const double steady = kOfMeanForce * pair.blows / lasted * (t1 - t0);
-    if (collides || -approach > weakest || 0.5 * (parting + approach) > steady) {
+    if (collides || (resolved_ && -approach > weakest) || 0.5 * (parting + approach) > steady) {
       pair.blows += blow;
       return true;
     }
@@ -186,11 +186,13 @@ void Observer::note_collision(Pair& pair, const Touch& touch, double t0, double 
   const Sphere& a = scene_->bodies[i];
   const BodyState& after_i = frame.bodies[i];
   const auto [b, after_j] = second_of(pair, t1, frame.bodies);
-  // The line of centres turns while a contact lasts; that of a step alone is the one before it.
+  // The line of centres turns while a contact lasts; an engine's instant has the one before it.
   const Vector3 tangential = pair.tangential;
   Vector3 direction = tangential;
-  if (t1 > pair.begin_time && (step_ == 0 || t0 > pair.begin_time)) {
-    pair.n = apart(after_i, after_j).normalized();
+  if (t1 > pair.begin_time && (step_ == 0 || (resolved_ && t0 > pair.begin_time))) {
+    const Vector3 line = apart(after_i, after_j).normalized();
+    // Soft bodies may pass through each other: that is no rebound.
+    pair.n = line.dot(pair.n) < 0 ? Vector3(-line) : line;
     direction -= pair.n.dot(direction) * pair.n;
     if (direction.squaredNorm() > 0) direction *= tangential.norm() / direction.norm();
   }
