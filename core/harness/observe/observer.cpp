@@ -144,14 +144,15 @@ bool Observer::can_rest(std::size_t i, double time) const {
 
 bool Observer::touches_substrate(std::size_t i, double t1, const Frame& frame) const {
   if (bodies_[i].touched) return true;
-  // A sleeping body of an engine is not solved for, yet it lies on the plane and does not fall, as
-  // it would at the top of a low jump.
+  // A sleeping body of an engine is not solved for, and one that hops by less than what counts is
+  // not at each step, yet they lie on the plane. One that falls at the top of a low jump does not.
   const BodyState& state = frame.bodies[i];
   const double radius = scene_->bodies[i].radius;
   const double above = on_surfaces_ ? gap(i, time_, state) : state.position.z() - radius;
+  if (!(step_ > 0 && above < 1e-3 * radius)) return false;
   const double v0 = rise(bodies_[i], last_.bodies[i]), v1 = rise(bodies_[i], state);
-  return step_ > 0 && above < 1e-3 * radius && std::abs(v1) < bodies_[i].zero.rise &&
-         v0 - v1 <= 0.5 * scene_->gravity * (t1 - time_);
+  const bool falls = v0 - v1 > 0.5 * scene_->gravity * (t1 - time_);
+  return std::abs(v1) < bodies_[i].zero.rise && !(bodies_[i].jumping && falls);
 }
 
 void Observer::take(double time, const Frame& frame) {

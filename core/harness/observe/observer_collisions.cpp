@@ -129,13 +129,14 @@ bool Observer::continues_or_begins(Pair& pair, const Touch& touch, double t0, do
   const bool collides = approach > weakest || (step_ > 0 && blow > least_blow);
   if (pair.colliding) {
     // One that lasts is at its deepest when it neither closes nor parts, and pushes most; bodies
-    // that rest on each other push and go no faster. Of a contact that lasts in the reference too
-    // what pushes while they part belongs to it, however little.
+    // that rest on each other push and go no faster. Of a contact that lasts here and in the
+    // reference what pushes while they part belongs to it, however little.
     const double parting =
         n.dot(frame.bodies[i].velocity - second_of(pair, t1, frame.bodies).state.velocity);
     const double lasted = pair.end_time - pair.begin_time;
     const double steady = kOfMeanForce * pair.blows / lasted * (t1 - t0);
-    if (collides || (resolved_ && -approach > weakest) || 0.5 * (parting + approach) > steady) {
+    const bool lasts = resolved_ && lasted > 2.5 * (t1 - t0);
+    if (collides || (lasts && -approach > weakest) || 0.5 * (parting + approach) > steady) {
       pair.blows += blow;
       return true;
     }
