@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       for (const auto& [name, seen] : record.reference.observables) {
         fuzz::require(!std::isnan(seen.value) && seen.uncertainty >= 0,
                       "an observable is a number");
-        values[name] = seen.value;
+        values.emplace(name, seen.value);
       }
       const auto held = deviations(record.scenario, record.reference, ensemble_values({values}));
       for (const auto& [name, deviation] : held)
