@@ -47,7 +47,7 @@ double bracketed_root(const std::array<double, N>& f, double low, double high) {
   return t;
 }
 
-/// The k-th root of x >= 0, k from 1 to 4; pow() takes five times as long.
+/// The k-th root of x >= 0, k from 1 to 4, without pow().
 double root(double x, int k) {
   if (k == 1) return x;
   if (k == 3) return std::cbrt(x);
