@@ -414,6 +414,82 @@ TEST(ObserverOfAnEngine, WhatLeansOnAfterItsBlowCollidesNoMore) {
   EXPECT_NEAR(observer.finish(20 * h).pairs.at(0).contact_time, h, 1e-15);
 }
 
+/// Balls that roll to each other at ±1 mm/s and part at 0.9 mm/s: less slip than friction takes in
+/// half a step.
+class SlowCollision : public testing::Test {
+ protected:
+  /// `later`: what follows the step of the blow.
+  PairObservables seen_with(const std::vector<Shown>& later) {
+    std::vector<Shown> frames = {{0, 0, kV, -kV}, {kH, 0, -kE * kV, kE * kV, true, -kSlip, kSlip}};
+    frames.insert(frames.end(), later.begin(), later.end());
+    Observer observer(scene_, kH, kV, false);
+    for (const Shown& shown : frames) {
+      Frame frame = frame_of(shown);
+      for (Touch& touch : frame.touches) touch.normal_impulse = kV * scene_.bodies[0].mass;
+      observer.take(shown.time, frame);
+    }
+    seen_ = observer.finish(frames.back().time);
+    return seen_.pairs.at(0);
+  }
+
+  static constexpr double kH = 1.0 / 240, kV = 1e-3, kE = 0.9, kSlip = (1 + kE) * kV;
+  /// A solid sphere rolls when 2/7 of its slip is taken off its velocity.
+  static constexpr double kRolls = kE * kV - 2.0 / 7 * kSlip;
+  static constexpr double kEffective = (2.5 * kE - 1) / 3.5;
+  const Scene scene_ = test::head_on(kV, -kV, kE);
+  const double brake_ = scene_.on_substrate(0).kinetic_friction * scene_.gravity;
+  const double slides_ = 2.0 / 7 * kSlip / brake_;  ///< 0.55 ms
+  Observables seen_;
+};
+
+TEST_F(SlowCollision, WhatTheNextStepTakesAwayIsASlide) {
+  const double way = 0.5 * (kE * kV + kRolls) * slides_;
+  const double gap = 2 * (way + (kH - slides_) * kRolls);
+  const PairObservables pair = seen_with({{2 * kH, gap, -kRolls, kRolls}});
+  EXPECT_NEAR(pair.restitution, kE, 1e-12);
+  EXPECT_NEAR(pair.effective_restitution, kEffective, 1e-12);
+  for (const BodyObservables& body : seen_.bodies) {
+    EXPECT_NEAR(body.sliding_time, slides_, 1e-12);
+    EXPECT_NEAR(body.sliding_distance, way, 1e-15);
+    EXPECT_NEAR(body.rolling_velocity.norm(), kRolls, 1e-15);
+  }
+}
+
+TEST_F(SlowCollision, AnEngineThatMovesBodiesByTheVelocityAfterAStepSlidesForNoTime) {
+  const PairObservables pair = seen_with({{2 * kH, 2 * kH * kRolls, -kRolls, kRolls}});
+  EXPECT_NEAR(pair.effective_restitution, kEffective, 1e-12);
+  EXPECT_NEAR(seen_.bodies[0].sliding_time, 0, 1e-12);
+  EXPECT_NEAR(seen_.bodies[0].sliding_distance, 0, 1e-15);
+}
+
+TEST_F(SlowCollision, APartOfAStepTakesAPartOfTheSlip) {
+  const double part = 0.1 * slides_, v = kE * kV - brake_ * part, slip = 0.9 * kSlip;
+  const double gap = (kE * kV + v) * part, rest = (v + kRolls) * (slides_ - part);
+  const PairObservables pair =
+      seen_with({{kH + part, gap, -v, v, false, -slip, slip},
+                 {2 * kH, gap + rest + 2 * (kH - slides_) * kRolls, -kRolls, kRolls}});
+  EXPECT_NEAR(pair.effective_restitution, kEffective, 1e-12);
+  EXPECT_NEAR(seen_.bodies[0].sliding_time, slides_, 1e-12);
+}
+
+TEST_F(SlowCollision, SlipThatStaysIsNoSlide) {
+  const double v = kE * kV;
+  const PairObservables pair = seen_with({{2 * kH, 2 * kH * v, -v, v, false, -kSlip, kSlip},
+                                          {3 * kH, 4 * kH * v, -v, v, false, -kSlip, kSlip}});
+  EXPECT_NEAR(pair.effective_restitution, kE, 1e-12);
+  EXPECT_EQ(seen_.bodies[0].sliding_time, 0);
+}
+
+TEST_F(SlowCollision, WhatBeginsWithLittleSlipSlidesToo) {
+  Observer observer(scene_, kH, kV, false);
+  const double way = 0.5 * (kE * kV + kRolls) * slides_ + (kH - slides_) * kRolls;
+  observer.take(0, frame_of({0, 0, -kE * kV, kE * kV, false, -kSlip, kSlip}));
+  observer.take(kH, frame_of({kH, 2 * way, -kRolls, kRolls}));
+  seen_ = observer.finish(kH);
+  EXPECT_NEAR(seen_.bodies[0].sliding_time, slides_, 1e-12);
+  EXPECT_NEAR(seen_.bodies[0].rolling_velocity.norm(), kRolls, 1e-15);
+}
+
 TEST(ObserverOfAnEngine, EffectiveRestitutionOfSlidesThatEndTogetherUpToRounding) {
   // A solid sphere's slip falls by (7/2) μ g h in a step, its velocity changes by μ g h, and in all
   // by 2/7 of the first slip. What is left after ten steps counts as zero: less than half a step's.

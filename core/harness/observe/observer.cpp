@@ -262,7 +262,10 @@ void Observer::begin(double time, const Frame& frame) {
     }
     body.began_on_plane = body.supported;
     body.sliding = body.supported && slips(i, state, ground1_);
-    if (body.supported && !body.sliding) body.rolling_velocity = state.velocity;
+    if (body.supported && !body.sliding) {
+      body.rolling_velocity = state.velocity;
+      body.faint = step_ > 0 && slip_speed(i, state, ground1_) > body.zero.left_slip;
+    }
     body.spinning = std::abs(spin(body, state)) > body.zero.spin;
     body.spun = body.spinning;
     body.resting = body.supported && !body.sliding && can_rest(i, time) &&

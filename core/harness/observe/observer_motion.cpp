@@ -5,6 +5,18 @@
 #include "harness/observe/observer.h"
 
 namespace slipcheck {
+namespace {
+
+/// For how long a velocity changed evenly, until it was `after`, in an interval `dt` in which it
+/// led over `way`; none in one of an engine that moves bodies by the velocity that a step ends
+/// with.
+double changing_time(const Vector3& before, const Vector3& after, const Vector3& way, double dt) {
+  const Vector3 change = before - after;
+  const double square = change.squaredNorm();
+  return square > 0 ? std::clamp(2 * (way - dt * after).dot(change) / square, 0.0, dt) : 0;
+}
+
+}  // namespace
 
 void Observer::follow_sliding(Body& body, std::size_t i, double t0, double t1, const Frame& frame) {
   const BodyState &s0 = last_.bodies[i], &s1 = frame.bodies[i];
@@ -18,30 +30,40 @@ void Observer::follow_sliding(Body& body, std::size_t i, double t0, double t1, c
 
   // Friction has gone on: it takes half of what it can, or more.
   const double taken = body.slip.falls_in(dt);
-  const double half = 0.5 * (taken > 0 ? std::min(slip0, taken) : slip0);
+  const double most = taken > 0 ? taken : step_ > 0 ? body.zero.slip * dt / step_ : slip0;
+  const double half = 0.5 * std::min(slip0, most);
   const bool goes_on = std::exchange(body.faint, false) && slip0 - slip1 >= half;
-  const auto slide_ends = [&](double left) {
+  const auto slide_ends = [&](double left, const Vector3& slid) {
     body.slide_end = t0 + left;
     body.slide_time += left;
-    body.slide += left / dt * way;
+    body.slide += slid;
     body.rolling_velocity = s1.velocity;
   };
-  if (body.collided_now || dt <= 0) {
-    body.slip.reset();
-    if (body.sliding && !slips_now && !body.collided_now) body.slide_end = t1;
-  } else if (step_ > 0 && body.supported && body.supported_frames == 1 && !slips_now) {
-    // It gripped as it came down.
+  const auto may_slip_on = [&] {
     body.slide_end = t1;
     body.faint = slip1 > body.zero.left_slip;
     body.faint_time = 0;
     body.faint_way.setZero();
+  };
+  if (body.collided_now || dt <= 0) {
+    body.slip.reset();
+    if (body.sliding && !slips_now && !body.collided_now) body.slide_end = t1;
+    if (step_ > 0 && body.supported && body.collided_now && !slips_now) may_slip_on();
+  } else if (step_ > 0 && body.supported && body.supported_frames == 1 && !slips_now) {
+    may_slip_on();  // it gripped as it came down
   } else if (body.supported && !slips_now && (body.sliding || goes_on)) {
     if (goes_on) {
       body.slide_time += body.faint_time;
       body.slide += body.faint_way;
     }
-    const double left = step_ > 0 ? body.slip.time_to_zero(slip0, dt) : dt;
-    slide_ends(left);
+    double left = step_ > 0 ? body.slip.time_to_zero(slip0, dt) : dt;
+    if (goes_on && taken == 0) {
+      const Vector3 rolling = velocity_over(s1, ground1_);
+      left = changing_time(velocity_over(s0, ground0_), rolling, way, dt);
+      slide_ends(left, way - (dt - left) * rolling);
+    } else {
+      slide_ends(left, left / dt * way);
+    }
     // Where it should have ended in this step a solver may leave a little of what friction takes.
     const double little = slip0 < taken ? 0.01 * taken : 0;
     body.faint = step_ > 0 && slip1 > std::max(body.zero.left_slip, little);
