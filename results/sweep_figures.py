@@ -4,8 +4,9 @@
 usage: sweep_figures.py STORES OUT
 
 STORES is the folder of lottery-bullet.db, lottery-engines.db and tuning-bullet.db; of each that is there its figures and its summary are
-made in the folder OUT. Every number in OUT/README.md is computed here.
+made in the folder OUT; of one that is not, as its engines are not installed, they stay as they are. Every number in OUT/README.md is computed here.
 """
+import re
 import sys
 from pathlib import Path
 
@@ -154,13 +155,21 @@ def tuning_bullet(store, out):
 SHOWN = {"lottery-bullet": lottery_bullet, "lottery-engines": lottery_engines, "tuning-bullet": tuning_bullet}
 
 
+def sections(summary):
+    """What a summary made here says of each sweep, as lines by the sweep's name."""
+    parts = re.split(r"(?m)^(?=\*\*)", summary.read_text(encoding="utf-8"))[1:] if summary.is_file() else []
+    return {re.search(r"\((\S+)\.csv\)", part)[1]: part.rstrip("\n").split("\n") + [""] for part in parts}
+
+
 def main():
     stores, out = map(Path, sys.argv[1:3])
     out.mkdir(parents=True, exist_ok=True)
     text = ["# Sweeps", "", "What the sweeps of [scenarios/sweeps](../../scenarios/sweeps) have found ([how](../../docs/sweeps.md)): two rolling steel balls that "
             "meet should part with e_eff = (2.5 e_n − 1)/3.5. Made by `results/regenerate`; each ensemble is a row of the CSV beside its figure.", ""]
+    kept = sections(out / "README.md")
     for name, show in SHOWN.items():
         if not (stores / f"{name}.db").is_file():
+            text += kept.get(name, [])
             continue
         with slipcheck.Store(stores / f"{name}.db") as store:
             if len(store) < store.size:
