@@ -168,6 +168,30 @@ TEST(Observer, ALowJumpOfAnEngineIsOneFlight) {
   EXPECT_NEAR(observer.finish(n * h).bodies[0].flight_time, 2 * v / g, 3 * h);
 }
 
+/// Fifty parts of a step are no fifty steps: a low hop ends when it lands, not at its top.
+TEST(Observer, ABallThatHopsWithinPartsOfStepsDoesNotRollYet) {
+  const double h = 1.0 / 240, g = 9.81, part = h / 50, v = 5e-3;
+  Scene scene = test::steel_scene(1);
+  Observer observer(scene, h, 1);
+  BodyState s = test::rolling_at(0, 0, 1, 0);
+  s.position.z() += 0.1;
+  observer.take(0, {{s}, {}});
+  s.position.z() = scene.bodies[0].radius;
+  s.velocity.z() = v;
+  double t = h;
+  observer.take(t, on_plane({s}));
+  for (; s.velocity.z() > -v; t += part) {
+    EXPECT_TRUE(observer.anything_slides_or_flies()) << s.velocity.z();
+    s.position.z() += part * (s.velocity.z() - 0.5 * g * part);
+    s.velocity.z() -= g * part;
+    observer.take(t + part, {{s}, {}});
+  }
+  s.velocity.z() = 0;
+  s.position.z() = scene.bodies[0].radius;
+  for (int n = 0; n < 2; ++n) observer.take(t += h, on_plane({s}));
+  EXPECT_FALSE(observer.anything_slides_or_flies());
+}
+
 /// It leaves with the speed of the last step that throws it up, and flies from there.
 TEST(Observer, AnEngineMayTakeSeveralStepsToThrowABodyUp) {
   const double h = 1e-3, g = 9.81;

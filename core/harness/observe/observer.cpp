@@ -228,7 +228,7 @@ void Observer::follow(std::size_t i, double t1, const Frame& frame) {
   const bool touches = touches_substrate(i, t1, frame);
   follow_landing(body, i, frame);
   follow_flight(body, i, touches, t0, t1, frame);
-  follow_support(body, touches, t1, frame.bodies[i]);
+  follow_support(body, touches, t0, t1, frame.bodies[i]);
   follow_sliding(body, i, t0, t1, frame);
   follow_stopping(body, i, t0, t1, frame);
   body.collided_now = false;
@@ -254,7 +254,7 @@ void Observer::begin(double time, const Frame& frame) {
     const bool is_low = on_surfaces_ ? gap(i, time, state) <= 1e-9 * radius
                                      : state.position.z() <= radius * (1 + 1e-9);
     body.supported = is_low && !(rise(body, state) > body.zero.slip);
-    if (body.supported) body.supported_frames = kSupportedFrames;
+    if (body.supported) body.supported_steps = kSupportedSteps;
     if (!body.supported) {
       body.unsupported_since = time;
       body.unsupported_height = level(body, state);
@@ -286,7 +286,7 @@ bool Observer::anything_slides_or_flies() const {
 
 bool Observer::rolls(const Body& body) const {
   return !body.sliding && !body.faint && body.supported &&
-         (step_ == 0 || body.quiet_frames > 1 || body.supported_frames >= kSupportedFrames);
+         (step_ == 0 || body.quiet_steps >= kQuietSteps || body.supported_steps >= kSupportedSteps);
 }
 
 bool Observer::everything_rests() const {
@@ -297,7 +297,7 @@ bool Observer::everything_rests() const {
 double Observer::last_slide_end() const {
   double last = 0;
   for (const Body& body : bodies_)
-    last = std::max({last, body.slide_end, body.quiet_frames > 0 ? body.hop_end : 0});
+    last = std::max({last, body.slide_end, body.quiet_steps > 0 ? body.hop_end : 0});
   return last;
 }
 

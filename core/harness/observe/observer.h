@@ -58,8 +58,8 @@ class FallingQuantity {
 /// the next step takes away too was still sliding, and so the next frame is waited for.
 ///
 /// A body is on the substrate while it touches it and neither comes down nor leaves by more than
-/// what gravity adds in a step: one that bounces flies. It rolls once two frames show no vertical
-/// speed, or kSupportedFrames no flight, as some engines never come to rest.
+/// what gravity adds in a step: one that bounces flies. It rolls once two steps show no vertical
+/// speed, or ten no flight, as some engines never come to rest.
 ///
 /// A contact of two bodies is a collision if it closes faster than 7 % of the pair's fastest
 /// collision so far and 0.1 % of the scene's speed, spins left out; weaker ones are rattling. A
@@ -113,7 +113,8 @@ class Observer final : public FrameSink {
   /// It goes on in an engine while it drives the bodies apart by this fraction of what its mean
   /// force so far does.
   static constexpr double kOfMeanForce = 0.003;
-  static constexpr int kSupportedFrames = 10;
+  /// Ten frames of whole steps, two of them; parts of steps count as such.
+  static constexpr double kSupportedSteps = 9.5, kQuietSteps = 1.5;
   /// Of gravity's speed in a step: what an engine leaves to a body that stays on the substrate.
   static constexpr double kQuiet = 0.05;
   /// What an engine leaves in a quantity that should be zero, of the scene's speed.
@@ -144,8 +145,9 @@ class Observer final : public FrameSink {
     /// The slide has ended with some slip left; the next frame tells whether it went on. The rest
     /// of the step is then part of it.
     bool faint = false;
-    /// Frames in succession on the substrate, and among them those without a vertical speed.
-    int supported_frames = 0, quiet_frames = 0;
+    /// Steps in succession on the substrate, and among them those without a vertical speed; the
+    /// first frame is one.
+    double supported_steps = 0, quiet_steps = 0;
     int base = kSubstrate;  ///< what carries it, or did last
     int landed_on = kSubstrate;
     std::uint32_t last_pair = kNone;  ///< of the last collision, an index of pairs_
@@ -202,7 +204,7 @@ class Observer final : public FrameSink {
   void look_at_ground_of(std::size_t i, double t0, double t1, const BodyState& now);
   void keep_frames_of_the_end();
   bool touches_substrate(std::size_t i, double t1, const Frame& frame) const;
-  void follow_support(Body& body, bool touches, double t1, const BodyState& now) const;
+  void follow_support(Body& body, bool touches, double t0, double t1, const BodyState& now) const;
 
   // What carries a body: the substrate, or beside surfaces that which it touches below itself.
   /// The speed at which it goes up [m/s].

@@ -5,15 +5,19 @@
 
 namespace slipcheck {
 
-void Observer::follow_support(Body& body, bool touches, double t1, const BodyState& now) const {
+void Observer::follow_support(Body& body, bool touches, double t0, double t1,
+                              const BodyState& now) const {
   const double speed = std::abs(rise(body, now));
   body.supported = touches && speed <= body.zero.rise;
   const bool quiet =
       speed <= std::max(kEngineNoise * speed_scale_, kQuiet * scene_->gravity * step_);
-  body.supported_frames =
-      body.supported ? std::min(body.supported_frames + 1, kSupportedFrames) : 0;
-  body.quiet_frames = body.supported && quiet ? body.quiet_frames + 1 : 0;
-  if (!quiet && body.supported_frames < kSupportedFrames) body.hop_end = t1;
+  const double steps = step_ > 0 ? (t1 - t0) / step_ : 1;
+  const auto count = [steps](double& counted, bool goes_on) {
+    counted = !goes_on ? 0 : counted > 0 ? counted + steps : 1;
+  };
+  count(body.supported_steps, body.supported);
+  count(body.quiet_steps, body.supported && quiet);
+  if (!quiet && body.supported_steps < kSupportedSteps) body.hop_end = t1;
 }
 
 /// The first jump begins.

@@ -49,7 +49,7 @@ void Observer::follow_sliding(Body& body, std::size_t i, double t0, double t1, c
     body.slip.reset();
     if (body.sliding && !slips_now && !body.collided_now) body.slide_end = t1;
     if (step_ > 0 && body.supported && body.collided_now && !slips_now) may_slip_on();
-  } else if (step_ > 0 && body.supported && body.supported_frames == 1 && !slips_now) {
+  } else if (step_ > 0 && body.supported && body.supported_steps == 1 && !slips_now) {
     may_slip_on();  // it gripped as it came down
   } else if (body.supported && !slips_now && (body.sliding || goes_on)) {
     if (goes_on) {
