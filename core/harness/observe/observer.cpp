@@ -14,22 +14,6 @@ Vector3 between(const Vector3& a, const Vector3& b, double fraction) {
   return a + fraction * (b - a);
 }
 
-}  // namespace
-
-double FallingQuantity::time_to_zero(double before, double after, double dt) const {
-  const double expected = before - rate_ * dt;
-  if (rate_ <= 0 || expected <= 0) return time_to_zero(before, dt);
-  // It counts as zero but goes on falling as before: its zero lies a little further on.
-  return std::abs(after - expected) <= std::min(0.1 * rate_ * dt, 0.5 * expected) ? before / rate_
-                                                                                  : dt;
-}
-
-double FallingQuantity::time_to_zero(double before, double dt) const {
-  return before < rate_ * dt ? before / rate_ : dt;
-}
-
-namespace {
-
 /// The fastest that the scene's centres come together by: a spin alone brings nothing together, but
 /// friction may turn some of it into speed.
 double closing_scale_of(const Scene& scene, double speed_scale) {
