@@ -94,7 +94,8 @@ class Observer final : public FrameSink {
   /// It goes on in an engine while it drives the bodies apart by this fraction of what its mean
   /// force so far does.
   static constexpr double kOfMeanForce = 0.003;
-  /// Ten frames of whole steps, two of them; parts of steps count as such.
+  /// Reached by the tenth and the second frame where frames show whole steps; half a step less than
+  /// that is for rounding.
   static constexpr double kSupportedSteps = 9.5, kQuietSteps = 1.5;
   /// Of gravity's speed in a step: what an engine leaves to a body that stays on the substrate.
   static constexpr double kQuiet = 0.05;
