@@ -20,28 +20,33 @@ inline double uniform(std::mt19937_64& random) {
   return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53;
 }
 
-/// n grains at random on a periodic square of that area, none overlapping; for area fractions up to
-/// about 0.5.
-inline void place_at_random(Scene& hard, std::size_t n, double area, std::mt19937_64& random) {
+/// The bodies at random on a periodic square of that area, none overlapping; for area fractions up
+/// to about 0.5. The first is the largest.
+inline void place_at_random(Scene& hard, double area, std::mt19937_64& random) {
   const double length = std::sqrt(area);
-  const auto cells = static_cast<std::ptrdiff_t>(length);  // at least a diameter wide
-  std::vector<std::vector<Vector3>> grid(static_cast<std::size_t>(cells * cells));
+  const auto cells = static_cast<std::ptrdiff_t>(length / (2 * hard.bodies.front().radius));
+  std::vector<std::vector<std::size_t>> grid(static_cast<std::size_t>(cells * cells));
   const auto cell = [&](double x) {
     return static_cast<std::ptrdiff_t>(x / length * static_cast<double>(cells));
   };
   const auto nearest = [&](double d) { return d - length * std::nearbyint(d / length); };
   hard.periodic = {length, length};
-  while (hard.initial.size() < n) {
-    const Vector3 x(length * uniform(random), length * uniform(random), 0.5);
+  while (hard.initial.size() < hard.bodies.size()) {
+    const std::size_t body = hard.initial.size();
+    const double radius = hard.bodies[body].radius;
+    const Vector3 x(length * uniform(random), length * uniform(random), radius);
     bool is_free = true;
     for (std::ptrdiff_t k = 0; k < 9; ++k) {
       const std::ptrdiff_t i = (cell(x.x()) + k % 3 - 1 + cells) % cells;
       const std::ptrdiff_t j = (cell(x.y()) + k / 3 - 1 + cells) % cells;
-      for (const Vector3& other : grid[static_cast<std::size_t>(j * cells + i)])
-        is_free &= std::hypot(nearest(x.x() - other.x()), nearest(x.y() - other.y())) > 1;
+      for (const std::size_t other : grid[static_cast<std::size_t>(j * cells + i)]) {
+        const Vector3 apart = x - hard.initial[other].position;
+        is_free &=
+            std::hypot(nearest(apart.x()), nearest(apart.y())) > radius + hard.bodies[other].radius;
+      }
     }
     if (!is_free) continue;
-    grid[static_cast<std::size_t>(cell(x.y()) * cells + cell(x.x()))].push_back(x);
+    grid[static_cast<std::size_t>(cell(x.y()) * cells + cell(x.x()))].push_back(body);
     BodyState state;
     state.position = x;
     hard.initial.push_back(state);
@@ -68,18 +73,33 @@ inline void place_on_lattice(Scene& hard, std::size_t n, double area, std::mt199
   }
 }
 
-inline void place(Scene& hard, std::size_t n, double area, std::mt19937_64& random) {
-  const bool is_dilute = static_cast<double>(n) * std::numbers::pi / 4 < 0.45 * area;
-  (is_dilute ? place_at_random : place_on_lattice)(hard, n, area, random);
+/// [area of the units above]
+inline double covered_area(const Scene& hard) {
+  double sum = 0;
+  for (const Sphere& body : hard.bodies) sum += body.radius * body.radius;
+  return std::numbers::pi * sum;
+}
+
+inline void place(Scene& hard, double area, std::mt19937_64& random) {
+  if (covered_area(hard) < 0.45 * area)
+    place_at_random(hard, area, random);
+  else
+    place_on_lattice(hard, hard.bodies.size(), area, random);
 }
 
 /// A periodic gas of n grains with K's forces, e_n = 0.90, and Gaussian velocities. on_plane: a
-/// monolayer that slides and rolls (μ = 0.5, g = 10). Each seed is another gas.
+/// monolayer that slides and rolls (μ = 0.5, g = 10). Each seed is another gas. ratio: of the
+/// largest to the smallest radius, evenly spread in four sizes about the peer's, of one density; 1
+/// where the area fraction is beyond place_at_random().
 inline ContactScene grain_gas(std::size_t n, double area_fraction, bool on_plane,
-                              std::uint64_t seed = 1) {
+                              std::uint64_t seed = 1, double ratio = 1) {
   ContactScene scene;
   Scene& hard = scene.hard;
-  hard.bodies.assign(n, Sphere{0.5, 1, 0.4});
+  for (std::size_t i = 0; i < n; ++i) {
+    const double share = 1 - static_cast<double>(4 * i / n) / 3;  // of the way to the largest
+    const double size = 2 * (1 + (ratio - 1) * share) / (1 + ratio);
+    hard.bodies.push_back({0.5 * size, size * size * size, 0.4});
+  }
   hard.material.assign(n, 0);
   hard.substrate.resize(1);
   hard.pairs = {{0.9, 0.5, 0}};
@@ -92,7 +112,7 @@ inline ContactScene grain_gas(std::size_t n, double area_fraction, bool on_plane
   scene.soft = {contact};
 
   std::mt19937_64 random(seed);
-  place(hard, n, static_cast<double>(n) * std::numbers::pi / 4 / area_fraction, random);
+  place(hard, covered_area(hard) / area_fraction, random);
   Vector3 mean = Vector3::Zero();
   for (BodyState& state : hard.initial) {
     const double size = std::sqrt(-2 * std::log(uniform(random)));
