@@ -73,7 +73,7 @@ inline void place_on_lattice(Scene& hard, std::size_t n, double area, std::mt199
   }
 }
 
-/// [area of the units above]
+/// What the bodies cover of the plane, seen from above.
 inline double covered_area(const Scene& hard) {
   double sum = 0;
   for (const Sphere& body : hard.bodies) sum += body.radius * body.radius;
