@@ -95,8 +95,9 @@ std::vector<std::vector<BodyState>> bare_lammps(const std::string& input, double
      << "dump_modify 1 format float %.17g sort id\n"
      << fmt::format("run {}\n", steps);
   in.close();
-  const std::string command =
-      fmt::format("cd {} && lmp -log none -in in.bare > out.txt 2>&1", folder.string());
+  const std::string command = fmt::format(
+      "cd {} && OMPI_MCA_orte_create_session_dirs=0 lmp -log none -in in.bare > out.txt 2>&1",
+      folder.string());
   EXPECT_EQ(std::system(command.c_str()), 0);
   auto frames = frames_of(folder / "dump", bodies);
   folders::remove_all(folder);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -193,6 +194,30 @@ TEST(Lammps, TwoRanksGiveTheSame) {
   for (std::size_t n = 0; n < one.size(); ++n)
     for (std::size_t i = 0; i < 2; ++i)
       EXPECT_LT((one[n].bodies[i].velocity - two[n].bodies[i].velocity).norm(), 1e-12);
+}
+
+/// Open MPI's directory that all of a user's programs share is gone for one that begins when the
+/// last of the others ends. So none is in it, and nothing is left.
+TEST(Lammps, SharesNoDirectoryWithOthers) {
+  namespace fs = std::filesystem;
+  const fs::path directory = fs::temp_directory_path() / fmt::format("lammps-{}", getpid());
+  fs::create_directory(directory);
+  // As the worker will see it.
+  const char* const before = std::getenv("TMPDIR");
+  const std::string restored = before ? before : "";
+  setenv("TMPDIR", directory.c_str(), 1);
+  std::optional<RemoteEngine> engine(std::in_place, executable(), test::kPatient);
+  const Scene scene = test::head_on(0.15, -0.15, 0.9);
+  test::peer_run(*engine, scene, {}, 1 / kRate, 2);
+  EXPECT_TRUE(fs::is_empty(directory));
+  test::peer_run(*engine, scene, {{"ranks", 2.0}}, 1 / kRate, 2);
+  EXPECT_FALSE(fs::is_empty(directory));
+  for (const auto& entry : fs::directory_iterator(directory))
+    EXPECT_TRUE(entry.path().filename().string().starts_with("slipcheck-lammps-")) << entry;
+  engine.reset();
+  EXPECT_TRUE(fs::is_empty(directory));
+  before ? setenv("TMPDIR", restored.c_str(), 1) : unsetenv("TMPDIR");
+  fs::remove_all(directory);
 }
 
 TEST(Lammps, CpuTimeIsThatOfTheSteps) {
