@@ -16,7 +16,6 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 namespace slipcheck::lammps {
@@ -32,16 +31,8 @@ struct Pipe {
   int read, write;
 };
 
-/// An empty directory that is this process's alone.
-std::string make_directory() {
-  std::string name = std::filesystem::temp_directory_path() / "slipcheck-lammps-XXXXXX";
-  if (!mkdtemp(name.data())) throw LammpsError("no directory can be made for mpirun");
-  return name;
-}
-
-/// In the child: never returns. stdbuf makes lmp say each line when it has it. directory: mpirun's,
-/// with more than one rank.
-[[noreturn]] void become_lammps(int ranks, const std::string& directory, int commands, int words) {
+/// In the child: never returns. stdbuf makes lmp say each line when it has it.
+[[noreturn]] void become_lammps(int ranks, int commands, int words) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   signal(SIGPIPE, SIG_DFL);
   dup2(commands, STDIN_FILENO);
@@ -49,12 +40,15 @@ std::string make_directory() {
   setenv("OMP_NUM_THREADS", "1", 0);
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);  // mpirun refuses it otherwise, and containers run so
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
-  // Open MPI's directory of a session is by default in one that all share, which the last to end
-  // removes while another begins and then fails. A rank alone has no need of any.
-  if (directory.empty())
+  // Open MPI's directory of a session lies in one that all share, which the last to end removes
+  // while another begins and then fails. One rank alone has no need of any.
+  if (ranks > 1) {
+    const std::string own = fmt::format("slipcheck-lammps-{}", getpid());
+    setenv("OMPI_MCA_orte_top_session_dir", (std::filesystem::temp_directory_path() / own).c_str(),
+           0);
+  } else {
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
-  else
-    setenv("OMPI_MCA_orte_tmpdir_base", directory.c_str(), 0);
+  }
   const std::string count = std::to_string(ranks);
   std::vector<const char*> words_of = {"stdbuf", "-oL"};
   if (ranks > 1)
@@ -122,10 +116,9 @@ void read_states(const char* at, const char* end, std::vector<BodyState>& states
 
 LammpsProcess::LammpsProcess(int ranks) {
   const Pipe commands, words, snapshots;
-  if (ranks > 1) directory_ = make_directory();
   process_ = fork();
   if (process_ < 0) throw LammpsError("no process can be made");
-  if (process_ == 0) become_lammps(ranks, directory_, commands.read, words.write);
+  if (process_ == 0) become_lammps(ranks, commands.read, words.write);
   close(commands.read);
   close(words.write);
   commands_ = commands.write;
@@ -142,15 +135,11 @@ LammpsProcess::LammpsProcess(int ranks) {
 LammpsProcess::~LammpsProcess() {
   forget_file();
   for (const int end : {commands_, words_, snapshots_, snapshots_write_}) close(end);
-  if (process_ >= 0) {
-    // Without commands it ends by itself, and mpirun with it, which so tidies up.
-    for (int k = 0; k < 200 && waitpid(process_, nullptr, WNOHANG) == 0; ++k) usleep(10000);
-    kill(process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
-  }
-  if (directory_.empty()) return;
-  std::error_code ignored;
-  std::filesystem::remove_all(directory_, ignored);
+  if (process_ < 0) return;
+  // Without commands it ends by itself, and mpirun with it, which so tidies up.
+  for (int k = 0; k < 200 && waitpid(process_, nullptr, WNOHANG) == 0; ++k) usleep(10000);
+  kill(process_, SIGKILL);
+  waitpid(process_, nullptr, 0);
 }
 
 void LammpsProcess::send(const std::string& commands) {

@@ -21,7 +21,7 @@ class LammpsError : public std::runtime_error {
 
 /// The program `lmp`, which reads commands from a pipe and writes snapshots into another: no file
 /// is put on a disk, and so nothing is left of it however it or this process ends. With more than
-/// one rank mpirun starts it, which needs a directory for its session.
+/// one rank mpirun starts it, which keeps a directory while it runs.
 class LammpsProcess {
  public:
   explicit LammpsProcess(int ranks);
@@ -56,7 +56,6 @@ class LammpsProcess {
   pid_t process_ = -1;
   int commands_ = -1, words_ = -1, snapshots_ = -1, snapshots_write_ = -1, file_ = -1;
   std::string snapshot_file_;
-  std::string directory_;              // mpirun's, or none
   std::string said_, frames_, error_;  // not yet looked at
   bool ended_ = false;
 };

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -206,15 +205,15 @@ TEST(Lammps, SharesNoDirectoryWithOthers) {
   const char* const before = std::getenv("TMPDIR");
   const std::string restored = before ? before : "";
   setenv("TMPDIR", directory.c_str(), 1);
-  std::optional<RemoteEngine> engine(std::in_place, executable(), test::kPatient);
+  RemoteEngine engine(executable(), test::kPatient);
   const Scene scene = test::head_on(0.15, -0.15, 0.9);
-  test::peer_run(*engine, scene, {}, 1 / kRate, 2);
+  test::peer_run(engine, scene, {}, 1 / kRate, 2);
   EXPECT_TRUE(fs::is_empty(directory));
-  test::peer_run(*engine, scene, {{"ranks", 2.0}}, 1 / kRate, 2);
+  test::peer_run(engine, scene, {{"ranks", 2.0}}, 1 / kRate, 2);
   EXPECT_FALSE(fs::is_empty(directory));
   for (const auto& entry : fs::directory_iterator(directory))
     EXPECT_TRUE(entry.path().filename().string().starts_with("slipcheck-lammps-")) << entry;
-  engine.reset();
+  test::peer_run(engine, scene, {}, 1 / kRate, 2);
   EXPECT_TRUE(fs::is_empty(directory));
   before ? setenv("TMPDIR", restored.c_str(), 1) : unsetenv("TMPDIR");
   fs::remove_all(directory);
