@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <ostream>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,9 @@ struct Laws {
   NormalForce normal;
   ContactEnd end;
   bool rubs, on_plane;
+  /// Of the plane.
+  Vector2 downhill = Vector2::Zero();  // [m/s²]
+  SubstrateMotion motion = {};
 };
 
 std::string name_of(const testing::TestParamInfo<Laws>& info) { return info.param.name; }
@@ -39,6 +44,8 @@ std::string name_of(const testing::TestParamInfo<Laws>& info) { return info.para
 ContactScene cluster(const Laws& laws, std::size_t side) {
   Scene hard = steel_scene(side * side);
   hard.confined = true;
+  hard.downhill = laws.downhill;
+  hard.motion = laws.motion;
   if (!laws.on_plane) hard.substrate[0].static_friction = hard.substrate[0].kinetic_friction = 0;
   std::mt19937_64 random(7);
   const auto symmetric = [&] { return 2 * uniform(random) - 1; };
@@ -58,55 +65,63 @@ ContactScene cluster(const Laws& laws, std::size_t side) {
   return with_contact(std::move(hard), contact);
 }
 
-double largest_difference(const std::vector<BodyState>& a, const std::vector<BodyState>& b) {
+double largest_difference(const std::vector<BodyState>& a, const std::vector<BodyState>& b,
+                          double radius = kRadius) {
   double largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
-    largest = test::largest_of(largest, (a[i].position - b[i].position).norm() / kRadius,
+    largest = test::largest_of(largest, (a[i].position - b[i].position).norm() / radius,
                                (a[i].velocity - b[i].velocity).norm(),
-                               kRadius * (a[i].angular_velocity - b[i].angular_velocity).norm());
+                               radius * (a[i].angular_velocity - b[i].angular_velocity).norm());
   return largest;
 }
 
 class GrainLaws : public testing::TestWithParam<Laws> {};
 
 /// Every step of both solvers is the same but for rounding, which collisions multiply: by how much,
-/// runs tell that begin 1e-12 radii aside. A thousand roundings of positions of ten radii move a
+/// runs tell that begin 1e-13 of the extent aside. A thousand roundings of such positions move a
 /// grain by so much, if all go one way; three times that, as these runs begin aside in some
-/// directions of many.
-TEST_P(GrainLaws, StepsAsStepSolverDoes) {
-  const ContactScene scene = cluster(GetParam(), 4);
-  ASSERT_EQ(grain_refusal(scene, scene.hard.initial), "");
-  GrainSolver grains(scene, scene.hard.initial, kStep);
-  StepSolver steps(scene, scene.hard.initial, {kStep});
+/// directions of many. Gives how many contacts began.
+std::size_t expect_steps_of_step_solver(const ContactScene& scene, double extent, double step,
+                                        std::span<const std::size_t> counts) {
+  const double radius = scene.hard.bodies[0].radius;
+  EXPECT_EQ(grain_refusal(scene, scene.hard.initial), "");
+  const StepSettings settings{.step = step, .general = true};
+  GrainSolver grains(scene, scene.hard.initial, step);
+  StepSolver steps(scene, scene.hard.initial, settings);
   std::mt19937_64 random(3);
   std::vector<StepSolver> beside;
   for (int k = 0; k < 4; ++k) {
     std::vector<BodyState> aside = scene.hard.initial;
     for (BodyState& state : aside) {
       const double angle = 2 * M_PI * uniform(random);
-      state.position.head<2>() += 1e-12 * kRadius * Vector2(std::cos(angle), std::sin(angle));
+      state.position.head<2>() += 1e-13 * extent * Vector2(std::cos(angle), std::sin(angle));
     }
-    beside.emplace_back(scene, aside, StepSettings{.step = kStep});
+    beside.emplace_back(scene, aside, settings);
   }
   Frame frame;
   std::size_t n = 0;
-  for (const std::size_t count : {2, 7, 100, 400, 400}) {
+  for (const std::size_t count : counts) {
     n += count;
     grains.advance(count);
     // What begins now is counted with the next step, by StepSolver with the last one.
-    const double t = static_cast<double>(n) * kStep;
-    const std::size_t collisions = steps.run(until_time(t - kStep), nullptr).collisions;
-    ASSERT_EQ(steps.run(until_time(t), nullptr).steps, n);
+    const double t = static_cast<double>(n) * step;
+    const std::size_t collisions = steps.run(until_time(t - step), nullptr).collisions;
+    EXPECT_EQ(steps.run(until_time(t), nullptr).steps, n);
     grains.show(frame);
     double multiplied = 0;
     for (StepSolver& each : beside) {
       each.run(until_time(t), nullptr);
-      multiplied = std::max(multiplied, largest_difference(each.states(), steps.states()));
+      multiplied = std::max(multiplied, largest_difference(each.states(), steps.states(), radius));
     }
-    EXPECT_LT(largest_difference(frame.bodies, steps.states()), 3 * multiplied) << n;
+    EXPECT_LT(largest_difference(frame.bodies, steps.states(), radius), 3 * multiplied) << n;
     EXPECT_EQ(grains.collisions(), collisions) << n;
   }
-  EXPECT_GT(grains.collisions(), 20u);
+  return grains.collisions();
+}
+
+TEST_P(GrainLaws, StepsAsStepSolverDoes) {
+  constexpr std::size_t kCounts[] = {2, 7, 100, 400, 400};
+  EXPECT_GT(expect_steps_of_step_solver(cluster(GetParam(), 4), 10 * kRadius, kStep, kCounts), 20u);
 }
 
 const double kMass = 7850 * 4 * M_PI / 3 * kRadius * kRadius * kRadius;
@@ -117,19 +132,38 @@ const NormalForce kClamped =
 /// As stiff at 1 % of the radius.
 const double kModulus = std::get<LinearForce>(kLinear).stiffness / std::sqrt(0.01 * kRadius);
 
+/// Twice in the thousand steps of these tests; static friction holds what rolls for a part of it.
+const double kPeriod = 500 * kStep;
+const auto kShaken = SubstrateMotion::oscillation({1e-4, 5e-5}, 1 / kPeriod, 0.4);
+const auto kJerked = SubstrateMotion::table(
+    {{10 * kStep, {0, 0}}, {200.5 * kStep, {1e-3, 0}}, {600 * kStep, {1e-3, -1e-3}}});
+
 INSTANTIATE_TEST_SUITE_P(
     All, GrainLaws,
-    testing::Values(Laws{"smooth", kLinear, ContactEnd::zero_overlap, false, false},
-                    Laws{"smooth_clamped", kClamped, ContactEnd::zero_force, false, false},
-                    Laws{"smooth_on_plane", kLinear, ContactEnd::zero_overlap, false, true},
-                    Laws{"rough", kLinear, ContactEnd::zero_overlap, true, false},
-                    Laws{"rough_on_plane", kLinear, ContactEnd::zero_overlap, true, true},
-                    Laws{"clamped_on_plane", kClamped, ContactEnd::zero_force, true, true},
-                    Laws{"hertz", HertzForce{kModulus}, ContactEnd::zero_overlap, true, false},
-                    Laws{"viscoelastic_on_plane", ViscoelasticForce{kModulus, 1e-6},
-                         ContactEnd::zero_force, true, true},
-                    Laws{"compact", CompactViscoelasticForce{kModulus, 1e-6},
-                         ContactEnd::zero_force, false, true}),
+    testing::Values(
+        Laws{"smooth", kLinear, ContactEnd::zero_overlap, false, false},
+        Laws{"smooth_clamped", kClamped, ContactEnd::zero_force, false, false},
+        Laws{"smooth_on_plane", kLinear, ContactEnd::zero_overlap, false, true},
+        Laws{"rough", kLinear, ContactEnd::zero_overlap, true, false},
+        Laws{"rough_on_plane", kLinear, ContactEnd::zero_overlap, true, true},
+        Laws{"clamped_on_plane", kClamped, ContactEnd::zero_force, true, true},
+        Laws{"hertz", HertzForce{kModulus}, ContactEnd::zero_overlap, true, false},
+        Laws{"viscoelastic_on_plane", ViscoelasticForce{kModulus, 1e-6}, ContactEnd::zero_force,
+             true, true},
+        Laws{"compact", CompactViscoelasticForce{kModulus, 1e-6}, ContactEnd::zero_force, false,
+             true},
+        Laws{"tilted", kLinear, ContactEnd::zero_overlap, true, true, {0.3, -2}},
+        Laws{"slippery_slope", kLinear, ContactEnd::zero_overlap, true, false, {3, 1}},
+        Laws{"shaken", kClamped, ContactEnd::zero_force, true, true, {0, 0}, kShaken},
+        Laws{"shaken_slope", kLinear, ContactEnd::zero_overlap, false, true, {-1, 0.5}, kShaken},
+        Laws{"belt",
+             kLinear,
+             ContactEnd::zero_overlap,
+             true,
+             true,
+             {0, 0},
+             SubstrateMotion::constant({0.4, -0.2})},
+        Laws{"jerked", kLinear, ContactEnd::zero_overlap, true, true, {0, 0}, kJerked}),
     name_of);
 
 /// K's App. C: spheres that meet too slowly to slide part as heavier ones do, of (1+A)/A m. Static
@@ -169,6 +203,47 @@ ContactScene periodic_gas(std::size_t n, double fraction, bool on_plane, double 
   }
   return scene;
 }
+
+struct Driven {
+  std::string name;
+  Vector2 downhill;  // [m/s²]
+  SubstrateMotion motion;
+};
+
+void PrintTo(const Driven& driven, std::ostream* out) { *out << driven.name; }
+
+class GrainsOn : public testing::TestWithParam<Driven> {};
+
+/// Few meet, so that they glide in blocks: some slide, others roll and are held, all the time or
+/// but for the largest accelerations of the plane.
+TEST_P(GrainsOn, GlideAsStepSolverDoes) {
+  constexpr double kMu = 0.5;
+  ContactScene scene = periodic_gas(300, 0.3, true, 0.9);
+  Scene& hard = scene.hard;
+  hard.downhill = GetParam().downhill;
+  hard.motion = GetParam().motion;
+  hard.substrate[0].static_friction = 1.2 * kMu;
+  hard.substrate[0].kinetic_friction = kMu;
+  for (std::size_t i = 0; i < hard.initial.size(); i += 2) {  // as it rolls on the plane
+    BodyState& state = hard.initial[i];
+    const Vector2 v = state.velocity.head<2>() - hard.motion.velocity(0).head<2>();
+    state.angular_velocity.head<2>() = Vector2(-v.y(), v.x()) / hard.bodies[i].radius;
+  }
+  constexpr std::size_t kCounts[] = {1, 10, 100, 1000, 1000};
+  EXPECT_GT(expect_steps_of_step_solver(scene, hard.periodic.x(), 2e-4, kCounts), 10u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, GrainsOn,
+    testing::Values(
+        Driven{"still", {0, 0}, {}}, Driven{"slope", {1, 0.4}, {}}, Driven{"steep", {3, -20}, {}},
+        Driven{"shaken", {0, 0}, SubstrateMotion::oscillation({0.1, 0.05}, 2, 0.4)},
+        Driven{"fast", {0.5, 0}, SubstrateMotion::oscillation({0.02, 0.02}, 8, 1)},
+        Driven{"belt", {0, 0}, SubstrateMotion::constant({2, -0.3})},
+        Driven{"jerked",
+               {0, 0.2},
+               SubstrateMotion::table({{0.05, {0, 0}}, {0.1, {0.05, 0}}, {0.31, {0.05, 0.4}}})}),
+    [](const auto& each) { return each.param.name; });
 
 /// What happens does not depend on where the cell's edges lie. Shifting all positions changes their
 /// rounding, and each of the one or two collisions of a grain multiplies that by about 10.
@@ -270,6 +345,32 @@ TEST(GrainSolver, FrictionDrivesGrainsTogetherWithinABlock) {
   EXPECT_LT(largest_difference(frame.bodies, steps.states()), 1e-12);
 }
 
+/// Nor those that a slope drives: a solid sphere that rolls behind a hollow one. Static friction
+/// alone does it, as both are held.
+TEST(GrainSolver, ASlopeDrivesGrainsTogetherWithinABlock) {
+  constexpr double kDownhill = 10, kSolid = 5.0 / 7, kHollow = 3.0 / 5;  // 1/(1+q)
+  const double after = 40 * kStep;
+  ContactScene scene = colliding(0, 0, 0.9, kCollisionTime, NoTangentialForce{},
+                                 kRadius + 0.25 * (kSolid - kHollow) * kDownhill * after * after);
+  scene.hard.confined = true;
+  scene.hard.substrate[0].kinetic_friction = 0;
+  scene.hard.substrate[0].static_friction = 0.6;
+  const bool first_is_left =
+      scene.hard.initial[0].position.x() < scene.hard.initial[1].position.x();
+  scene.hard.bodies[first_is_left ? 1 : 0].shape_factor = 2.0 / 3;
+  scene.hard.downhill = {kDownhill, 0};
+  ASSERT_EQ(grain_refusal(scene, scene.hard.initial), "");
+  GrainSolver grains(scene, scene.hard.initial, kStep);
+  StepSolver steps(scene, scene.hard.initial, {.step = kStep, .general = true});
+  grains.advance(1);
+  grains.advance(50);  // one block
+  ASSERT_EQ(steps.run(until_time(51 * kStep), nullptr).steps, 51u);
+  Frame frame;
+  grains.show(frame);
+  EXPECT_EQ(grains.collisions(), 1u);
+  EXPECT_LT(largest_difference(frame.bodies, steps.states()), 1e-12);
+}
+
 /// Forces between grains are equal and opposite, and without friction nothing else acts.
 TEST(GrainSolver, KeepsMomentum) {
   const ContactScene scene = periodic_gas(1000, 0.6, false, 0.9);
@@ -316,8 +417,14 @@ TEST(GrainSolver, ElasticGasKeepsItsEnergyInSecondOrder) {
 }
 
 /// Every instruction set does the same operations on each grain.
-TEST(GrainSolver, SameBitsOnEveryInstructionSet) {
-  const ContactScene scene = periodic_gas(500, 0.6, true, 0.8);
+class GrainsDriven : public testing::TestWithParam<bool> {};
+
+TEST_P(GrainsDriven, SameBitsOnEveryInstructionSet) {
+  ContactScene scene = periodic_gas(500, 0.6, true, 0.8);
+  if (GetParam()) {
+    scene.hard.downhill = {0.2, 0};
+    scene.hard.motion = SubstrateMotion::oscillation({0.1, 0.2}, 1, 0);
+  }
   const std::int64_t all = hwy::SupportedTargets();
   std::vector<BodyState> first;
   for (std::int64_t left = all; left != 0; left &= left - 1) {
@@ -333,6 +440,8 @@ TEST(GrainSolver, SameBitsOnEveryInstructionSet) {
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
+
+INSTANTIATE_TEST_SUITE_P(All, GrainsDriven, testing::Bool());
 
 /// Beyond the limit of the linear contact, 2/ω0 = (2/π) t_col, energy grows until grains jump over
 /// each other; that is told and does not go on for ever.
@@ -386,7 +495,6 @@ TEST(GrainSolver, TellsWhatItDoesNotTake) {
     const std::string found = refusal(change);
     EXPECT_NE(found.find(reason), std::string::npos) << found;
   };
-  expect("tilted", [](ContactScene& s) { s.hard.downhill = {0, -1}; });
   expect("rolling", [](ContactScene& s) { s.hard.substrate[0].rolling = RollingFriction(0.1); });
   expect("drilling", [](ContactScene& s) { s.hard.substrate[0].drilling_length = 0.1; });
   expect("not all contacts", [](ContactScene& s) { s.soft[0].reset(); });

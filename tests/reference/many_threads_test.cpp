@@ -55,20 +55,29 @@ TEST(ManyThreads, GiveTheBitsOfOneToContactsThatRemember) {
   }
 }
 
+void expect_bits_of_one(const ContactScene& scene) {
+  const auto hash = [&](std::size_t threads) {
+    GrainSolver solver(scene, scene.hard.initial, bench::kStep, threads);
+    solver.advance(1500);
+    EXPECT_GT(solver.collisions(), 150u);
+    Frame frame;
+    solver.show(frame);
+    return hash_of(frame.bodies);
+  };
+  const std::uint64_t alone = hash(1);
+  for (const std::size_t threads : kThreads) EXPECT_EQ(hash(threads), alone) << threads;
+}
+
 TEST(ManyThreads, GiveTheBitsOfOneToGrainsInIslands) {
-  for (const bool on_plane : {true, false}) {
-    const ContactScene scene = bench::grain_gas(3000, 0.6, on_plane);
-    const auto hash = [&](std::size_t threads) {
-      GrainSolver solver(scene, scene.hard.initial, bench::kStep, threads);
-      solver.advance(1500);
-      EXPECT_GT(solver.collisions(), 150u);
-      Frame frame;
-      solver.show(frame);
-      return hash_of(frame.bodies);
-    };
-    const std::uint64_t alone = hash(1);
-    for (const std::size_t threads : kThreads) EXPECT_EQ(hash(threads), alone) << threads;
-  }
+  for (const bool on_plane : {true, false})
+    expect_bits_of_one(bench::grain_gas(3000, 0.6, on_plane));
+}
+
+TEST(ManyThreads, GiveTheBitsOfOneToGrainsThatAreCarriedAlong) {
+  ContactScene scene = bench::grain_gas(3000, 0.6, true);
+  scene.hard.downhill = {0.5, 1};
+  scene.hard.motion = SubstrateMotion::oscillation({0.05, 0.1}, 3, 0);
+  expect_bits_of_one(scene);
 }
 
 /// Spheres of unlike radii that rub, fall on a plane which swings, and bounce from it and each

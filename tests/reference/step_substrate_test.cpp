@@ -248,6 +248,40 @@ TEST(StepSolver, FastOscillationMakesTheBallSlide) {
   }
 }
 
+/// A slip that the substrate's acceleration nearly keeps up fades over many steps. Against where it
+/// was expected to point, friction of a step would overshoot it, and it jumped from side to side
+/// until the substrate had turned. The exact velocity once it has gone is K (15)'s.
+TEST(StepSolver, SlipFadesOnAShakenSubstrateAndIsGone) {
+  Scene scene = test::steel_scene(1);
+  scene.confined = true;
+  scene.substrate[0].kinetic_friction = 0.5;
+  scene.substrate[0].static_friction = 0.6;
+  scene.motion = SubstrateMotion::oscillation({0.1, 0.05}, 2, 0.4);
+  const ContactScene all = alone(scene);
+  constexpr double kLength = 2e-4, kEnd = 0.1;
+  int late = 0;
+  for (int k = 0; k < 200; ++k) {
+    std::vector<BodyState> initial = scene.initial;
+    initial[0].velocity = {std::cos(k * M_PI / 100), std::sin(k * M_PI / 100), 0};
+    initial[0].velocity *= 0.1 + 0.002 * k;
+    EventSolver exact(scene, initial);
+    exact.run(until_time(kEnd - 20 * kLength), nullptr);
+    const auto slip = [&](const BodyState& state, double t) {
+      return (slip_velocity(state, 0.002) - scene.motion.velocity(t)).head<2>().norm();
+    };
+    if (slip(exact.states()[0], exact.now()) > 1e-12) continue;  // not yet gone
+    ++late;
+    exact.run(until_time(kEnd), nullptr);
+    StepSolver solver(all, initial, {.step = kLength, .general = k % 2 == 1});
+    solver.run(until_time(kEnd), nullptr);
+    const BodyState s = solver.states()[0];
+    EXPECT_LT(slip(s, kEnd), 1e-12) << k;
+    // What friction takes in the step in which the slip ends.
+    EXPECT_LT((s.velocity - exact.states()[0].velocity).norm(), 0.5 * 9.81 * kLength) << k;
+  }
+  EXPECT_GT(late, 100);
+}
+
 TEST(StepSolver, FlightLandingAndRestitution) {
   Scene scene = test::steel_scene(1);
   scene.substrate[0].restitution = 0.5;

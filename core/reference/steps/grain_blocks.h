@@ -16,7 +16,7 @@ class GrainBlocks {
   static constexpr std::size_t kLongest = 64;
 
   GrainBlocks() = default;
-  /// step: h [s]; braking: the largest μ_k g of a grain that slides on the substrate [m/s²].
+  /// step: h [s]; braking: the largest acceleration of a grain by the substrate [m/s²].
   GrainBlocks(double step, double braking) : step_(step), braking_(braking) {}
 
   void exchange(StateArchive& archive) { archive(fastest_, skin_, moved_, joining_, last_length_); }

@@ -15,7 +15,8 @@ namespace slipcheck {
 /// What a scene of grains has; what it lacks does not exist in the loop chosen by these.
 struct GrainFeatures {
   bool rubs = false;        ///< grains exert tangential forces, so that they spin
-  bool on_plane = false;    ///< Coulomb friction of a level, still substrate; grains roll
+  bool on_plane = false;    ///< Coulomb friction of the substrate; grains roll
+  bool driven = false;      ///< on_plane, and the substrate is tilted or moves
   bool any_normal = false;  ///< other normal forces than the linear one
 };
 
@@ -110,7 +111,8 @@ struct GrainPair {
   double shift_x = 0, shift_y = 0;  ///< from b's place to its image next to a [m]
   std::uint32_t law = 0;
   bool touching = false;
-  double normal_force = 0;  ///< F_N [N]
+  std::uint16_t parted_in = 0;  ///< 1 for the first step of the block; 0: in none
+  double normal_force = 0;      ///< F_N [N]
   Force force;
 };
 

@@ -24,8 +24,9 @@ class GrainContact {
   GrainContact(GrainBatch& batch, const std::vector<GrainLaw>& laws, double radius, double step)
       : s_(batch), g_(batch.grains), laws_(laws.data()), radius_(radius), h_(step) {}
 
-  /// Two grains that overlap; whether their contact begins.
-  HWY_ATTR bool meet(GrainPair& pair, double dx, double dy, double distance, bool begun) const {
+  /// Two grains that overlap in a step of the block; whether their contact begins.
+  HWY_ATTR bool meet(GrainPair& pair, double dx, double dy, double distance, std::size_t step,
+                     bool begun) const {
     const GrainLaw& law = laws_[pair.law];
     const double nx = dx / distance, ny = dy / distance;
     const double overlap = 2 * radius_ - distance;
@@ -33,7 +34,8 @@ class GrainContact {
     const double normal = normal_force_of(law, overlap, now.closing);
     if ((law.clamped && normal <= 0) || (overlap <= 0 && now.closing <= 0)) {
       if (pair.touching)
-        end(pair, normal < 0 ? pair.normal_force / (pair.normal_force - normal) : 1, {}, nx, ny);
+        end(pair, normal < 0 ? pair.normal_force / (pair.normal_force - normal) : 1, {}, nx, ny,
+            step);
       return false;
     }
     const bool begins = !pair.touching;
@@ -60,13 +62,14 @@ class GrainContact {
   }
 
   /// Two grains that touched a step ago and overlap no more.
-  HWY_ATTR void part(GrainPair& pair, double dx, double dy, double distance) const {
+  HWY_ATTR void part(GrainPair& pair, double dx, double dy, double distance,
+                     std::size_t step) const {
     const GrainLaw& law = laws_[pair.law];
     const double nx = dx / distance, ny = dy / distance;
     const Motion before = motion(pair, nx, ny, 0);
     const double gone = before.closing < 0 ? (2 * radius_ - distance) / (before.closing * h_) : 0;
     const double last = law.clamped ? 0 : normal_force_of(law, 0, before.closing);
-    end(pair, std::max(0.0, 1 - gone), force_of(law, last, before, nx, ny), nx, ny);
+    end(pair, std::max(0.0, 1 - gone), force_of(law, last, before, nx, ny), nx, ny, step);
   }
 
  private:
@@ -144,7 +147,8 @@ class GrainContact {
   /// The contact lasted for `part` of the step before now and should have had part h ½ (F + F_end)
   /// there; it had h/2 F. What is taken back from a grain that the other pressed down was borne by
   /// the substrate and must not lift it.
-  HWY_ATTR void end(GrainPair& pair, double part, const Force& last, double nx, double ny) const {
+  HWY_ATTR void end(GrainPair& pair, double part, const Force& last, double nx, double ny,
+                    std::size_t step) const {
     const Force pushed = mix(0.5 * (part - 1), pair.force, 0.5 * part, last);
     if constexpr (kOnPlane) {
       const double before_a = s_.fz[pair.a], before_b = s_.fz[pair.b];
@@ -155,6 +159,7 @@ class GrainContact {
       push(pair, pushed, nx, ny);
     }
     pair.touching = false;
+    pair.parted_in = static_cast<std::uint16_t>(step + 1);
   }
 
   HWY_ATTR void keep_down(std::uint32_t i, double before) const {

@@ -62,10 +62,9 @@ void GrainKernels::find_near(const GrainArrays& grains, std::span<const std::uin
   HWY_DYNAMIC_DISPATCH(FindNear)(grains, plane_, first, second, margin, near);
 }
 
-double GrainKernels::glide(GrainArrays& grains, std::size_t first, std::size_t last, double step,
-                           std::size_t count) const {
-  return HWY_DYNAMIC_DISPATCH(Glide)(features_, grains, first, last, kinds_, plane_.radius, step,
-                                     count);
+double GrainKernels::glide(GrainArrays& grains, std::size_t first, std::size_t last,
+                           const GrainSteps& steps) const {
+  return HWY_DYNAMIC_DISPATCH(Glide)(features_, grains, first, last, kinds_, plane_.radius, steps);
 }
 
 std::size_t GrainKernels::run(GrainBatch& batch, const GrainGroup& group,

@@ -37,12 +37,36 @@ struct GrainGroup {
   std::size_t first_pair = 0, last_pair = 0;
 };
 
+/// What a tilted or moving plane does to grains in one step.
+struct GrainPush {
+  double before_x = 0, before_y = 0;  ///< v_S where the velocities come from [m/s]
+  double plane_x = 0, plane_y = 0;    ///< v_S where they go to [m/s]
+  double slope_x = 0, slope_y = 0;    ///< acceleration downhill [m/s²]
+  /// Where they go to, the velocity from which speeds count [m/s].
+  double drift_x = 0, drift_y = 0;
+};
+
+/// Steps of a grain of one kind that rolls on it all the while, summed.
+struct GrainRoll {
+  double holds = 0;                   ///< 1: static friction does in each of them; else 0
+  double dvx = 0, dvy = 0;            ///< of the velocity [m/s]
+  double x = 0, y = 0;                ///< beside v t [m]
+  double last_dvx = 0, last_dvy = 0;  ///< in the last step [m/s]
+};
+
+/// What such a plane does in a row of steps.
+struct GrainDriving {
+  std::vector<GrainPush> steps;
+  std::vector<GrainRoll> rolls;  ///< by kind
+};
+
 struct GrainSteps {
   double step = 0;        ///< h [s]
   double first_kick = 0;  ///< from the velocities' time to that of the first step's end [s]
   std::size_t count = 0;
-  bool drift = true;   ///< else the grains get their kicks and stay
-  bool begun = false;  ///< there was a step before the first one
+  bool drift = true;                      ///< else the grains get their kicks and stay
+  bool begun = false;                     ///< there was a step before the first one
+  const GrainDriving* driving = nullptr;  ///< of so many steps, where the plane is driven
 };
 
 /// What all grains share.
@@ -75,10 +99,11 @@ class GrainKernels {
   void find_near(const GrainArrays& grains, std::span<const std::uint32_t> first,
                  std::span<const std::uint32_t> second, double margin,
                  std::vector<std::uint32_t>& near) const;
-  /// Steps of the grains first … last − 1, which meet none: in one go, to rounding what single
-  /// steps do. Returns the square of the largest speed [m²/s²].
-  double glide(GrainArrays& grains, std::size_t first, std::size_t last, double step,
-               std::size_t count) const;
+  /// Steps of the grains first … last − 1, which meet none: to rounding what single steps do, in
+  /// one go but for those that slide on a driven plane. Returns the square of the largest speed
+  /// [m²/s²].
+  double glide(GrainArrays& grains, std::size_t first, std::size_t last,
+               const GrainSteps& steps) const;
   /// Steps of one group. Returns how many contacts began.
   std::size_t run(GrainBatch& batch, const GrainGroup& group, const GrainSteps& steps) const;
 

@@ -49,8 +49,9 @@ std::vector<std::string> GrainLoop::features() const {
   return {
       has.any_normal ? "any normal force" : "linear normal force",
       has.rubs ? "viscous tangential force with Coulomb's cap" : "no tangential force, no torque",
-      has.on_plane ? "level, still substrate with Coulomb friction, no lift-off"
-                   : "level, still substrate without friction or lift-off",
+      has.driven     ? "tilted or moving substrate with Coulomb friction, no lift-off"
+      : has.on_plane ? "level, still substrate with Coulomb friction, no lift-off"
+                     : "level, still substrate without friction or lift-off",
       "one radius, centres in a plane: no z",
       "many bodies: neighbours, islands, " + GrainSolver::instruction_set()};
 }

@@ -59,7 +59,8 @@ GrainFeatures features_of(const Scene& scene, const std::vector<GrainLaw>& laws,
   const bool spins_level = std::any_of(initial.begin(), initial.end(), [](const BodyState& s) {
     return !s.angular_velocity.head<2>().isZero(0);
   });
-  features.on_plane = slides_or_rolls(scene) || (features.rubs && spins_level);
+  features.driven = !scene.motion.is_still() || !scene.downhill.isZero(0);
+  features.on_plane = slides_or_rolls(scene) || (features.rubs && spins_level) || features.driven;
   features.any_normal = std::any_of(laws.begin(), laws.end(), [](const GrainLaw& law) {
     return !std::holds_alternative<LinearForce>(law.normal);
   });
@@ -87,8 +88,6 @@ std::string grain_refusal(const ContactScene& scene, std::span<const BodyState> 
   const Scene& hard = scene.hard;
   if (hard.box) return "the scene is a box";
   if (scene.own) return "each two bodies have a contact of their own";
-  if (!hard.motion.is_still() || !hard.downhill.isZero(0))
-    return "the substrate moves or is tilted";
   for (const SubstrateContact& c : hard.substrate)
     if (!c.rolling.is_zero() || c.drilling_length > 0 || c.coupled_radius > 0)
       return "the substrate has rolling or drilling friction";

@@ -12,6 +12,7 @@
 #include "base/thread_team.h"
 #include "physics/numbers.h"
 #include "reference/steps/grain_blocks.h"
+#include "reference/steps/grain_drive.h"
 #include "reference/steps/grain_islands.h"
 #include "reference/steps/grain_kernels.h"
 #include "reference/steps/grain_meetings.h"
@@ -39,6 +40,7 @@ class GrainSolver::Impl {
       : scene_(&scene),
         step_(step),
         kernels_(grain_kernels(scene, initial, grains_.kind)),
+        drive_(scene.hard, initial, step),
         team_(threads) {
     assert(step > 0 && initial.size() == scene.hard.bodies.size());
     const std::size_t n = initial.size();
@@ -59,13 +61,14 @@ class GrainSolver::Impl {
       grains_.wy[i] = state.angular_velocity.y();
       grains_.wz[i] = state.angular_velocity.z();
       const double R = radius();
-      const double slip = slip_velocity(state, R).head<2>().norm();
-      const double round_off =
-          16 * kEpsilon * (state.velocity.norm() + R * state.angular_velocity.norm());
-      grains_.sticks[i] = slip <= round_off ? 1 : 0;
-      fastest2 = std::max(fastest2, state.velocity.head<2>().squaredNorm());
+      const double round_off = 16 * kEpsilon *
+                               (state.velocity.norm() + drive_.velocity_of(0).norm() +
+                                R * state.angular_velocity.norm());
+      grains_.sticks[i] = drive_.slip(state, i).norm() <= round_off ? 1 : 0;
+      const Vector2 speed = state.velocity.head<2>() - drift_of(0);
+      fastest2 = std::max(fastest2, speed.squaredNorm());
     }
-    blocks_ = {step, braking()};
+    blocks_ = {step, features().driven ? drive_.most(braking()) : braking()};
     blocks_.set_fastest(std::sqrt(fastest2));
     find_neighbours(1);
   }
@@ -88,7 +91,8 @@ class GrainSolver::Impl {
   }
 
   void exchange(StateArchive& archive) {
-    archive(grains_, image_x_, image_y_, body_, n_, collisions_, blocks_, neighbours_, touching_);
+    archive(grains_, image_x_, image_y_, body_, n_, collisions_, blocks_, neighbours_, touching_,
+            parted_);
     remember_contacts();
   }
 
@@ -99,13 +103,15 @@ class GrainSolver::Impl {
   const GrainFeatures& features() const { return kernels_.features(); }
 
   bool all_stick(bool rests) const {
+    const Vector2 plane = drive_.velocity_of(n_);
     for (std::size_t i = 0; i < grains_.size(); ++i) {
       const auto [wx, wy, wz] = spin(grains_, i);
       const bool sticks = features().on_plane
                               ? grains_.sticks[i] > 0
                               : grains_.vx[i] == radius() * wy && grains_.vy[i] == -radius() * wx;
       if (!sticks) return false;
-      if (rests && (grains_.vx[i] != 0 || grains_.vy[i] != 0 || wz != 0)) return false;
+      if (rests && (grains_.vx[i] != plane.x() || grains_.vy[i] != plane.y() || wz != 0))
+        return false;
     }
     return true;
   }
@@ -119,7 +125,8 @@ class GrainSolver::Impl {
     batch.pairs.resize(near.size());
     for (std::size_t p = 0; p < near.size(); ++p) take_pair(near[p], batch.pairs[p]);
     const GrainGroup all = {0, grains_.size(), 0, batch.pairs.size()};
-    kernels_.run(batch, all, {step_, n_ > 0 ? 0.5 * step_ : 0, 1, false, n_ > 0});
+    if (features().driven) drive_.find_half(n_, driving_);
+    kernels_.run(batch, all, {step_, n_ > 0 ? 0.5 * step_ : 0, 1, false, n_ > 0, &driving_});
     frame.bodies.resize(grains_.size());
     frame.touches.clear();
     const GrainArrays& g = batch.grains;
@@ -153,6 +160,7 @@ class GrainSolver::Impl {
     std::size_t begun = 0, touching = 0;
     std::size_t touching_before = 0;  ///< of the groups before it
     double fastest2 = 0;
+    std::vector<std::uint32_t> parted;  ///< a grain of each two that did in the last step
   };
 
   double radius() const { return kernels_.plane().radius; }
@@ -165,12 +173,21 @@ class GrainSolver::Impl {
             features().rubs ? now.wz[i] : grains_.wz[body]};
   }
 
-  /// The largest μ_k g of a grain on the plane [m/s²].
+  /// Where the speeds of grains count from [m/s].
+  Vector2 drift_of(std::size_t n) const {
+    return features().driven ? drive_.drift_of(n) : Vector2::Zero();
+  }
+
+  /// The largest acceleration of a grain by friction of the plane [m/s²]: μ_k g, and μ_s g where
+  /// that holds what the plane carries along.
   double braking() const {
     double most = 0;
     if (features().on_plane)
-      for (const GrainKind& kind : kernels_.kinds())
-        most = std::max(most, kind.kinetic_friction * kind.weight * kind.inverse_mass);
+      for (const GrainKind& kind : kernels_.kinds()) {
+        const double held_by = features().driven ? kind.static_friction : 0;
+        most = std::max(most,
+                        std::max(held_by, kind.kinetic_friction) * kind.weight * kind.inverse_mass);
+      }
     return most;
   }
 
@@ -210,6 +227,7 @@ class GrainSolver::Impl {
   }
 
   void reorder(const std::vector<std::uint32_t>& order) {
+    for (std::uint32_t& i : parted_) i = neighbours_.sorted(i);
     std::vector<GrainOrder::Quantity> all;
     grains_.for_each_changing(features(),
                               [&](std::vector<double>& values) { all.push_back(&values); });
@@ -242,6 +260,7 @@ class GrainSolver::Impl {
     const std::uint32_t contact = contact_of_[listed];
     pair.touching = false;
     if (contact != kNone) pair = touching_[contact].pair;
+    pair.parted_in = 0;
     const std::uint32_t i = neighbours_.first()[listed], j = neighbours_.second()[listed];
     pair.a = i;
     pair.b = j;
@@ -257,8 +276,9 @@ class GrainSolver::Impl {
     const GrainPairs listed = {neighbours_.first(), neighbours_.second()};
     const GrainMeetings meetings(kernels_, grains_, listed, blocks_.margin(length),
                                  step_ * static_cast<double>(length), braking(), step_);
-    // A grain that touches another one is hit whatever their ways.
-    hit_.clear();
+    // A grain that touches another one is hit whatever their ways; and what has just acted on one
+    // that parted counts in the next step.
+    hit_ = parted_;
     for (const Contact& contact : touching_) hit_.push_back(contact.pair.a);
     islands_.find(
         grains_.size(), listed, hit_,
@@ -267,6 +287,7 @@ class GrainSolver::Impl {
         },
         team_);
     batch_.hold(islands_.grain_places(), islands_.pair_count(), features());
+    if (features().driven) drive_.find(n_, length, kernels_.kinds(), driving_);
     // Groups share no grain: whoever takes them, each does the same.
     const std::vector<GrainIslandGroup>& groups = islands_.groups();
     ended_.resize(groups.size());
@@ -290,6 +311,11 @@ class GrainSolver::Impl {
     return true;
   }
 
+  /// The next ones; the first kick of all is half as long.
+  GrainSteps steps_of(std::size_t length) const {
+    return {step_, n_ == 0 ? 0.5 * step_ : step_, length, true, n_ > 0, &driving_};
+  }
+
   /// Takes a group's grains and pairs and does its steps.
   Ended run_group(const GrainIslandGroup& islands, std::size_t length) {
     const GrainGroup& group = islands.batch;
@@ -302,8 +328,7 @@ class GrainSolver::Impl {
       pair.b = islands_.place(pair.b) + islands.shift;
     }
     Ended ended;
-    ended.begun =
-        kernels_.run(batch_, group, {step_, n_ == 0 ? 0.5 * step_ : step_, length, true, n_ > 0});
+    ended.begun = kernels_.run(batch_, group, steps_of(length));
     for (std::size_t k = group.first_grain; k < group.last_grain; ++k)
       ended.fastest2 = std::max(ended.fastest2, batch_.fastest[k]);
     for (std::size_t p = group.first_pair; p < group.last_pair; ++p)
@@ -320,7 +345,7 @@ class GrainSolver::Impl {
     const bool begins = n_ == 0 && features().on_plane;
     std::vector<double> still2(team_.size(), begins ? begin_gliding() : 0);
     team_.run_shares(grains_.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
-      if (!begins) still2[own] = kernels_.glide(grains_, first, last, step_, length);
+      if (!begins) still2[own] = kernels_.glide(grains_, first, last, steps_of(length));
       const auto take_back = [&](const GrainIslandGroup& group, bool is_between) {
         for (std::size_t k = 0; k < group.grains.size(); ++k) {
           const std::uint32_t i = group.grains[k];
@@ -331,18 +356,23 @@ class GrainSolver::Impl {
       for (const GrainIslandGroup& group : islands_.groups_of(own)) take_back(group, false);
       for (const GrainIslandGroup& group : islands_.groups_of(team_.size())) take_back(group, true);
       const auto [group, end] = team_.share_of(ended_.size(), own);
-      for (std::size_t k = group; k < end; ++k) keep_contacts(k);
+      for (std::size_t k = group; k < end; ++k) keep_contacts(k, length);
     });
+    parted_.clear();
+    for (const Ended& each : ended_)
+      parted_.insert(parted_.end(), each.parted.begin(), each.parted.end());
     return *std::max_element(still2.begin(), still2.end());
   }
 
-  void keep_contacts(std::size_t k) {
+  void keep_contacts(std::size_t k, std::size_t length) {
     const GrainIslandGroup& group = islands_.groups()[k];
+    ended_[k].parted.clear();
     auto c = static_cast<std::uint32_t>(ended_[k].touching_before);
     for (std::size_t p = 0; p < group.pairs.size(); ++p) {
       const GrainPair& pair = batch_.pairs[group.batch.first_pair + p];
-      if (!pair.touching) continue;
       const std::uint32_t listed = group.pairs[p];
+      if (pair.parted_in == length) ended_[k].parted.push_back(neighbours_.first()[listed]);
+      if (!pair.touching) continue;
       Contact& contact = touching_[c];
       contact = {listed, pair};
       contact.pair.a = neighbours_.first()[listed];
@@ -354,7 +384,7 @@ class GrainSolver::Impl {
   /// The first step with its half kick.
   double begin_gliding() {
     GrainBatch batch = batch_of_all();
-    kernels_.run(batch, {0, grains_.size(), 0, 0}, {step_, 0.5 * step_, 1, true, false});
+    kernels_.run(batch, {0, grains_.size(), 0, 0}, steps_of(1));
     for (std::size_t i = 0; i < grains_.size(); ++i) grains_.take(i, batch.grains, i, features());
     return *std::max_element(batch.fastest.begin(), batch.fastest.end());
   }
@@ -363,6 +393,8 @@ class GrainSolver::Impl {
   double step_;
   GrainArrays grains_;
   GrainKernels kernels_;
+  GrainDrive drive_;
+  GrainDriving driving_;                         ///< of the block
   std::vector<std::int64_t> image_x_, image_y_;  ///< cells between a grain's path and its place
   std::vector<std::uint32_t> body_;              ///< of the scene
   GrainOrder order_;
@@ -375,6 +407,7 @@ class GrainSolver::Impl {
   ThreadTeam team_;
   GrainBatch batch_;
   std::vector<Contact> touching_;
+  std::vector<std::uint32_t> parted_;      ///< a grain of each two that did in the last step
   std::vector<std::uint32_t> contact_of_;  ///< of a listed pair, in touching_ or kNone
 };
 

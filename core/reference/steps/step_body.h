@@ -87,6 +87,16 @@ inline double towards_zero(double rate, double lost) {
   return std::copysign(std::max(0.0, std::abs(rate) - lost), rate);
 }
 
+/// Whether friction that takes `friction` from v [m/s] may act against the slip that was expected,
+/// where u is the one at hand. Not if that is turned by more than a right angle. Nor if friction
+/// takes all of it in a step and more: where the substrate's acceleration keeps such a slip up, it
+/// would jump from side to side for ever.
+[[gnu::always_inline]] inline bool follows(const StepKind& kind, const Vector2& expected,
+                                           const Vector2& u, double friction) {
+  return expected.dot(u) > 0 &&
+         kind.share * kind.share * expected.squaredNorm() > friction * friction;
+}
+
 /// The friction of the substrate over dt on a body with the velocities `v`, `w` that all other
 /// forces gave it, K (11)-(19), (22)-(27). load = |N| dt [N s]. With the slip u that the other
 /// forces leave, the impulse −m u/(1+A) makes the body stick; it does if the impulse is within
@@ -127,9 +137,10 @@ template <class Substrate>
     direction.x() -= 0.5 * (s.velocity_before.x() + s.velocity.x());
     direction.y() -= 0.5 * (s.velocity_before.y() + s.velocity.y());
   }
-  if (!(direction.dot(u) > 0)) [[unlikely]]
+  const double friction = c.kinetic_friction * per_slip;
+  if (!follows(kind, direction, u, friction)) [[unlikely]]
     direction = u;
-  const double change = c.kinetic_friction * per_slip * (1 / direction.norm());
+  const double change = friction * (1 / direction.norm());
   const double turn = change * kind.turn;
   v.x() -= change * direction.x();
   v.y() -= change * direction.y();
@@ -179,9 +190,9 @@ inline void rub_and_roll(StepBody& b, const StepKind& kind, const StepSurroundin
     Vector2 direction = slip(b.velocity + 0.5 * b.velocity_change,
                              b.angular_velocity + 0.5 * b.angular_velocity_change,
                              0.5 * (s.velocity_before + s.velocity));
-    if (!(direction.dot(u) > 0)) direction = u;
-    const double size = direction.norm();
     double friction = c.kinetic_friction * per_slip;
+    if (!follows(kind, direction, u, friction)) direction = u;
+    const double size = direction.norm();
     if (shares_friction) {
       const CoupledFriction shared =
           coupled_friction(c.hertzian_pressure ? DiscPressure::hertzian : DiscPressure::uniform,
