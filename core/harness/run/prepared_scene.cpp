@@ -1,5 +1,7 @@
 #include "harness/run/prepared_scene.h"
 
+#include <malloc.h>
+
 #include <exception>
 #include <utility>
 
@@ -46,6 +48,9 @@ void let_go(Values& values) {
 }
 
 void tell_bodies_again(PreparedScene& scene) {
+#ifdef __GLIBC__
+  malloc_trim(0);  // what the solver had lies in many pieces
+#endif
   const StopScope whatever_ended_the_run{StopScope::Terms{}};
   scene.scenario.bodies = parse_scenario(scene.scenario.text, scene.scenario.file).bodies;
   std::vector<BodyState>& initial = scene.contact->hard.initial;

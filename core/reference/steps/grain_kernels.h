@@ -24,6 +24,8 @@ struct GrainBatch {
   std::vector<double> fx, fy, fz, tx, ty, tz, load, fastest;
   std::vector<double> inverse_mass, inverse_inertia, weight, share, turn, mu_s, mu_k;
 
+  static constexpr std::size_t kAtOnce = 256;  ///< grains without others, in the nearest cache
+
   /// Makes room for so many; what there is stays.
   void hold(std::size_t count, std::size_t pair_count, const GrainFeatures& has);
   /// Takes grain `i` of `from` as grain `k`.

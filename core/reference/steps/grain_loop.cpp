@@ -12,8 +12,8 @@ void GrainLoop::find_forces(StepWorld& world) {
     states.reserve(world.bodies.size());
     for (const StepBody& body : world.bodies)
       states.push_back({body.position, body.velocity, body.angular_velocity});
+    std::vector<StepBody>().swap(world.bodies);  // before there is memory for grains
     solver_.emplace(*scene_, states, world.step, threads_);
-    std::vector<StepBody>().swap(world.bodies);
   }
   world.touching = solver_->touching();
 }

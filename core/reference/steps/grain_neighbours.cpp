@@ -125,6 +125,7 @@ void GrainNeighbours::find(const GrainArrays& grains, const GrainPlane& plane, d
     std::copy_n(found.first.begin(), found.count, first_.begin() + found.before);
     std::copy_n(found.second.begin(), found.count, second_.begin() + found.before);
   });
+  found_.clear();
 }
 
 std::uint32_t GrainNeighbours::place_of(std::uint32_t i, std::uint32_t j) const {

@@ -16,7 +16,7 @@ namespace slipcheck {
 class GrainOrder {
  public:
   using Quantity =
-      std::variant<std::vector<double>*, std::vector<std::int64_t>*, std::vector<std::uint32_t>*>;
+      std::variant<std::vector<double>*, std::vector<std::int32_t>*, std::vector<std::uint32_t>*>;
 
   /// order: the old index by the new one. Those that are no reals should be the last, so that few
   /// threads need memory for them.
@@ -32,11 +32,12 @@ class GrainOrder {
       };
       for (std::size_t k = first; k < last; ++k) std::visit(move, all[k]);
     });
+    moved_.clear();
   }
 
  private:
   using Moved =
-      std::tuple<std::vector<double>, std::vector<std::int64_t>, std::vector<std::uint32_t>>;
+      std::tuple<std::vector<double>, std::vector<std::int32_t>, std::vector<std::uint32_t>>;
   std::vector<Moved> moved_;  ///< one quantity's, of each thread
 };
 

@@ -10,6 +10,7 @@ namespace {
 std::vector<GrainKind> kinds_of(const Scene& scene, std::vector<std::uint32_t>& kind) {
   std::vector<GrainKind> kinds;
   std::vector<const Sphere*> spheres;
+  kind.reserve(scene.bodies.size());
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Sphere& sphere = scene.bodies[i];
     std::size_t k = 0;

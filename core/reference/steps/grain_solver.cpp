@@ -1,7 +1,6 @@
 #include "reference/steps/grain_solver.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <span>
@@ -12,9 +11,11 @@
 #include "base/thread_team.h"
 #include "physics/numbers.h"
 #include "reference/steps/grain_blocks.h"
+#include "reference/steps/grain_contacts.h"
 #include "reference/steps/grain_drive.h"
 #include "reference/steps/grain_islands.h"
 #include "reference/steps/grain_kernels.h"
+#include "reference/steps/grain_look.h"
 #include "reference/steps/grain_meetings.h"
 #include "reference/steps/grain_neighbours.h"
 #include "reference/steps/grain_order.h"
@@ -24,10 +25,10 @@
 namespace slipcheck {
 namespace {
 
-double folded(double x, double length, std::int64_t& image) {
+double folded(double x, double length, std::int32_t& cell) {
   if (!(length > 0) || (x >= 0 && x < length)) return x;
   const double turns = std::floor(x / length);
-  image += static_cast<std::int64_t>(turns);
+  cell += static_cast<std::int32_t>(turns);
   return x - turns * length;
 }
 
@@ -41,18 +42,20 @@ class GrainSolver::Impl {
         step_(step),
         kernels_(grain_kernels(scene, initial, grains_.kind)),
         drive_(scene.hard, initial, step),
+        contacts_(kernels_, scene.hard.substrate.size()),
         team_(threads) {
     assert(step > 0 && initial.size() == scene.hard.bodies.size());
     const std::size_t n = initial.size();
     std::vector<std::uint32_t> kind = std::move(grains_.kind);
     grains_.resize(n);
     grains_.kind = std::move(kind);
-    image_x_.assign(n, 0);
-    image_y_.assign(n, 0);
+    places_.cell_x.assign(n, 0);
+    places_.cell_y.assign(n, 0);
     double fastest2 = 0;
+    places_.body.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
       const BodyState& state = initial[i];
-      body_.push_back(static_cast<std::uint32_t>(i));
+      places_.body.push_back(static_cast<std::uint32_t>(i));
       grains_.x[i] = state.position.x();
       grains_.y[i] = state.position.y();
       grains_.vx[i] = state.velocity.x();
@@ -91,21 +94,24 @@ class GrainSolver::Impl {
   }
 
   void exchange(StateArchive& archive) {
-    archive(grains_, image_x_, image_y_, body_, n_, collisions_, blocks_, neighbours_, touching_,
-            parted_);
-    remember_contacts();
+    archive(grains_, places_.cell_x, places_.cell_y, places_.body, n_, collisions_, blocks_,
+            neighbours_, contacts_);
+    contacts_.remember(neighbours_);
   }
 
   double now() const { return static_cast<double>(n_) * step_; }
   std::size_t steps() const { return n_; }
   std::size_t collisions() const { return collisions_; }
-  std::size_t touching() const { return touching_.size(); }
+  std::size_t touching() const { return contacts_.size(); }
   const GrainFeatures& features() const { return kernels_.features(); }
 
   bool all_stick(bool rests) const {
     const Vector2 plane = drive_.velocity_of(n_);
     for (std::size_t i = 0; i < grains_.size(); ++i) {
-      const auto [wx, wy, wz] = spin(grains_, i);
+      const std::uint32_t body = places_.body[i];
+      const double wx = grains_.wx[features().on_plane ? i : body];
+      const double wy = grains_.wy[features().on_plane ? i : body];
+      const double wz = grains_.wz[features().rubs ? i : body];
       const bool sticks = features().on_plane
                               ? grains_.sticks[i] > 0
                               : grains_.vx[i] == radius() * wy && grains_.vy[i] == -radius() * wx;
@@ -118,43 +124,14 @@ class GrainSolver::Impl {
 
   void show(Frame& frame) {
     if (!blocks_.cover(1)) find_neighbours(1);
-    // All grains in one batch get the half kick from their velocities' time to that of positions.
-    GrainBatch batch = batch_of_all();
-    std::vector<std::uint32_t> near;
-    kernels_.find_near(grains_, neighbours_.first(), neighbours_.second(), blocks_.margin(1), near);
-    batch.pairs.resize(near.size());
-    for (std::size_t p = 0; p < near.size(); ++p) take_pair(near[p], batch.pairs[p]);
-    const GrainGroup all = {0, grains_.size(), 0, batch.pairs.size()};
     if (features().driven) drive_.find_half(n_, driving_);
-    kernels_.run(batch, all, {step_, n_ > 0 ? 0.5 * step_ : 0, 1, false, n_ > 0, &driving_});
-    frame.bodies.resize(grains_.size());
-    frame.touches.clear();
-    const GrainArrays& g = batch.grains;
-    for (std::size_t i = 0; i < grains_.size(); ++i) {
-      const double x = grains_.x[i] + static_cast<double>(image_x_[i]) * kernels_.plane().length_x;
-      const double y = grains_.y[i] + static_cast<double>(image_y_[i]) * kernels_.plane().length_y;
-      const auto [wx, wy, wz] = spin(g, i);
-      frame.bodies[body_[i]] = {{x, y, radius()}, {g.vx[i], g.vy[i], 0}, {wx, wy, wz}};
-      const double impulse = features().on_plane ? 2 * batch.load[i]
-                             : n_ > 0            ? kernels_.kinds()[grains_.kind[i]].weight * step_
-                                                 : 0;
-      if (impulse > 0) frame.touches.push_back({static_cast<int>(body_[i]), kSubstrate, impulse});
-    }
-    for (const GrainPair& pair : batch.pairs) {
-      const double impulse = std::abs(pair.normal_force) * step_;
-      if (!pair.touching || !(impulse > 0)) continue;
-      const auto [i, j] = std::minmax(body_[pair.a], body_[pair.b]);
-      frame.touches.push_back({static_cast<int>(i), static_cast<int>(j), impulse});
-    }
+    batch_ = {};  // of many grains as large as what is shown of them
+    const GrainSteps half{step_, n_ > 0 ? 0.5 * step_ : 0, 1, false, n_ > 0, &driving_};
+    GrainLook(kernels_, grains_, places_, neighbours_, contacts_, half)
+        .show(blocks_.margin(1), islands_, team_, frame);
   }
 
  private:
-  /// A pair of the list in contact at the end of a block, by grain.
-  struct Contact {
-    std::uint32_t listed = 0;
-    GrainPair pair;
-  };
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   /// What a group's steps came to.
   struct Ended {
     std::size_t begun = 0, touching = 0;
@@ -164,14 +141,6 @@ class GrainSolver::Impl {
   };
 
   double radius() const { return kernels_.plane().radius; }
-
-  /// Ω of grain `i`, of which `now` has what changes [rad/s].
-  std::array<double, 3> spin(const GrainArrays& now, std::size_t i) const {
-    const std::uint32_t body = body_[i];  // what does not change stays in the scene's order
-    return {features().on_plane ? now.wx[i] : grains_.wx[body],
-            features().on_plane ? now.wy[i] : grains_.wy[body],
-            features().rubs ? now.wz[i] : grains_.wz[body]};
-  }
 
   /// Where the speeds of grains count from [m/s].
   Vector2 drift_of(std::size_t n) const {
@@ -194,7 +163,7 @@ class GrainSolver::Impl {
   /// 0 where the list of neighbours no longer covers one step.
   std::size_t next_block(std::size_t steps) const {
     if (n_ == 0) return 1;  // its kick is half as long
-    return blocks_.next(steps, grains_.size(), neighbours_.first().size(), touching_.size());
+    return blocks_.next(steps, grains_.size(), neighbours_.first().size(), contacts_.size());
   }
 
   void find_neighbours(std::size_t length) {
@@ -202,21 +171,13 @@ class GrainSolver::Impl {
     GrainArrays& g = grains_;
     team_.run_shares(g.size(), [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
-        g.x[i] = folded(g.x[i], kernels_.plane().length_x, image_x_[i]);
-        g.y[i] = folded(g.y[i], kernels_.plane().length_y, image_y_[i]);
+        g.x[i] = folded(g.x[i], kernels_.plane().length_x, places_.cell_x[i]);
+        g.y[i] = folded(g.y[i], kernels_.plane().length_y, places_.cell_y[i]);
       }
     });
     reorder(neighbours_.sort(g, kernels_.plane(), 2 * radius() + blocks_.skin(), team_));
     neighbours_.find(g, kernels_.plane(), blocks_.skin(), team_);
-    for (Contact& contact : touching_)
-      contact.listed = neighbours_.place_of(contact.pair.a, contact.pair.b);
-    remember_contacts();
-  }
-
-  /// Where the contact of a listed pair is found.
-  void remember_contacts() {
-    contact_of_.assign(neighbours_.first().size(), kNone);
-    for (std::uint32_t c = 0; c < touching_.size(); ++c) contact_of_[touching_[c].listed] = c;
+    contacts_.find(neighbours_);
   }
 
   /// ρ [1/m²] of a periodic plane, else that of grains side by side.
@@ -227,48 +188,13 @@ class GrainSolver::Impl {
   }
 
   void reorder(const std::vector<std::uint32_t>& order) {
-    for (std::uint32_t& i : parted_) i = neighbours_.sorted(i);
     std::vector<GrainOrder::Quantity> all;
     grains_.for_each_changing(features(),
                               [&](std::vector<double>& values) { all.push_back(&values); });
-    all.insert(all.end(), {&image_x_, &image_y_, &body_});
+    all.insert(all.end(), {&places_.cell_x, &places_.cell_y, &places_.body});
     if (kernels_.kinds().size() > 1) all.push_back(&grains_.kind);
     order_.apply(order, all, team_);
-    for (Contact& contact : touching_) {
-      GrainPair& pair = contact.pair;
-      pair.a = neighbours_.sorted(pair.a);
-      pair.b = neighbours_.sorted(pair.b);
-      if (pair.a < pair.b) continue;
-      std::swap(pair.a, pair.b);
-      const GrainPair::Force& f = pair.force;
-      pair.force = {-f.x, -f.y, -f.z, -f.across_x, -f.across_y};
-    }
-  }
-
-  /// All grains, each in its own place.
-  GrainBatch batch_of_all() const {
-    GrainBatch batch;
-    batch.hold(grains_.size(), 0, features());
-    for (std::size_t i = 0; i < grains_.size(); ++i)
-      batch.take(i, grains_, i, kernels_.kinds(), features());
-    return batch;
-  }
-
-  /// A pair of the list, by grain, with what it remembers if in contact.
-  void take_pair(std::uint32_t listed, GrainPair& pair) const {
-    const GrainPlane& plane = kernels_.plane();
-    const std::uint32_t contact = contact_of_[listed];
-    pair.touching = false;
-    if (contact != kNone) pair = touching_[contact].pair;
-    pair.parted_in = 0;
-    const std::uint32_t i = neighbours_.first()[listed], j = neighbours_.second()[listed];
-    pair.a = i;
-    pair.b = j;
-    pair.shift_x = shift_to_nearest_image(grains_.x[i] - grains_.x[j], plane.length_x);
-    pair.shift_y = shift_to_nearest_image(grains_.y[i] - grains_.y[j], plane.length_y);
-    pair.law = static_cast<std::uint32_t>(kernels_.kinds()[grains_.kind[i]].material *
-                                              scene_->hard.substrate.size() +
-                                          kernels_.kinds()[grains_.kind[j]].material);
+    contacts_.reorder(neighbours_);
   }
 
   /// So many steps, or none where a grain got faster than foreseen.
@@ -276,10 +202,7 @@ class GrainSolver::Impl {
     const GrainPairs listed = {neighbours_.first(), neighbours_.second()};
     const GrainMeetings meetings(kernels_, grains_, listed, blocks_.margin(length),
                                  step_ * static_cast<double>(length), braking(), step_);
-    // A grain that touches another one is hit whatever their ways; and what has just acted on one
-    // that parted counts in the next step.
-    hit_ = parted_;
-    for (const Contact& contact : touching_) hit_.push_back(contact.pair.a);
+    contacts_.find_hit(hit_);
     islands_.find(
         grains_.size(), listed, hit_,
         [&](std::size_t first, std::size_t last, GrainNear& found) {
@@ -323,7 +246,7 @@ class GrainSolver::Impl {
       batch_.take(group.first_grain + k, grains_, islands.grains[k], kernels_.kinds(), features());
     for (std::size_t p = 0; p < islands.pairs.size(); ++p) {
       GrainPair& pair = batch_.pairs[group.first_pair + p];
-      take_pair(islands.pairs[p], pair);
+      contacts_.take(islands.pairs[p], neighbours_, grains_, pair);
       pair.a = islands_.place(pair.a) + islands.shift;
       pair.b = islands_.place(pair.b) + islands.shift;
     }
@@ -339,8 +262,7 @@ class GrainSolver::Impl {
   /// Grains that met none glide; the others, and contacts, are taken back from the batch. Returns
   /// the square of the largest speed of those that glided.
   double end_block(std::size_t length, std::size_t touching) {
-    for (const Contact& contact : touching_) contact_of_[contact.listed] = kNone;
-    touching_.resize(touching);
+    contacts_.renew(touching);
     // The first kick is half as long, and without friction there is none.
     const bool begins = n_ == 0 && features().on_plane;
     std::vector<double> still2(team_.size(), begins ? begin_gliding() : 0);
@@ -358,35 +280,32 @@ class GrainSolver::Impl {
       const auto [group, end] = team_.share_of(ended_.size(), own);
       for (std::size_t k = group; k < end; ++k) keep_contacts(k, length);
     });
-    parted_.clear();
-    for (const Ended& each : ended_)
-      parted_.insert(parted_.end(), each.parted.begin(), each.parted.end());
+    for (const Ended& each : ended_) contacts_.add_parted(each.parted);
     return *std::max_element(still2.begin(), still2.end());
   }
 
   void keep_contacts(std::size_t k, std::size_t length) {
     const GrainIslandGroup& group = islands_.groups()[k];
-    ended_[k].parted.clear();
-    auto c = static_cast<std::uint32_t>(ended_[k].touching_before);
-    for (std::size_t p = 0; p < group.pairs.size(); ++p) {
-      const GrainPair& pair = batch_.pairs[group.batch.first_pair + p];
-      const std::uint32_t listed = group.pairs[p];
-      if (pair.parted_in == length) ended_[k].parted.push_back(neighbours_.first()[listed]);
-      if (!pair.touching) continue;
-      Contact& contact = touching_[c];
-      contact = {listed, pair};
-      contact.pair.a = neighbours_.first()[listed];
-      contact.pair.b = neighbours_.second()[listed];
-      contact_of_[listed] = c++;
-    }
+    const std::span pairs(batch_.pairs.data() + group.batch.first_pair, group.pairs.size());
+    contacts_.keep(group, pairs, length, ended_[k].touching_before, neighbours_, ended_[k].parted);
   }
 
   /// The first step with its half kick.
   double begin_gliding() {
-    GrainBatch batch = batch_of_all();
-    kernels_.run(batch, {0, grains_.size(), 0, 0}, steps_of(1));
-    for (std::size_t i = 0; i < grains_.size(); ++i) grains_.take(i, batch.grains, i, features());
-    return *std::max_element(batch.fastest.begin(), batch.fastest.end());
+    GrainBatch batch;
+    batch.hold(GrainBatch::kAtOnce, 0, features());
+    double fastest2 = 0;
+    for (std::size_t first = 0; first < grains_.size(); first += GrainBatch::kAtOnce) {
+      const std::size_t count = std::min(GrainBatch::kAtOnce, grains_.size() - first);
+      for (std::size_t k = 0; k < count; ++k)
+        batch.take(k, grains_, first + k, kernels_.kinds(), features());
+      kernels_.run(batch, {0, count, 0, 0}, steps_of(1));
+      for (std::size_t k = 0; k < count; ++k) {
+        grains_.take(first + k, batch.grains, k, features());
+        fastest2 = std::max(fastest2, batch.fastest[k]);
+      }
+    }
+    return fastest2;
   }
 
   const ContactScene* scene_;
@@ -394,9 +313,9 @@ class GrainSolver::Impl {
   GrainArrays grains_;
   GrainKernels kernels_;
   GrainDrive drive_;
-  GrainDriving driving_;                         ///< of the block
-  std::vector<std::int64_t> image_x_, image_y_;  ///< cells between a grain's path and its place
-  std::vector<std::uint32_t> body_;              ///< of the scene
+  GrainDriving driving_;  ///< of the block
+  GrainContacts contacts_;
+  GrainPlaces places_;
   GrainOrder order_;
   std::size_t n_ = 0, collisions_ = 0;
   GrainBlocks blocks_;
@@ -406,9 +325,6 @@ class GrainSolver::Impl {
   std::vector<Ended> ended_;
   ThreadTeam team_;
   GrainBatch batch_;
-  std::vector<Contact> touching_;
-  std::vector<std::uint32_t> parted_;      ///< a grain of each two that did in the last step
-  std::vector<std::uint32_t> contact_of_;  ///< of a listed pair, in touching_ or kNone
 };
 
 GrainSolver::GrainSolver(const ContactScene& scene, std::span<const BodyState> initial, double step,

@@ -1,0 +1,285 @@
+// Grains that meet none; included once for each instruction set.
+#if defined(SLIPCHECK_GRAIN_GLIDES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SLIPCHECK_GRAIN_GLIDES_INL_H
+#undef SLIPCHECK_GRAIN_GLIDES_INL_H
+#else
+#define SLIPCHECK_GRAIN_GLIDES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "reference/steps/grain_kernels.h"
+
+/// Before a loop each turn of which reads and writes what no other does: compilers do not see it of
+/// more than some arrays. Under sanitizers none is vectorised.
+#undef SLIPCHECK_EACH_ALONE
+#if defined(SLIPCHECK_SANITIZE)
+#define SLIPCHECK_EACH_ALONE
+#elif defined(__clang__)
+#define SLIPCHECK_EACH_ALONE _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define SLIPCHECK_EACH_ALONE _Pragma("GCC ivdep")
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace slipcheck {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// What a plane that is not driven does in every step.
+inline constexpr GrainPush kNoPush;
+
+/// Without friction: straight on.
+HWY_ATTR inline void GlideFreely(GrainArrays& grains, std::size_t first, std::size_t last,
+                                 double time) {
+  double* HWY_RESTRICT x = grains.x.data();
+  double* HWY_RESTRICT y = grains.y.data();
+  const double* HWY_RESTRICT vx = grains.vx.data();
+  const double* HWY_RESTRICT vy = grains.vy.data();
+  for (std::size_t i = first; i < last; ++i) {
+    x[i] += time * vx[i];
+    y[i] += time * vy[i];
+  }
+}
+
+/// Steps against a constant friction μ_k g, m of them until one stops the slip, then straight on:
+/// the sums over the steps that StepBody's kick and drift make one by one.
+HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, std::size_t first, std::size_t last,
+                                       const std::vector<GrainKind>& kinds, double R, double h,
+                                       double count) {
+  double* HWY_RESTRICT x = grains.x.data();
+  double* HWY_RESTRICT y = grains.y.data();
+  double* HWY_RESTRICT vx = grains.vx.data();
+  double* HWY_RESTRICT vy = grains.vy.data();
+  double* HWY_RESTRICT wx = grains.wx.data();
+  double* HWY_RESTRICT wy = grains.wy.data();
+  double* HWY_RESTRICT dvx = grains.dvx.data();
+  double* HWY_RESTRICT dvy = grains.dvy.data();
+  double* HWY_RESTRICT dwx = grains.dwx.data();
+  double* HWY_RESTRICT dwy = grains.dwy.data();
+  double* HWY_RESTRICT sticks = grains.sticks.data();
+  const std::uint32_t* HWY_RESTRICT kind = grains.kind.data();
+  const GrainKind* HWY_RESTRICT table = kinds.data();
+  SLIPCHECK_EACH_ALONE
+  for (std::size_t i = first; i < last; ++i) {
+    const GrainKind& k = table[kind[i]];
+    const double lost = k.kinetic_friction * k.weight * k.inverse_mass * h;  // of |v| in a step
+    const double ux = vx[i] - R * wy[i], uy = vy[i] + R * wx[i];
+    const double slip = std::sqrt(ux * ux + uy * uy);
+    const double until = slip * k.share / lost - 1;
+    // A comparison that is false for 0/0, where there is neither slip nor friction.
+    const double whole = std::ceil(until > 0 ? until : 0);
+    const double m = whole < count ? whole : count;
+    const double per_slip = slip > 0 ? lost / slip : 0;
+    const double ax = per_slip * ux, ay = per_slip * uy;  // taken from v in a step of sliding
+    const double drift = 0.5 * m * (m + 1);
+    const double sx = vx[i] - m * ax, sy = vy[i] - m * ay;  // velocity after sliding
+    const double rx = wx[i] - m * k.turn * ay, ry = wy[i] + m * k.turn * ax;
+    const bool stops = m < count;
+    const double gx = stops ? k.share * (sx - R * ry) : 0, gy = stops ? k.share * (sy + R * rx) : 0;
+    const double ex = sx - gx, ey = sy - gy;  // velocity in the end
+    const double fx = stops ? -ey / R : rx, fy = stops ? ex / R : ry;
+    const double rest = count - m;
+    x[i] += h * (m * vx[i] - drift * ax + rest * ex);
+    y[i] += h * (m * vy[i] - drift * ay + rest * ey);
+    dvx[i] = stops ? (rest > 1 ? 0 : -gx) : -ax;
+    dvy[i] = stops ? (rest > 1 ? 0 : -gy) : -ay;
+    dwx[i] = stops ? (rest > 1 ? 0 : fx - rx) : -k.turn * ay;
+    dwy[i] = stops ? (rest > 1 ? 0 : fy - ry) : k.turn * ax;
+    vx[i] = ex;
+    vy[i] = ey;
+    wx[i] = fx;
+    wy[i] = fy;
+    sticks[i] = stops ? 1 : 0;
+  }
+}
+
+/// How many slide at once, in the nearest cache.
+inline constexpr std::size_t kSliding = 128;
+
+/// Those that roll and go on rolling on a plane that carries them along.
+HWY_ATTR inline void GlideRolling(GrainArrays& grains, std::size_t first, std::size_t last,
+                                  double R, double time, const GrainDriving& driving) {
+  double* HWY_RESTRICT x = grains.x.data();
+  double* HWY_RESTRICT y = grains.y.data();
+  double* HWY_RESTRICT vx = grains.vx.data();
+  double* HWY_RESTRICT vy = grains.vy.data();
+  double* HWY_RESTRICT wx = grains.wx.data();
+  double* HWY_RESTRICT wy = grains.wy.data();
+  double* HWY_RESTRICT dvx = grains.dvx.data();
+  double* HWY_RESTRICT dvy = grains.dvy.data();
+  double* HWY_RESTRICT dwx = grains.dwx.data();
+  double* HWY_RESTRICT dwy = grains.dwy.data();
+  const double* HWY_RESTRICT sticks = grains.sticks.data();
+  const std::uint32_t* HWY_RESTRICT kind = grains.kind.data();
+  const GrainRoll* HWY_RESTRICT table = driving.rolls.data();
+  const GrainPush push = driving.steps.back();
+  const double plane_dx = push.plane_x - push.before_x, plane_dy = push.plane_y - push.before_y;
+  const double per_R = 1 / R;
+  SLIPCHECK_EACH_ALONE
+  for (std::size_t i = first; i < last; ++i) {
+    const GrainRoll& roll = table[kind[i]];
+    const bool rolls = roll.holds * sticks[i] > 0;
+    const double ex = vx[i] + roll.dvx, ey = vy[i] + roll.dvy;
+    const double to_x = x[i] + (time * vx[i] + roll.x), to_y = y[i] + (time * vy[i] + roll.y);
+    const double turned_x = -(ey - push.plane_y) * per_R, turned_y = (ex - push.plane_x) * per_R;
+    x[i] = rolls ? to_x : x[i];
+    y[i] = rolls ? to_y : y[i];
+    vx[i] = rolls ? ex : vx[i];
+    vy[i] = rolls ? ey : vy[i];
+    wx[i] = rolls ? turned_x : wx[i];
+    wy[i] = rolls ? turned_y : wy[i];
+    dvx[i] = rolls ? roll.last_dvx : dvx[i];
+    dvy[i] = rolls ? roll.last_dvy : dvy[i];
+    dwx[i] = rolls ? -(roll.last_dvy - plane_dy) * per_R : dwx[i];
+    dwy[i] = rolls ? (roll.last_dvx - plane_dx) * per_R : dwy[i];
+  }
+}
+
+/// Those that slide, or come to roll, on a plane that carries them along: no sum over the steps is
+/// known, so each is done, of the slip u alone. What friction takes from v is summed.
+HWY_ATTR inline void GlideSliding(GrainArrays& g, std::span<const std::size_t> grains,
+                                  const std::vector<GrainKind>& kinds, double R,
+                                  const GrainSteps& steps) {
+  struct alignas(64) Row {
+    double of[kSliding];
+  };
+  Row ux, uy, dx, dy, sx, sy, tx, ty, held_by, slides_by, share, grow, sticks;
+  const std::size_t n = grains.size(), padded = (n + 7) / 8 * 8;  // vectors, and nothing beside
+  for (Row* row :
+       {&ux, &uy, &dx, &dy, &sx, &sy, &tx, &ty, &held_by, &slides_by, &share, &grow, &sticks})
+    std::fill(row->of + n, row->of + padded, 0.0);
+  const double h = steps.step;
+  const GrainPush& first = steps.driving->steps.front();
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = grains[k];
+    ux.of[k] = g.vx[i] - R * g.wy[i] - first.before_x;
+    uy.of[k] = g.vy[i] + R * g.wx[i] - first.before_y;
+    dx.of[k] = g.dvx[i] - R * g.dwy[i];  // of the slip, were the plane still
+    dy.of[k] = g.dvy[i] + R * g.dwx[i];
+    sx.of[k] = sy.of[k] = tx.of[k] = ty.of[k] = 0;
+    sticks.of[k] = g.sticks[i];
+    const GrainKind& kind = kinds[g.kind[i]];
+    const double load = kind.weight * kind.inverse_mass * h;
+    slides_by.of[k] = kind.kinetic_friction * load;
+    held_by.of[k] = kind.static_friction * load;
+    share.of[k] = kind.share;
+    grow.of[k] = 1 / kind.share;
+  }
+  for (const GrainPush& push : steps.driving->steps) {
+    const double ax = h * push.slope_x, ay = h * push.slope_y;
+    const double plane_dx = push.plane_x - push.before_x, plane_dy = push.plane_y - push.before_y;
+    SLIPCHECK_EACH_ALONE
+    for (std::size_t k = 0; k < padded; ++k) {
+      const double x = ux.of[k] + (ax - plane_dx), y = uy.of[k] + (ay - plane_dy);
+      const double px = ux.of[k] + 0.5 * (dx.of[k] - plane_dx);
+      const double py = uy.of[k] + 0.5 * (dy.of[k] - plane_dy);
+      const double share2 = share.of[k] * share.of[k], slip2 = x * x + y * y;
+      const double cap = sticks.of[k] > 0 ? held_by.of[k] : slides_by.of[k];
+      const bool held = slip2 * share2 <= cap * cap;
+      const double friction = slides_by.of[k], expected2 = px * px + py * py;
+      const bool follows = (px * x + py * y > 0) & (expected2 * share2 > friction * friction);
+      const double along_x = follows ? px : x, along_y = follows ? py : y;
+      const double size2 = follows ? expected2 : slip2;
+      const double sliding = friction * (1 / std::sqrt(size2 > 0 ? size2 : 1));
+      const double lost_x = held ? share.of[k] * x : sliding * along_x;  // of v
+      const double lost_y = held ? share.of[k] * y : sliding * along_y;
+      const double slip_x = grow.of[k] * lost_x, slip_y = grow.of[k] * lost_y;
+      ux.of[k] = held ? 0 : x - slip_x;
+      uy.of[k] = held ? 0 : y - slip_y;
+      dx.of[k] = ax - slip_x;
+      dy.of[k] = ay - slip_y;
+      const double all_x = sx.of[k] + lost_x, all_y = sy.of[k] + lost_y;
+      sx.of[k] = all_x;
+      sy.of[k] = all_y;
+      tx.of[k] += all_x;
+      ty.of[k] += all_y;
+      sticks.of[k] = held ? 1 : 0;
+    }
+  }
+  const GrainPush& last = steps.driving->steps.back();
+  const double ax = h * last.slope_x, ay = h * last.slope_y;
+  const auto count = static_cast<double>(steps.count);
+  const double drift = 0.5 * count * (count + 1);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = grains[k];
+    const bool rolls = sticks.of[k] > 0;
+    const double turn = kinds[g.kind[i]].turn;
+    g.x[i] += h * (count * g.vx[i] + drift * ax - tx.of[k]);
+    g.y[i] += h * (count * g.vy[i] + drift * ay - ty.of[k]);
+    g.vx[i] += count * ax - sx.of[k];
+    g.vy[i] += count * ay - sy.of[k];
+    g.wx[i] = rolls ? -(g.vy[i] - last.plane_y) / R : g.wx[i] - turn * sy.of[k];
+    g.wy[i] = rolls ? (g.vx[i] - last.plane_x) / R : g.wy[i] + turn * sx.of[k];
+    const double lost_x = share.of[k] * (ax - dx.of[k]), lost_y = share.of[k] * (ay - dy.of[k]);
+    g.dvx[i] = ax - lost_x;
+    g.dvy[i] = ay - lost_y;
+    g.dwx[i] = -turn * lost_y;
+    g.dwy[i] = turn * lost_x;
+    g.sticks[i] = sticks.of[k];
+  }
+}
+
+/// On a plane that carries them along.
+HWY_ATTR void GlideDriven(GrainArrays& grains, std::size_t first, std::size_t last,
+                          const std::vector<GrainKind>& kinds, double R, const GrainSteps& steps) {
+  const GrainDriving& driving = *steps.driving;
+  const double time = steps.step * static_cast<double>(steps.count);
+  std::array<std::size_t, kSliding> sliding;
+  for (std::size_t begin = first; begin < last; begin += kSliding) {
+    const std::size_t end = std::min(last, begin + kSliding);
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      sliding[count] = i;
+      count += grains.sticks[i] * driving.rolls[grains.kind[i]].holds > 0 ? 0 : 1;
+    }
+    if (count < end - begin) GlideRolling(grains, begin, end, R, time, driving);
+    GlideSliding(grains, {sliding.data(), count}, kinds, R, steps);
+  }
+}
+
+HWY_ATTR double LargestSquare(const std::vector<double>& x, const std::vector<double>& y,
+                              std::size_t first, std::size_t last, double from_x, double from_y) {
+  const hn::ScalableTag<double> d;
+  const auto bx = hn::Set(d, from_x), by = hn::Set(d, from_y);
+  const std::size_t lanes = hn::Lanes(d);
+  auto largest = hn::Zero(d);
+  std::size_t i = first;
+  for (; i + lanes <= last; i += lanes) {
+    const auto a = hn::Sub(hn::LoadU(d, x.data() + i), bx);
+    const auto b = hn::Sub(hn::LoadU(d, y.data() + i), by);
+    largest = hn::Max(largest, hn::Add(hn::Mul(a, a), hn::Mul(b, b)));
+  }
+  double found = hn::GetLane(hn::MaxOfLanes(d, largest));
+  for (; i < last; ++i) {
+    const double a = x[i] - from_x, b = y[i] - from_y;
+    found = std::max(found, a * a + b * b);
+  }
+  return found;
+}
+
+HWY_ATTR double Glide(const GrainFeatures& features, GrainArrays& grains, std::size_t first,
+                      std::size_t last, const std::vector<GrainKind>& kinds, double radius,
+                      const GrainSteps& steps) {
+  const auto count = static_cast<double>(steps.count);
+  if (features.driven)
+    GlideDriven(grains, first, last, kinds, radius, steps);
+  else if (features.on_plane)
+    GlideWithFriction(grains, first, last, kinds, radius, steps.step, count);
+  else
+    GlideFreely(grains, first, last, steps.step * count);
+  const GrainPush& push = features.driven ? steps.driving->steps.back() : kNoPush;
+  return LargestSquare(grains.vx, grains.vy, first, last, push.drift_x, push.drift_y);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace slipcheck
+HWY_AFTER_NAMESPACE();
+
+#endif
