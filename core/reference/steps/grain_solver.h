@@ -11,8 +11,9 @@
 
 namespace slipcheck {
 
-/// Many soft spheres of one radius in a plane, by StepSolver's steps: K's monolayer on a level,
-/// still substrate which they do not leave, or a gas on a plane without friction. Periodic or not.
+/// Many soft spheres of one radius in a plane, by StepSolver's steps: K's monolayer on a substrate,
+/// maybe tilted or moving, which they do not leave, or a gas on a plane without friction. Periodic
+/// or not.
 ///
 /// Time goes in blocks of steps. Grains that can meet none within a block do it in one go; those
 /// that can are sorted into islands, which do all its steps one after the other in the nearest
