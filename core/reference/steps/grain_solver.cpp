@@ -38,8 +38,7 @@ class GrainSolver::Impl {
  public:
   Impl(const ContactScene& scene, std::span<const BodyState> initial, double step,
        std::size_t threads)
-      : scene_(&scene),
-        step_(step),
+      : step_(step),
         kernels_(grain_kernels(scene, initial, grains_.kind)),
         drive_(scene.hard, initial, step),
         contacts_(kernels_, scene.hard.substrate.size()),
@@ -308,7 +307,6 @@ class GrainSolver::Impl {
     return fastest2;
   }
 
-  const ContactScene* scene_;
   double step_;
   GrainArrays grains_;
   GrainKernels kernels_;
