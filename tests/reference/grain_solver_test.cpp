@@ -36,9 +36,22 @@ struct Laws {
   /// Of the plane.
   Vector2 downhill = Vector2::Zero();  // [m/s²]
   SubstrateMotion motion = {};
+  bool unlike = false;  // radii
 };
 
 std::string name_of(const testing::TestParamInfo<Laws>& info) { return info.param.name; }
+
+/// Every second and third body is smaller, and stands on the plane.
+void make_unlike(Scene& scene) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const double share = i % 3 == 0 ? 1 : i % 3 == 1 ? 0.8 : 0.4;
+    scene.bodies[i].radius *= share;
+    scene.bodies[i].mass *= share * share * share;
+    scene.initial[i].position.z() = scene.bodies[i].radius;
+  }
+}
+
+void PrintTo(const Laws& laws, std::ostream* out) { *out << laws.name; }
 
 /// Steel balls that fly into each other from a jittered lattice, fast and with spins.
 ContactScene cluster(const Laws& laws, std::size_t side) {
@@ -58,6 +71,13 @@ ContactScene cluster(const Laws& laws, std::size_t side) {
     state.velocity = {-x + 0.3 * symmetric(), -y + 0.3 * symmetric(), 0};
     if (laws.rubs) state.angular_velocity.z() = 300 * symmetric();
     if (laws.on_plane) state.angular_velocity.head<2>() = Vector2(symmetric(), symmetric()) * 100;
+  }
+  if (laws.unlike) {
+    make_unlike(hard);
+    for (BodyState& state : hard.initial) {  // as many collisions of smaller ones
+      state.position.head<2>() *= 0.85;
+      state.velocity *= 3;
+    }
   }
   SoftContact contact{laws.normal, laws.end, NoTangentialForce{}};
   const double reduced = 0.5 * hard.bodies[0].mass;
@@ -141,6 +161,17 @@ const auto kJerked = SubstrateMotion::table(
 INSTANTIATE_TEST_SUITE_P(
     All, GrainLaws,
     testing::Values(
+        Laws{"unlike", kLinear, ContactEnd::zero_overlap, true, true, {0, 0}, {}, true},
+        Laws{"unlike_smooth", kLinear, ContactEnd::zero_overlap, false, true, {0, 0}, {}, true},
+        Laws{"unlike_gas", kClamped, ContactEnd::zero_force, true, false, {0, 0}, {}, true},
+        Laws{"unlike_shaken",
+             HertzForce{kModulus},
+             ContactEnd::zero_overlap,
+             true,
+             true,
+             {0.3, 1},
+             kShaken,
+             true},
         Laws{"smooth", kLinear, ContactEnd::zero_overlap, false, false},
         Laws{"smooth_clamped", kClamped, ContactEnd::zero_force, false, false},
         Laws{"smooth_on_plane", kLinear, ContactEnd::zero_overlap, false, true},
@@ -208,6 +239,7 @@ struct Driven {
   std::string name;
   Vector2 downhill;  // [m/s²]
   SubstrateMotion motion;
+  bool unlike = false;  // radii
 };
 
 void PrintTo(const Driven& driven, std::ostream* out) { *out << driven.name; }
@@ -218,12 +250,13 @@ class GrainsOn : public testing::TestWithParam<Driven> {};
 /// but for the largest accelerations of the plane.
 TEST_P(GrainsOn, GlideAsStepSolverDoes) {
   constexpr double kMu = 0.5;
-  ContactScene scene = periodic_gas(300, 0.3, true, 0.9);
+  ContactScene scene = periodic_gas(300, GetParam().unlike ? 0.5 : 0.3, true, 0.9);
   Scene& hard = scene.hard;
   hard.downhill = GetParam().downhill;
   hard.motion = GetParam().motion;
   hard.substrate[0].static_friction = 1.2 * kMu;
   hard.substrate[0].kinetic_friction = kMu;
+  if (GetParam().unlike) make_unlike(hard);
   for (std::size_t i = 0; i < hard.initial.size(); i += 2) {  // as it rolls on the plane
     BodyState& state = hard.initial[i];
     const Vector2 v = state.velocity.head<2>() - hard.motion.velocity(0).head<2>();
@@ -236,7 +269,9 @@ TEST_P(GrainsOn, GlideAsStepSolverDoes) {
 INSTANTIATE_TEST_SUITE_P(
     All, GrainsOn,
     testing::Values(
-        Driven{"still", {0, 0}, {}}, Driven{"slope", {1, 0.4}, {}}, Driven{"steep", {3, -20}, {}},
+        Driven{"still", {0, 0}, {}}, Driven{"unlike", {0, 0}, {}, true},
+        Driven{"unlike_shaken", {0.5, 0}, SubstrateMotion::oscillation({0.1, 0.05}, 2, 0.4), true},
+        Driven{"slope", {1, 0.4}, {}}, Driven{"steep", {3, -20}, {}},
         Driven{"shaken", {0, 0}, SubstrateMotion::oscillation({0.1, 0.05}, 2, 0.4)},
         Driven{"fast", {0.5, 0}, SubstrateMotion::oscillation({0.02, 0.02}, 8, 1)},
         Driven{"belt", {0, 0}, SubstrateMotion::constant({2, -0.3})},
@@ -417,11 +452,12 @@ TEST(GrainSolver, ElasticGasKeepsItsEnergyInSecondOrder) {
 }
 
 /// Every instruction set does the same operations on each grain.
-class GrainsDriven : public testing::TestWithParam<bool> {};
+class GrainKernelsFor : public testing::TestWithParam<const char*> {};
 
-TEST_P(GrainsDriven, SameBitsOnEveryInstructionSet) {
+TEST_P(GrainKernelsFor, SameBitsOnEveryInstructionSet) {
   ContactScene scene = periodic_gas(500, 0.6, true, 0.8);
-  if (GetParam()) {
+  if (GetParam() == std::string("unlike")) make_unlike(scene.hard);
+  if (GetParam() == std::string("driven")) {
     scene.hard.downhill = {0.2, 0};
     scene.hard.motion = SubstrateMotion::oscillation({0.1, 0.2}, 1, 0);
   }
@@ -441,7 +477,8 @@ TEST_P(GrainsDriven, SameBitsOnEveryInstructionSet) {
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, GrainsDriven, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(All, GrainKernelsFor, testing::Values("plain", "driven", "unlike"),
+                         [](const auto& each) { return std::string(each.param); });
 
 /// Beyond the limit of the linear contact, 2/ω0 = (2/π) t_col, energy grows until grains jump over
 /// each other; that is told and does not go on for ever.
@@ -499,7 +536,11 @@ TEST(GrainSolver, TellsWhatItDoesNotTake) {
   expect("drilling", [](ContactScene& s) { s.hard.substrate[0].drilling_length = 0.1; });
   expect("not all contacts", [](ContactScene& s) { s.soft[0].reset(); });
   expect("asperities", [](ContactScene& s) { s.soft[0]->tangential = AsperityForce{0.1, 1e-3}; });
-  expect("radius", [](ContactScene& s) { s.hard.bodies[3].radius = 0.4; });
+  expect("radius", [](ContactScene& s) {
+    s.hard.confined = false;
+    s.soft[0]->tangential = NoTangentialForce{};
+    s.hard.bodies[3].radius = s.hard.initial[3].position.z() = 0.4;
+  });
   expect("above", [](ContactScene& s) { s.hard.initial[3].position.z() = 0.6; });
   expect("confined", [](ContactScene& s) { s.hard.confined = false; });
 }

@@ -80,6 +80,10 @@ TEST(ManyThreads, GiveTheBitsOfOneToGrainsThatAreCarriedAlong) {
   expect_bits_of_one(scene);
 }
 
+TEST(ManyThreads, GiveTheBitsOfOneToGrainsOfUnlikeRadii) {
+  expect_bits_of_one(bench::grain_gas(3000, 0.4, true, 1, 3));
+}
+
 /// Spheres of unlike radii that rub, fall on a plane which swings, and bounce from it and each
 /// other: contacts begin and end under others that go on, and some press a third one down.
 ContactScene falling_on_a_swing(std::size_t count) {

@@ -18,9 +18,10 @@ struct GrainFeatures {
   bool on_plane = false;    ///< Coulomb friction of the substrate; grains roll
   bool driven = false;      ///< on_plane, and the substrate is tilted or moves
   bool any_normal = false;  ///< other normal forces than the linear one
+  bool radii = false;       ///< on_plane and rubs, with centres at unlike heights
 };
 
-/// What the grains of one kind have in common, beside the radius that all have; see StepBody.
+/// What the grains of one kind have in common; see StepBody.
 struct GrainKind {
   double inverse_mass = 0;      ///< 1/m [1/kg]
   double inverse_inertia = 0;   ///< 1/I [1/(kg m²)]
@@ -30,6 +31,7 @@ struct GrainKind {
   double static_friction = 0;   ///< μ_s [-]
   double kinetic_friction = 0;  ///< μ_k [-]
   std::uint32_t material = 0;
+  double radius = 0;  ///< R [m]
 };
 
 /// Grains, or what else is in an order, begin … end − 1.
@@ -61,6 +63,7 @@ struct GrainArrays {
   std::vector<double> dvx, dvy;       ///< what the last step changed [m/s]
   std::vector<double> dwx, dwy, dwz;  ///< [rad/s]
   std::vector<double> sticks;         ///< to the substrate: 1, else 0
+  std::vector<double> radius;         ///< R, where they differ [m]
   std::vector<std::uint32_t> kind;
 
   std::size_t size() const { return x.size(); }
@@ -70,9 +73,9 @@ struct GrainArrays {
   }
   void exchange(StateArchive& archive) {
     for_each_real(archive);
-    archive(kind);
+    archive(radius, kind);
   }
-  /// All quantities but the kind.
+  /// All quantities but the kind and the radius.
   template <class F>
   void for_each_real(F&& f) {
     for (auto* values : {&x, &y, &vx, &vy, &wx, &wy, &wz, &dvx, &dvy, &dwx, &dwy, &dwz, &sticks})
@@ -101,10 +104,10 @@ struct GrainArrays {
 
 /// Two grains that are close enough to meet soon, or touch.
 struct GrainPair {
-  /// On the first grain, and of that the part in the plane across the line of centres [N].
+  /// On the first grain, and of that the part across the line of centres [N].
   struct Force {
     double x = 0, y = 0, z = 0;
-    double across_x = 0, across_y = 0;
+    double across_x = 0, across_y = 0, across_z = 0;
   };
 
   std::uint32_t a = 0, b = 0;

@@ -90,6 +90,7 @@ class GrainDrive {
   GrainRoll roll(const GrainKind& kind, const std::vector<GrainPush>& steps) const {
     GrainRoll roll;
     roll.holds = 1;
+    roll.per_radius = 1 / kind.radius;
     const double most = kind.static_friction * kind.weight * kind.inverse_mass * step_;
     for (const GrainPush& push : steps) {
       const double ax = step_ * push.slope_x, ay = step_ * push.slope_y;

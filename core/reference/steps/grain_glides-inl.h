@@ -50,8 +50,9 @@ HWY_ATTR inline void GlideFreely(GrainArrays& grains, std::size_t first, std::si
 
 /// Steps against a constant friction μ_k g, m of them until one stops the slip, then straight on:
 /// the sums over the steps that StepBody's kick and drift make one by one.
+template <bool kOneKind>
 HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, std::size_t first, std::size_t last,
-                                       const std::vector<GrainKind>& kinds, double R, double h,
+                                       const std::vector<GrainKind>& kinds, double h,
                                        double count) {
   double* HWY_RESTRICT x = grains.x.data();
   double* HWY_RESTRICT y = grains.y.data();
@@ -68,8 +69,9 @@ HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, std::size_t first, s
   const GrainKind* HWY_RESTRICT table = kinds.data();
   SLIPCHECK_EACH_ALONE
   for (std::size_t i = first; i < last; ++i) {
-    const GrainKind& k = table[kind[i]];
+    const GrainKind& k = table[kOneKind ? 0 : kind[i]];
     const double lost = k.kinetic_friction * k.weight * k.inverse_mass * h;  // of |v| in a step
+    const double R = k.radius;
     const double ux = vx[i] - R * wy[i], uy = vy[i] + R * wx[i];
     const double slip = std::sqrt(ux * ux + uy * uy);
     const double until = slip * k.share / lost - 1;
@@ -105,7 +107,7 @@ inline constexpr std::size_t kSliding = 128;
 
 /// Those that roll and go on rolling on a plane that carries them along.
 HWY_ATTR inline void GlideRolling(GrainArrays& grains, std::size_t first, std::size_t last,
-                                  double R, double time, const GrainDriving& driving) {
+                                  double time, const GrainDriving& driving) {
   double* HWY_RESTRICT x = grains.x.data();
   double* HWY_RESTRICT y = grains.y.data();
   double* HWY_RESTRICT vx = grains.vx.data();
@@ -121,14 +123,14 @@ HWY_ATTR inline void GlideRolling(GrainArrays& grains, std::size_t first, std::s
   const GrainRoll* HWY_RESTRICT table = driving.rolls.data();
   const GrainPush push = driving.steps.back();
   const double plane_dx = push.plane_x - push.before_x, plane_dy = push.plane_y - push.before_y;
-  const double per_R = 1 / R;
   SLIPCHECK_EACH_ALONE
   for (std::size_t i = first; i < last; ++i) {
     const GrainRoll& roll = table[kind[i]];
     const bool rolls = roll.holds * sticks[i] > 0;
     const double ex = vx[i] + roll.dvx, ey = vy[i] + roll.dvy;
     const double to_x = x[i] + (time * vx[i] + roll.x), to_y = y[i] + (time * vy[i] + roll.y);
-    const double turned_x = -(ey - push.plane_y) * per_R, turned_y = (ex - push.plane_x) * per_R;
+    const double turned_x = -(ey - push.plane_y) * roll.per_radius,
+                 turned_y = (ex - push.plane_x) * roll.per_radius;
     x[i] = rolls ? to_x : x[i];
     y[i] = rolls ? to_y : y[i];
     vx[i] = rolls ? ex : vx[i];
@@ -137,16 +139,15 @@ HWY_ATTR inline void GlideRolling(GrainArrays& grains, std::size_t first, std::s
     wy[i] = rolls ? turned_y : wy[i];
     dvx[i] = rolls ? roll.last_dvx : dvx[i];
     dvy[i] = rolls ? roll.last_dvy : dvy[i];
-    dwx[i] = rolls ? -(roll.last_dvy - plane_dy) * per_R : dwx[i];
-    dwy[i] = rolls ? (roll.last_dvx - plane_dx) * per_R : dwy[i];
+    dwx[i] = rolls ? -(roll.last_dvy - plane_dy) * roll.per_radius : dwx[i];
+    dwy[i] = rolls ? (roll.last_dvx - plane_dx) * roll.per_radius : dwy[i];
   }
 }
 
 /// Those that slide, or come to roll, on a plane that carries them along: no sum over the steps is
 /// known, so each is done, of the slip u alone. What friction takes from v is summed.
 HWY_ATTR inline void GlideSliding(GrainArrays& g, std::span<const std::size_t> grains,
-                                  const std::vector<GrainKind>& kinds, double R,
-                                  const GrainSteps& steps) {
+                                  const std::vector<GrainKind>& kinds, const GrainSteps& steps) {
   struct alignas(64) Row {
     double of[kSliding];
   };
@@ -159,13 +160,14 @@ HWY_ATTR inline void GlideSliding(GrainArrays& g, std::span<const std::size_t> g
   const GrainPush& first = steps.driving->steps.front();
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = grains[k];
+    const GrainKind& kind = kinds[g.kind[i]];
+    const double R = kind.radius;
     ux.of[k] = g.vx[i] - R * g.wy[i] - first.before_x;
     uy.of[k] = g.vy[i] + R * g.wx[i] - first.before_y;
     dx.of[k] = g.dvx[i] - R * g.dwy[i];  // of the slip, were the plane still
     dy.of[k] = g.dvy[i] + R * g.dwx[i];
     sx.of[k] = sy.of[k] = tx.of[k] = ty.of[k] = 0;
     sticks.of[k] = g.sticks[i];
-    const GrainKind& kind = kinds[g.kind[i]];
     const double load = kind.weight * kind.inverse_mass * h;
     slides_by.of[k] = kind.kinetic_friction * load;
     held_by.of[k] = kind.static_friction * load;
@@ -210,7 +212,7 @@ HWY_ATTR inline void GlideSliding(GrainArrays& g, std::span<const std::size_t> g
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = grains[k];
     const bool rolls = sticks.of[k] > 0;
-    const double turn = kinds[g.kind[i]].turn;
+    const double turn = kinds[g.kind[i]].turn, R = kinds[g.kind[i]].radius;
     g.x[i] += h * (count * g.vx[i] + drift * ax - tx.of[k]);
     g.y[i] += h * (count * g.vy[i] + drift * ay - ty.of[k]);
     g.vx[i] += count * ax - sx.of[k];
@@ -228,7 +230,7 @@ HWY_ATTR inline void GlideSliding(GrainArrays& g, std::span<const std::size_t> g
 
 /// On a plane that carries them along.
 HWY_ATTR void GlideDriven(GrainArrays& grains, std::size_t first, std::size_t last,
-                          const std::vector<GrainKind>& kinds, double R, const GrainSteps& steps) {
+                          const std::vector<GrainKind>& kinds, const GrainSteps& steps) {
   const GrainDriving& driving = *steps.driving;
   const double time = steps.step * static_cast<double>(steps.count);
   std::array<std::size_t, kSliding> sliding;
@@ -239,8 +241,8 @@ HWY_ATTR void GlideDriven(GrainArrays& grains, std::size_t first, std::size_t la
       sliding[count] = i;
       count += grains.sticks[i] * driving.rolls[grains.kind[i]].holds > 0 ? 0 : 1;
     }
-    if (count < end - begin) GlideRolling(grains, begin, end, R, time, driving);
-    GlideSliding(grains, {sliding.data(), count}, kinds, R, steps);
+    if (count < end - begin) GlideRolling(grains, begin, end, time, driving);
+    GlideSliding(grains, {sliding.data(), count}, kinds, steps);
   }
 }
 
@@ -265,13 +267,15 @@ HWY_ATTR double LargestSquare(const std::vector<double>& x, const std::vector<do
 }
 
 HWY_ATTR double Glide(const GrainFeatures& features, GrainArrays& grains, std::size_t first,
-                      std::size_t last, const std::vector<GrainKind>& kinds, double radius,
+                      std::size_t last, const std::vector<GrainKind>& kinds,
                       const GrainSteps& steps) {
   const auto count = static_cast<double>(steps.count);
   if (features.driven)
-    GlideDriven(grains, first, last, kinds, radius, steps);
+    GlideDriven(grains, first, last, kinds, steps);
+  else if (features.on_plane && kinds.size() == 1)
+    GlideWithFriction<true>(grains, first, last, kinds, steps.step, count);
   else if (features.on_plane)
-    GlideWithFriction(grains, first, last, kinds, radius, steps.step, count);
+    GlideWithFriction<false>(grains, first, last, kinds, steps.step, count);
   else
     GlideFreely(grains, first, last, steps.step * count);
   const GrainPush& push = features.driven ? steps.driving->steps.back() : kNoPush;

@@ -35,6 +35,7 @@ void GrainBatch::hold(std::size_t count, std::size_t pair_count, const GrainFeat
   if (has.rubs) each({&tz});
   if (has.rubs || has.on_plane) each({&inverse_inertia});
   if (has.on_plane) each({&fz, &tx, &ty, &load, &weight, &share, &turn, &mu_s, &mu_k});
+  if (has.radii) each({&radius});
 }
 
 void GrainBatch::take(std::size_t k, const GrainArrays& from, std::size_t i,
@@ -50,6 +51,7 @@ void GrainBatch::take(std::size_t k, const GrainArrays& from, std::size_t i,
   turn[k] = kind.turn;
   mu_s[k] = kind.static_friction;
   mu_k[k] = kind.kinetic_friction;
+  if (has.radii) radius[k] = kind.radius;
 }
 
 std::string GrainKernels::instruction_set() {
@@ -59,12 +61,12 @@ std::string GrainKernels::instruction_set() {
 void GrainKernels::find_near(const GrainArrays& grains, std::span<const std::uint32_t> first,
                              std::span<const std::uint32_t> second, double margin,
                              std::vector<std::uint32_t>& near) const {
-  HWY_DYNAMIC_DISPATCH(FindNear)(grains, plane_, first, second, margin, near);
+  HWY_DYNAMIC_DISPATCH(FindNear)(features_, grains, plane_, first, second, margin, near);
 }
 
 double GrainKernels::glide(GrainArrays& grains, std::size_t first, std::size_t last,
                            const GrainSteps& steps) const {
-  return HWY_DYNAMIC_DISPATCH(Glide)(features_, grains, first, last, kinds_, plane_.radius, steps);
+  return HWY_DYNAMIC_DISPATCH(Glide)(features_, grains, first, last, kinds_, steps);
 }
 
 std::size_t GrainKernels::run(GrainBatch& batch, const GrainGroup& group,

@@ -22,7 +22,7 @@ struct GrainBatch {
   /// substrate [N s], squares of the largest speeds [m²/s²], and the constants of GrainKind, for
   /// each grain.
   std::vector<double> fx, fy, fz, tx, ty, tz, load, fastest;
-  std::vector<double> inverse_mass, inverse_inertia, weight, share, turn, mu_s, mu_k;
+  std::vector<double> inverse_mass, inverse_inertia, weight, share, turn, mu_s, mu_k, radius;
 
   static constexpr std::size_t kAtOnce = 256;  ///< grains without others, in the nearest cache
 
@@ -50,6 +50,7 @@ struct GrainPush {
 
 /// Steps of a grain of one kind that rolls on it all the while, summed.
 struct GrainRoll {
+  double per_radius = 0;              ///< 1/R [1/m]
   double holds = 0;                   ///< 1: static friction does in each of them; else 0
   double dvx = 0, dvy = 0;            ///< of the velocity [m/s]
   double x = 0, y = 0;                ///< beside v t [m]
@@ -73,9 +74,13 @@ struct GrainSteps {
 
 /// What all grains share.
 struct GrainPlane {
-  double radius = 0;                  ///< R [m]
+  double radius = 0;                  ///< R, the largest [m]
+  double smallest = 0, mean = 0;      ///< of R [m]
   double length_x = 0, length_y = 0;  ///< of the periodic cell [m]; 0: none
 };
+
+/// How far apart centres of two that touch are in the plane both lie on, 2 √(R_a R_b) [m].
+inline double level_reach(double a, double b) { return std::sqrt(4 * (a * b)); }
 
 /// What a distance is shortened by to the nearest image of `length` [m]; 0: there are none.
 inline double shift_to_nearest_image(double distance, double length) {

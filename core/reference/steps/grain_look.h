@@ -132,9 +132,9 @@ class GrainLook {
     const double wx = has.on_plane ? g.wx[k] : grains_.wx[body];
     const double wy = has.on_plane ? g.wy[k] : grains_.wy[body];
     const double wz = has.rubs ? g.wz[k] : grains_.wz[body];
-    (*shown_)[body] = {{x, y, plane.radius}, {g.vx[k], g.vy[k], 0}, {wx, wy, wz}};
-    const double weight = kernels_.kinds()[grains_.kind[i]].weight;
-    impulses_[i] = has.on_plane ? 2 * batch_.load[k] : half_.begun ? weight * half_.step : 0;
+    const GrainKind& kind = kernels_.kinds()[grains_.kind[i]];
+    (*shown_)[body] = {{x, y, kind.radius}, {g.vx[k], g.vy[k], 0}, {wx, wy, wz}};
+    impulses_[i] = has.on_plane ? 2 * batch_.load[k] : half_.begun ? kind.weight * half_.step : 0;
   }
 
   const GrainKernels& kernels_;

@@ -19,9 +19,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // --- which grains are near -----------------------------------------------------------------------
 
-HWY_ATTR void FindNear(const GrainArrays& grains, const GrainPlane& plane,
-                       std::span<const std::uint32_t> first, std::span<const std::uint32_t> second,
-                       double margin, std::vector<std::uint32_t>& near) {
+template <bool kRadii>
+HWY_ATTR void FindNearOf(const GrainArrays& grains, const GrainPlane& plane,
+                         std::span<const std::uint32_t> first,
+                         std::span<const std::uint32_t> second, double margin,
+                         std::vector<std::uint32_t>& near) {
   const hn::ScalableTag<double> d;
   const hn::RebindToSigned<decltype(d)> di;
   const hn::Rebind<std::uint32_t, decltype(d)> du;
@@ -30,7 +32,7 @@ HWY_ATTR void FindNear(const GrainArrays& grains, const GrainPlane& plane,
   const auto per_x = hn::Set(d, plane.length_x > 0 ? 1 / plane.length_x : 0);
   const auto per_y = hn::Set(d, plane.length_y > 0 ? 1 / plane.length_y : 0);
   const double reach = 2 * plane.radius + margin;
-  const auto reach2 = hn::Set(d, reach * reach);
+  const auto reach2 = hn::Set(d, reach * reach), four = hn::Set(d, 4.0);
   // Which are near is written down without a branch for some, then read.
   constexpr std::size_t kAtOnce = 64;
   std::size_t k = 0;
@@ -48,7 +50,15 @@ HWY_ATTR void FindNear(const GrainArrays& grains, const GrainPlane& plane,
       dx = hn::Sub(dx, hn::Mul(length_x, hn::Round(hn::Mul(dx, per_x))));
       dy = hn::Sub(dy, hn::Mul(length_y, hn::Round(hn::Mul(dy, per_y))));
       const auto distance2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
-      const auto is_near = hn::Le(distance2, reach2);
+      auto most2 = reach2;
+      if constexpr (kRadii) {
+        const double* const R = grains.radius.data();
+        const auto most = hn::Add(
+            hn::Sqrt(hn::Mul(four, hn::Mul(hn::GatherIndex(d, R, i), hn::GatherIndex(d, R, j)))),
+            hn::Set(d, margin));
+        most2 = hn::Mul(most, most);
+      }
+      const auto is_near = hn::Le(distance2, most2);
       std::uint8_t bytes[8] = {};
       hn::StoreMaskBits(d, is_near, bytes);
       all |= std::uint64_t{bytes[0]} << at;
@@ -62,15 +72,26 @@ HWY_ATTR void FindNear(const GrainArrays& grains, const GrainPlane& plane,
     double dx = grains.x[i] - grains.x[j], dy = grains.y[i] - grains.y[j];
     if (plane.length_x > 0) dx -= plane.length_x * std::nearbyint(dx * (1 / plane.length_x));
     if (plane.length_y > 0) dy -= plane.length_y * std::nearbyint(dy * (1 / plane.length_y));
-    if (dx * dx + dy * dy <= reach * reach) near.push_back(static_cast<std::uint32_t>(k));
+    const double most = kRadii ? level_reach(grains.radius[i], grains.radius[j]) + margin : reach;
+    if (dx * dx + dy * dy <= most * most) near.push_back(static_cast<std::uint32_t>(k));
   }
+}
+
+HWY_ATTR void FindNear(const GrainFeatures& features, const GrainArrays& grains,
+                       const GrainPlane& plane, std::span<const std::uint32_t> first,
+                       std::span<const std::uint32_t> second, double margin,
+                       std::vector<std::uint32_t>& near) {
+  if (features.radii)
+    FindNearOf<true>(grains, plane, first, second, margin, near);
+  else
+    FindNearOf<false>(grains, plane, first, second, margin, near);
 }
 
 // --- grains that may meet ------------------------------------------------------------------------
 
 /// Velocities after a kick of dt, and positions after a drift of h; StepBody's kick without lift.
-template <bool kRubs, bool kOnPlane, bool kDriven>
-HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group, double R,
+template <bool kRubs, bool kOnPlane, bool kDriven, bool kRadii>
+HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group, double radius,
                                       double dt, double h, const GrainPush& push) {
   const std::size_t n = group.last_grain - group.first_grain, o = group.first_grain;
   GrainArrays& g = batch.grains;
@@ -105,6 +126,8 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group
   const double* HWY_RESTRICT turn = begin(batch.turn);
   const double* HWY_RESTRICT mu_s = begin(batch.mu_s);
   const double* HWY_RESTRICT mu_k = begin(batch.mu_k);
+  const double* HWY_RESTRICT radius_of = begin(batch.radius);
+  const double per_radius = 1 / radius;
   SLIPCHECK_EACH_ALONE
   for (std::size_t i = 0; i < n; ++i) {
     double ax = vx[i] + (dt * inverse_mass[i]) * fx[i];
@@ -121,6 +144,7 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group
       tz[i] = 0;
     }
     if constexpr (kOnPlane) {
+      const double R = kRadii ? radius_of[i] : radius, per_R = kRadii ? 1 / R : per_radius;
       double bx = wx[i] + (dt * inverse_inertia[i]) * tx[i];
       double by = wy[i] + (dt * inverse_inertia[i]) * ty[i];
       const double load = std::abs(weight[i] - fz[i]) * dt;
@@ -155,8 +179,8 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group
         rolling_x -= push.plane_x;
         rolling_y -= push.plane_y;
       }
-      bx = held ? -rolling_y / R : turned_x;
-      by = held ? rolling_x / R : turned_y;
+      bx = held ? -rolling_y * per_R : turned_x;
+      by = held ? rolling_x * per_R : turned_y;
       sticks[i] = held ? 1 : 0;
       dwx[i] = bx - wx[i];
       dwy[i] = by - wy[i];
@@ -178,30 +202,33 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group
   }
 }
 
-template <class Contact, bool kRubs, bool kOnPlane, bool kDriven>
+template <class Contact, bool kRubs, bool kOnPlane, bool kDriven, bool kRadii>
 HWY_ATTR std::size_t RunOf(GrainBatch& batch, const std::vector<GrainLaw>& laws, double R,
                            const GrainGroup& group, const GrainSteps& steps) {
   const Contact contact(batch, laws, R, steps.step);
-  const double reach = 2 * R;
-  const double* HWY_RESTRICT x = batch.grains.x.data();
-  const double* HWY_RESTRICT y = batch.grains.y.data();
   std::size_t begun = 0;
   for (std::size_t s = 0; s < steps.count; ++s) {
     for (std::size_t k = group.first_pair; k < group.last_pair; ++k) {
       GrainPair& pair = batch.pairs[k];
-      const double dx = x[pair.a] - x[pair.b] - pair.shift_x;
-      const double dy = y[pair.a] - y[pair.b] - pair.shift_y;
-      const double distance2 = dx * dx + dy * dy;
-      if (distance2 <= reach * reach)
-        begun += contact.meet(pair, dx, dy, std::sqrt(distance2), s, steps.begun || s > 0);
+      const typename Contact::Between between = contact.between(pair);
+      const double distance2 = between.distance2();
+      if (distance2 <= between.reach * between.reach)
+        begun += contact.meet(pair, between, std::sqrt(distance2), s, steps.begun || s > 0);
       else if (pair.touching)
-        contact.part(pair, dx, dy, std::sqrt(distance2), s);
+        contact.part(pair, between, std::sqrt(distance2), s);
     }
-    KickAndDrift<kRubs, kOnPlane, kDriven>(batch, group, R, s == 0 ? steps.first_kick : steps.step,
-                                           steps.drift ? steps.step : 0,
-                                           kDriven ? steps.driving->steps[s] : kNoPush);
+    KickAndDrift<kRubs, kOnPlane, kDriven, kRadii>(
+        batch, group, R, s == 0 ? steps.first_kick : steps.step, steps.drift ? steps.step : 0,
+        kDriven ? steps.driving->steps[s] : kNoPush);
   }
   return begun;
+}
+
+template <bool kLinear, bool kRubs, bool kOnPlane, bool kDriven, bool kRadii>
+HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws, double R,
+                           const GrainGroup& group, const GrainSteps& steps) {
+  return RunOf<GrainContact<kLinear, kRubs, kOnPlane, kRadii>, kRubs, kOnPlane, kDriven, kRadii>(
+      batch, laws, R, group, steps);
 }
 
 template <bool kRubs, bool kOnPlane, bool kDriven>
@@ -209,10 +236,8 @@ HWY_ATTR std::size_t RunWith(const GrainFeatures& features, GrainBatch& batch,
                              const std::vector<GrainLaw>& laws, double R, const GrainGroup& group,
                              const GrainSteps& steps) {
   if (features.any_normal)
-    return RunOf<GrainContact<false, kRubs, kOnPlane>, kRubs, kOnPlane, kDriven>(batch, laws, R,
-                                                                                 group, steps);
-  return RunOf<GrainContact<true, kRubs, kOnPlane>, kRubs, kOnPlane, kDriven>(batch, laws, R, group,
-                                                                              steps);
+    return RunAs<false, kRubs, kOnPlane, kDriven, false>(batch, laws, R, group, steps);
+  return RunAs<true, kRubs, kOnPlane, kDriven, false>(batch, laws, R, group, steps);
 }
 
 template <bool kRubs>
@@ -227,6 +252,9 @@ HWY_ATTR std::size_t RunOn(const GrainFeatures& features, GrainBatch& batch,
 HWY_ATTR std::size_t Run(const GrainFeatures& features, GrainBatch& batch,
                          const std::vector<GrainLaw>& laws, double R, const GrainGroup& group,
                          const GrainSteps& steps) {
+  if (features.radii && features.driven)
+    return RunAs<false, true, true, true, true>(batch, laws, R, group, steps);
+  if (features.radii) return RunAs<false, true, true, false, true>(batch, laws, R, group, steps);
   return features.rubs ? RunOn<true>(features, batch, laws, R, group, steps)
                        : RunOn<false>(features, batch, laws, R, group, steps);
 }

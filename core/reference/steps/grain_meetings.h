@@ -41,7 +41,8 @@ class GrainMeetings {
   void find_hit(GrainNear& found) const {
     const GrainPlane& plane = kernels_->plane();
     const GrainArrays& g = *grains_;
-    const double reach = 2 * plane.radius + aside_;
+    const bool radii = kernels_->features().radii;
+    double reach = 2 * plane.radius + aside_;
     std::size_t hits = 0;
     found.hit.resize(found.near.size());
     for (const std::uint32_t k : found.near) {
@@ -53,6 +54,7 @@ class GrainMeetings {
       // Closest to each other at once, in the end, or between.
       const double speed2 = std::max(ux * ux + uy * uy, std::numeric_limits<double>::min());
       const double when = std::clamp(-(dx * ux + dy * uy) / speed2, 0.0, time_);
+      if (radii) reach = level_reach(g.radius[i], g.radius[j]) + aside_;
       dx += ux * when;
       dy += uy * when;
       found.hit[hits] = i;

@@ -180,7 +180,8 @@ class GrainNeighbours::Beside {
 
 void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane, double skin,
                               std::uint32_t first_row, std::uint32_t last_row, Found& found) const {
-  const double reach = 2 * plane.radius + skin;
+  const bool radii = !grains.radius.empty();
+  double reach = 2 * plane.radius + skin;
   const double* x = grains.x.data();
   const double* y = grains.y.data();
   Beside cells(*this, plane);
@@ -205,6 +206,7 @@ void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane
             double dx = x[i] - x[j], dy = y[i] - y[j];
             dx -= shift_to_nearest_image(dx, plane.length_x);
             dy -= shift_to_nearest_image(dy, plane.length_y);
+            if (radii) reach = level_reach(grains.radius[i], grains.radius[j]) + skin;
             found.first[count] = i;
             found.second[count] = j;
             count += dx * dx + dy * dy <= reach * reach ? 1 : 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 #include <utility>
 
 namespace slipcheck {
@@ -9,24 +11,21 @@ namespace {
 
 std::vector<GrainKind> kinds_of(const Scene& scene, std::vector<std::uint32_t>& kind) {
   std::vector<GrainKind> kinds;
-  std::vector<const Sphere*> spheres;
+  std::map<std::tuple<std::uint32_t, double, double, double>, std::uint32_t> found;
   kind.reserve(scene.bodies.size());
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Sphere& sphere = scene.bodies[i];
-    std::size_t k = 0;
-    while (k < kinds.size() &&
-           !(kinds[k].material == scene.material[i] && spheres[k]->mass == sphere.mass &&
-             spheres[k]->shape_factor == sphere.shape_factor))
-      ++k;
-    if (k == kinds.size()) {
+    const auto [at, is_new] =
+        found.try_emplace({scene.material[i], sphere.mass, sphere.shape_factor, sphere.radius},
+                          static_cast<std::uint32_t>(kinds.size()));
+    if (is_new) {
       const SubstrateContact& contact = scene.on_substrate(i);
-      spheres.push_back(&sphere);
       kinds.push_back({1 / sphere.mass, 1 / sphere.moment_of_inertia(), sphere.mass * scene.gravity,
                        1 / (1 + sphere.inverse_shape_factor()),
                        sphere.inverse_shape_factor() / sphere.radius, contact.static_friction,
-                       contact.kinetic_friction, static_cast<std::uint32_t>(scene.material[i])});
+                       contact.kinetic_friction, scene.material[i], sphere.radius});
     }
-    kind.push_back(static_cast<std::uint32_t>(k));
+    kind.push_back(at->second);
   }
   return kinds;
 }
@@ -57,15 +56,32 @@ GrainFeatures features_of(const Scene& scene, const std::vector<GrainLaw>& laws,
                           std::span<const BodyState> initial) {
   GrainFeatures features;
   features.rubs = std::any_of(laws.begin(), laws.end(), rubs);
+  features.radii = std::ranges::any_of(
+      scene.bodies, [&](const Sphere& s) { return s.radius != scene.bodies[0].radius; });
+  features.rubs |= features.radii;
   const bool spins_level = std::any_of(initial.begin(), initial.end(), [](const BodyState& s) {
     return !s.angular_velocity.head<2>().isZero(0);
   });
   features.driven = !scene.motion.is_still() || !scene.downhill.isZero(0);
-  features.on_plane = slides_or_rolls(scene) || (features.rubs && spins_level) || features.driven;
+  features.on_plane =
+      slides_or_rolls(scene) || (features.rubs && spins_level) || features.driven || features.radii;
   features.any_normal = std::any_of(laws.begin(), laws.end(), [](const GrainLaw& law) {
     return !std::holds_alternative<LinearForce>(law.normal);
   });
+  features.any_normal |= features.radii;  // one loop for all of them
   return features;
+}
+
+GrainPlane plane_of(const Scene& scene) {
+  GrainPlane plane{0, scene.bodies[0].radius, 0, scene.periodic.x(), scene.periodic.y()};
+  double sum = 0;
+  for (const Sphere& sphere : scene.bodies) {
+    plane.radius = std::max(plane.radius, sphere.radius);
+    plane.smallest = std::min(plane.smallest, sphere.radius);
+    sum += sphere.radius;
+  }
+  plane.mean = sum / static_cast<double>(scene.bodies.size());
+  return plane;
 }
 
 }  // namespace
@@ -75,10 +91,7 @@ GrainKernels grain_kernels(const ContactScene& scene, std::span<const BodyState>
   const Scene& hard = scene.hard;
   std::vector<GrainLaw> laws = laws_of(scene);
   const GrainFeatures features = features_of(hard, laws, initial);
-  return {features,
-          std::move(laws),
-          kinds_of(hard, kind),
-          {hard.bodies[0].radius, hard.periodic.x(), hard.periodic.y()}};
+  return {features, std::move(laws), kinds_of(hard, kind), plane_of(hard)};
 }
 
 GrainFeatures grain_features(const ContactScene& scene, std::span<const BodyState> initial) {
@@ -98,14 +111,14 @@ std::string grain_refusal(const ContactScene& scene, std::span<const BodyState> 
       return "bodies have asperities";
   }
   for (std::size_t i = 0; i < hard.bodies.size(); ++i) {
-    if (hard.bodies[i].radius != hard.bodies[0].radius) return "bodies differ in radius";
     if (std::abs(initial[i].position.z() - hard.bodies[i].radius) > 1e-12 * hard.bodies[i].radius ||
         initial[i].velocity.z() != 0)
       return "bodies are above the substrate";
   }
   const GrainFeatures features = features_of(hard, laws_of(scene), initial);
   if (!hard.confined && features.rubs && features.on_plane)
-    return "bodies that rub can lift each other off the substrate, which is not confined";
+    return "bodies that rub or differ in radius can lift each other off the substrate, which is "
+           "not confined";
   return "";
 }
 

@@ -52,6 +52,9 @@ class GrainSolver::Impl {
     places_.cell_y.assign(n, 0);
     double fastest2 = 0;
     places_.body.reserve(n);
+    if (features().radii)
+      for (const std::uint32_t k : grains_.kind)
+        grains_.radius.push_back(kernels_.kinds()[k].radius);
     for (std::size_t i = 0; i < n; ++i) {
       const BodyState& state = initial[i];
       places_.body.push_back(static_cast<std::uint32_t>(i));
@@ -62,7 +65,7 @@ class GrainSolver::Impl {
       grains_.wx[i] = state.angular_velocity.x();
       grains_.wy[i] = state.angular_velocity.y();
       grains_.wz[i] = state.angular_velocity.z();
-      const double R = radius();
+      const double R = scene.hard.bodies[i].radius;
       const double round_off = 16 * kEpsilon *
                                (state.velocity.norm() + drive_.velocity_of(0).norm() +
                                 R * state.angular_velocity.norm());
@@ -78,7 +81,7 @@ class GrainSolver::Impl {
   void advance(std::size_t steps) {
     while (steps > 0) {
       heed_stop();
-      if (!(blocks_.fastest() * step_ <= 0.5 * radius()))
+      if (!(blocks_.fastest() * step_ <= 0.5 * kernels_.plane().smallest))
         throw StepTooLong("bodies move by more than half a radius in a step");
       const std::size_t length = next_block(steps);
       if (length == 0) {
@@ -166,7 +169,7 @@ class GrainSolver::Impl {
   }
 
   void find_neighbours(std::size_t length) {
-    blocks_.renew(length, 2 * radius(), density());
+    blocks_.renew(length, 2 * kernels_.plane().mean, density());
     GrainArrays& g = grains_;
     team_.run_shares(g.size(), [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
@@ -182,7 +185,7 @@ class GrainSolver::Impl {
   /// ρ [1/m²] of a periodic plane, else that of grains side by side.
   double density() const {
     const GrainPlane& plane = kernels_.plane();
-    const double area = plane.length_x * plane.length_y, d = 2 * radius();
+    const double area = plane.length_x * plane.length_y, d = 2 * plane.mean;
     return area > 0 ? static_cast<double>(grains_.size()) / area : 1 / (d * d);
   }
 
@@ -191,6 +194,7 @@ class GrainSolver::Impl {
     grains_.for_each_changing(features(),
                               [&](std::vector<double>& values) { all.push_back(&values); });
     all.insert(all.end(), {&places_.cell_x, &places_.cell_y, &places_.body});
+    if (features().radii) all.push_back(&grains_.radius);
     if (kernels_.kinds().size() > 1) all.push_back(&grains_.kind);
     order_.apply(order, all, team_);
     contacts_.reorder(neighbours_);
