@@ -52,7 +52,8 @@ std::vector<std::string> GrainLoop::features() const {
       has.driven     ? "tilted or moving substrate with Coulomb friction, no lift-off"
       : has.on_plane ? "level, still substrate with Coulomb friction, no lift-off"
                      : "level, still substrate without friction or lift-off",
-      "one radius, centres in a plane: no z",
+      has.radii ? "unlike radii: each centre stays at its height"
+                : "one radius, centres in a plane: no z",
       "many bodies: neighbours, islands, " + GrainSolver::instruction_set()};
 }
 

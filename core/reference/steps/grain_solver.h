@@ -11,9 +11,8 @@
 
 namespace slipcheck {
 
-/// Many soft spheres of one radius in a plane, by StepSolver's steps: K's monolayer on a substrate,
-/// maybe tilted or moving, which they do not leave, or a gas on a plane without friction. Periodic
-/// or not.
+/// Many soft spheres that stay on a plane, by StepSolver's steps: K's monolayer on a substrate,
+/// maybe tilted or moving, or a gas on a plane without friction. Periodic or not.
 ///
 /// Time goes in blocks of steps. Grains that can meet none within a block do it in one go; those
 /// that can are sorted into islands, which do all its steps one after the other in the nearest
@@ -31,7 +30,8 @@ class GrainSolver {
   ~GrainSolver();
   GrainSolver(GrainSolver&&) noexcept;
 
-  /// Throws StepTooLong where a grain moves by more than half a radius in a step.
+  /// Throws StepTooLong where a grain moves by more than half the smallest radius in a
+  /// step.
   void advance(std::size_t steps);
 
   double now() const;              ///< [s]
