@@ -90,7 +90,7 @@ inline double towards_zero(double rate, double lost) {
 /// Whether friction that takes `friction` from v [m/s] may act against the slip that was expected,
 /// where u is the one at hand. Not if that is turned by more than a right angle. Nor if friction
 /// takes all of it in a step and more: where the substrate's acceleration keeps such a slip up, it
-/// would jump from side to side for ever.
+/// would jump from side to side for as long.
 [[gnu::always_inline]] inline bool follows(const StepKind& kind, const Vector2& expected,
                                            const Vector2& u, double friction) {
   return expected.dot(u) > 0 &&
