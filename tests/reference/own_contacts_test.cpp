@@ -137,7 +137,7 @@ TEST(OwnContacts, AreMadeOnceBodiesComeNear) {
                            {i == 0 ? 2.0 : 0, 0, 0},
                            Vector3::Zero()};
   }
-  const StepSettings settings{.step = 1e-6, .most_in_all_pairs = 2};
+  const StepSettings settings{.step = 1e-6, .general = true, .most_in_all_pairs = 2};
   StepSolver in_table(table, table.hard.initial, settings);
   StepSolver by_own(own, own.hard.initial, settings);
   const SolvedRun a = in_table.run(until_time(0.02), nullptr);
