@@ -15,8 +15,8 @@ namespace slipcheck {
 class GrainMeetings {
  public:
   /// Of what must outlive this. margin: how near two must be to meet in the block [m]; time: of the
-  /// block [s]; braking: the largest acceleration of a
-  /// grain by friction [m/s²]; step: h [s].
+  /// block [s]; braking: the largest acceleration of a grain by
+  /// friction [m/s²]; step: h [s].
   GrainMeetings(const GrainKernels& kernels, const GrainArrays& grains, const GrainPairs& listed,
                 double margin, double time, double braking, double step)
       : kernels_(&kernels),
