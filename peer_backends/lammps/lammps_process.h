@@ -21,8 +21,8 @@ class LammpsError : public std::runtime_error {
 
 /// The program `lmp`, which reads commands from a pipe and writes snapshots into another: no file
 /// is put on a disk, and so nothing is left of it however it or this process ends. With more than
-/// one rank mpirun starts it, which keeps a directory while it runs; if it is
-/// killed, that stays.
+/// one rank mpirun starts it, which keeps a directory while it runs; if it is killed, that
+/// stays.
 class LammpsProcess {
  public:
   explicit LammpsProcess(int ranks);
