@@ -84,6 +84,12 @@ TEST(ManyThreads, GiveTheBitsOfOneToGrainsOfUnlikeRadii) {
   expect_bits_of_one(bench::grain_gas(3000, 0.4, true, 1, 3));
 }
 
+TEST(ManyThreads, GiveTheBitsOfOneToGrainsThatLiftEachOther) {
+  ContactScene scene = bench::grain_gas(3000, 0.6, true);
+  scene.hard.confined = false;
+  expect_bits_of_one(scene);
+}
+
 /// Spheres of unlike radii that rub, fall on a plane which swings, and bounce from it and each
 /// other: contacts begin and end under others that go on, and some press a third one down.
 ContactScene falling_on_a_swing(std::size_t count) {

@@ -112,8 +112,8 @@ TEST(OwnContacts, OfStepsGiveTheBitsOfTheTable) {
     const double step = ReferenceSolver(table, Compare::Reference::steps).step();
     // Of two pairs of one collision time, whose integrated one is good to 1e-6.
     EXPECT_NEAR(ReferenceSolver(own, Compare::Reference::steps).step(), step, 1e-6 * step);
-    StepSolver in_table(table, table.hard.initial, {.step = step});
-    StepSolver by_own(own, own.hard.initial, {.step = step});
+    StepSolver in_table(table, table.hard.initial, {.step = step, .general = true});
+    StepSolver by_own(own, own.hard.initial, {.step = step, .general = true});
     const SolvedRun a = in_table.run(until_time(0.02), nullptr);
     const SolvedRun b = by_own.run(until_time(0.02), nullptr);
     ASSERT_TRUE(a.reached && b.reached) << a.reason << b.reason;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/state_archive.h"
+#include "reference/steps/grain_kernels.h"
 
 namespace slipcheck {
 
@@ -16,18 +17,26 @@ class GrainBlocks {
   static constexpr std::size_t kLongest = 64;
 
   GrainBlocks() = default;
-  /// step: h [s]; braking: the largest acceleration of a grain by the substrate [m/s²].
-  GrainBlocks(double step, double braking) : step_(step), braking_(braking) {}
+  /// step: h [s]; braking: the largest acceleration of a grain by the substrate [m/s²]; landing: by
+  /// a landing, the largest change of its speed along the plane for its speed towards it [-].
+  GrainBlocks(double step, double braking, double landing)
+      : step_(step), braking_(braking), landing_(landing) {}
 
-  void exchange(StateArchive& archive) { archive(fastest_, skin_, moved_, joining_, last_length_); }
+  void exchange(StateArchive& archive) {
+    archive(fastest_, across_, skin_, moved_, joining_, last_length_);
+  }
 
-  double fastest() const { return fastest_; }  ///< speed of a grain [m/s]
-  void set_fastest(double speed) { fastest_ = speed; }
+  double fastest() const { return fastest_; }  ///< speed of a grain along the plane [m/s]
+  GrainSpeeds speeds() const { return {fastest_ * fastest_, across_ * across_}; }
+  void set_fastest(const GrainSpeeds& speeds) {
+    fastest_ = std::sqrt(speeds.along2);
+    across_ = std::sqrt(speeds.across2);
+  }
   double skin() const { return skin_; }  ///< [m]
 
   /// A bound on speeds within `length` steps [m/s]; GrainSolver does a block again that breaks it.
   double bound(std::size_t length) const {
-    return kFaster * fastest_ + braking_ * step_ * static_cast<double>(length);
+    return kFaster * fastest_ + landing_ * across_ + braking_ * step_ * static_cast<double>(length);
   }
   /// How near grains must be to meet within `length` steps [m].
   double margin(std::size_t length) const {
@@ -63,10 +72,11 @@ class GrainBlocks {
     moved_ = 0;
   }
 
-  /// A block is done. active: grains in islands; fastest: the speed after it [m/s].
-  void took(std::size_t length, std::size_t active, std::size_t touching, double fastest) {
+  /// A block is done. active: grains in islands; fastest: after it.
+  void took(std::size_t length, std::size_t active, std::size_t touching,
+            const GrainSpeeds& fastest) {
     moved_ += bound(length) * step_ * static_cast<double>(length);
-    fastest_ = fastest;
+    set_fastest(fastest);
     joining_ = std::max(0.0, static_cast<double>(active) - 2 * static_cast<double>(touching)) /
                static_cast<double>(length);
     last_length_ = length;
@@ -82,8 +92,8 @@ class GrainBlocks {
   /// How much faster than the fastest now a grain may get in a block before it is done again.
   static constexpr double kFaster = 1.1;
 
-  double step_ = 0, braking_ = 0;
-  double fastest_ = 0;
+  double step_ = 0, braking_ = 0, landing_ = 0;
+  double fastest_ = 0, across_ = 0;  ///< speeds of grains along the plane and across it [m/s]
   double skin_ = 0;
   double moved_ = 0;    ///< at most, by any grain since the list was made [m]
   double joining_ = 1;  ///< grains that a further step in a block adds to islands

@@ -19,6 +19,10 @@ struct GrainFeatures {
   bool driven = false;      ///< on_plane, and the substrate is tilted or moves
   bool any_normal = false;  ///< other normal forces than the linear one
   bool radii = false;       ///< on_plane and rubs, with centres at unlike heights
+  bool lifts = false;       ///< on_plane and rubs, and grains leave the substrate
+
+  /// Whether centres lie at unlike heights.
+  bool is_uneven() const { return radii || lifts; }
 };
 
 /// What the grains of one kind have in common; see StepBody.
@@ -32,6 +36,8 @@ struct GrainKind {
   double kinetic_friction = 0;  ///< μ_k [-]
   std::uint32_t material = 0;
   double radius = 0;  ///< R [m]
+  const Sphere* sphere = nullptr;
+  const SubstrateContact* contact = nullptr;
 };
 
 /// Grains, or what else is in an order, begin … end − 1.
@@ -63,7 +69,10 @@ struct GrainArrays {
   std::vector<double> dvx, dvy;       ///< what the last step changed [m/s]
   std::vector<double> dwx, dwy, dwz;  ///< [rad/s]
   std::vector<double> sticks;         ///< to the substrate: 1, else 0
-  std::vector<double> radius;         ///< R, where they differ [m]
+  std::vector<double> radius;         ///< R, where grains are uneven [m]
+  std::vector<double> z, vz, dvz;     ///< where they leave the substrate, as above
+  std::vector<double> flies;          ///< above the substrate: 1, else 0
+  std::vector<double> bounced;        ///< impulse by the substrate in the last step [N s]
   std::vector<std::uint32_t> kind;
 
   std::size_t size() const { return x.size(); }
@@ -73,13 +82,19 @@ struct GrainArrays {
   }
   void exchange(StateArchive& archive) {
     for_each_real(archive);
+    for_each_lifted(archive);
     archive(radius, kind);
   }
-  /// All quantities but the kind and the radius.
+  /// Those that all have.
   template <class F>
   void for_each_real(F&& f) {
     for (auto* values : {&x, &y, &vx, &vy, &wx, &wy, &wz, &dvx, &dvy, &dwx, &dwy, &dwz, &sticks})
       f(*values);
+  }
+  /// Those of grains that leave the substrate.
+  template <class F>
+  void for_each_lifted(F&& f) {
+    for (auto* values : {&z, &vz, &dvz, &flies, &bounced}) f(*values);
   }
   /// Those that steps change.
   template <class F>
@@ -89,6 +104,7 @@ struct GrainArrays {
       for (auto* values : {&wz, &dwz}) f(*values);
     if (has.on_plane)
       for (auto* values : {&wx, &wy, &dwx, &dwy, &sticks}) f(*values);
+    if (has.lifts) for_each_lifted(f);
   }
   /// What steps change of grain `i` of another becomes that of grain `k`.
   void take(std::size_t k, const GrainArrays& from, std::size_t i, const GrainFeatures& has) {
@@ -99,6 +115,9 @@ struct GrainArrays {
     wx[k] = from.wx[i], wy[k] = from.wy[i];
     dwx[k] = from.dwx[i], dwy[k] = from.dwy[i];
     sticks[k] = from.sticks[i];
+    if (!has.lifts) return;
+    z[k] = from.z[i], vz[k] = from.vz[i], dvz[k] = from.dvz[i];
+    flies[k] = from.flies[i], bounced[k] = from.bounced[i];
   }
 };
 

@@ -17,10 +17,12 @@ namespace HWY_NAMESPACE {
 
 /// StepLoop's contact of two bodies (K (1)-(6)), written out for grains whose centres stay in the
 /// plane. With the direction n to the first and t = k̂×n, the slip has the parts u_t and, where
-/// grains roll, u_z. Centres of unlike grains lie at unlike heights: n is not level then, and all
-/// have three parts.
-template <bool kLinear, bool kRubs, bool kOnPlane, bool kRadii>
+/// grains roll, u_z. Centres of unlike grains, and of those that leave the substrate, lie at unlike
+/// heights: n is not level then, and all have three parts.
+template <bool kLinear, bool kRubs, bool kOnPlane, bool kRadii, bool kLifts>
 class GrainContact {
+  static_assert(kRadii || !kLifts);
+
  public:
   GrainContact(GrainBatch& batch, const std::vector<GrainLaw>& laws, double radius, double step)
       : s_(batch), g_(batch.grains), laws_(laws.data()), radius_(radius), h_(step) {}
@@ -45,8 +47,10 @@ class GrainContact {
   HWY_ATTR Between between(const GrainPair& pair) const {
     const std::size_t a = pair.a, b = pair.b;
     const double x = g_.x[a] - g_.x[b] - pair.shift_x, y = g_.y[a] - g_.y[b] - pair.shift_y;
-    if constexpr (kRadii) return {x, y, s_.radius[a] - s_.radius[b], s_.radius[a] + s_.radius[b]};
-    return {x, y, 0, 2 * radius_};
+    if constexpr (!kRadii) return {x, y, 0, 2 * radius_};
+    const double A = s_.radius[a], B = s_.radius[b];
+    if constexpr (kLifts) return {x, y, g_.z[a] - g_.z[b], A + B};
+    return {x, y, A - B, A + B};
   }
 
   /// Two grains that overlap in a step of the block; whether their contact begins.
@@ -116,7 +120,9 @@ class GrainContact {
     const double dvx = (g_.vx[a] - g_.vx[b]) + ahead * (g_.dvx[a] - g_.dvx[b]);
     const double dvy = (g_.vy[a] - g_.vy[b]) + ahead * (g_.dvy[a] - g_.dvy[b]);
     Motion m;
-    m.closing = -(n.x * dvx + n.y * dvy);
+    double dvz = 0;
+    if constexpr (kLifts) dvz = (g_.vz[a] - g_.vz[b]) + ahead * (g_.dvz[a] - g_.dvz[b]);
+    m.closing = kLifts ? -(n.x * dvx + n.y * dvy + n.z * dvz) : -(n.x * dvx + n.y * dvy);
     if constexpr (kRadii) {
       const double A = s_.radius[a], B = s_.radius[b];
       const double x = (A * g_.wx[a] + B * g_.wx[b]) + ahead * (A * g_.dwx[a] + B * g_.dwx[b]);
@@ -124,7 +130,7 @@ class GrainContact {
       const double z = (A * g_.wz[a] + B * g_.wz[b]) + ahead * (A * g_.dwz[a] + B * g_.dwz[b]);
       m.u_x = dvx + m.closing * n.x - (y * n.z - z * n.y);
       m.u_y = dvy + m.closing * n.y - (z * n.x - x * n.z);
-      m.u_z = m.closing * n.z - (x * n.y - y * n.x);
+      m.u_z = dvz + m.closing * n.z - (x * n.y - y * n.x);
     } else if constexpr (kRubs) {
       const double turning = (g_.wz[a] + g_.wz[b]) + ahead * (g_.dwz[a] + g_.dwz[b]);
       m.u_t = dvy * n.x - dvx * n.y - radius_ * turning;
@@ -217,6 +223,9 @@ class GrainContact {
   }
 
   HWY_ATTR void keep_down(std::uint32_t i, double before) const {
+    if constexpr (kLifts) {
+      if (g_.flies[i] > 0) return;
+    }
     s_.fz[i] = before + std::min(s_.fz[i] - before, s_.weight[i]);
   }
 

@@ -41,7 +41,7 @@ class GrainContacts {
       if (pair.a < pair.b) continue;
       std::swap(pair.a, pair.b);
       const GrainPair::Force& f = pair.force;
-      pair.force = {-f.x, -f.y, -f.z, -f.across_x, -f.across_y};
+      pair.force = {-f.x, -f.y, -f.z, -f.across_x, -f.across_y, -f.across_z};
     }
   }
 

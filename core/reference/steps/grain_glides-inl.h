@@ -49,11 +49,11 @@ HWY_ATTR inline void GlideFreely(GrainArrays& grains, std::size_t first, std::si
 }
 
 /// Steps against a constant friction μ_k g, m of them until one stops the slip, then straight on:
-/// the sums over the steps that StepBody's kick and drift make one by one.
-template <bool kOneKind>
+/// the sums over the steps that StepBody's kick and drift make one by one. Those that fly stay.
+template <bool kOneKind, bool kLifts>
 HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, std::size_t first, std::size_t last,
                                        const std::vector<GrainKind>& kinds, double h,
-                                       double count) {
+                                       double steps) {
   double* HWY_RESTRICT x = grains.x.data();
   double* HWY_RESTRICT y = grains.y.data();
   double* HWY_RESTRICT vx = grains.vx.data();
@@ -65,12 +65,16 @@ HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, std::size_t first, s
   double* HWY_RESTRICT dwx = grains.dwx.data();
   double* HWY_RESTRICT dwy = grains.dwy.data();
   double* HWY_RESTRICT sticks = grains.sticks.data();
+  const double* HWY_RESTRICT flies = grains.flies.data();
   const std::uint32_t* HWY_RESTRICT kind = grains.kind.data();
   const GrainKind* HWY_RESTRICT table = kinds.data();
   SLIPCHECK_EACH_ALONE
   for (std::size_t i = first; i < last; ++i) {
     const GrainKind& k = table[kOneKind ? 0 : kind[i]];
-    const double lost = k.kinetic_friction * k.weight * k.inverse_mass * h;  // of |v| in a step
+    const bool stays = kLifts && flies[i] > 0;
+    const double count = stays ? 0 : steps;
+    // Of |v| in a step.
+    const double lost = stays ? 0 : k.kinetic_friction * k.weight * k.inverse_mass * h;
     const double R = k.radius;
     const double ux = vx[i] - R * wy[i], uy = vy[i] + R * wx[i];
     const double slip = std::sqrt(ux * ux + uy * uy);
@@ -147,7 +151,8 @@ HWY_ATTR inline void GlideRolling(GrainArrays& grains, std::size_t first, std::s
 /// Those that slide, or come to roll, on a plane that carries them along: no sum over the steps is
 /// known, so each is done, of the slip u alone. What friction takes from v is summed.
 HWY_ATTR inline void GlideSliding(GrainArrays& g, std::span<const std::size_t> grains,
-                                  const std::vector<GrainKind>& kinds, const GrainSteps& steps) {
+                                  const std::vector<GrainKind>& kinds, double h,
+                                  std::span<const GrainPush> pushes) {
   struct alignas(64) Row {
     double of[kSliding];
   };
@@ -156,8 +161,7 @@ HWY_ATTR inline void GlideSliding(GrainArrays& g, std::span<const std::size_t> g
   for (Row* row :
        {&ux, &uy, &dx, &dy, &sx, &sy, &tx, &ty, &held_by, &slides_by, &share, &grow, &sticks})
     std::fill(row->of + n, row->of + padded, 0.0);
-  const double h = steps.step;
-  const GrainPush& first = steps.driving->steps.front();
+  const GrainPush& first = pushes.front();
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = grains[k];
     const GrainKind& kind = kinds[g.kind[i]];
@@ -174,7 +178,7 @@ HWY_ATTR inline void GlideSliding(GrainArrays& g, std::span<const std::size_t> g
     share.of[k] = kind.share;
     grow.of[k] = 1 / kind.share;
   }
-  for (const GrainPush& push : steps.driving->steps) {
+  for (const GrainPush& push : pushes) {
     const double ax = h * push.slope_x, ay = h * push.slope_y;
     const double plane_dx = push.plane_x - push.before_x, plane_dy = push.plane_y - push.before_y;
     SLIPCHECK_EACH_ALONE
@@ -205,9 +209,9 @@ HWY_ATTR inline void GlideSliding(GrainArrays& g, std::span<const std::size_t> g
       sticks.of[k] = held ? 1 : 0;
     }
   }
-  const GrainPush& last = steps.driving->steps.back();
+  const GrainPush& last = pushes.back();
   const double ax = h * last.slope_x, ay = h * last.slope_y;
-  const auto count = static_cast<double>(steps.count);
+  const auto count = static_cast<double>(pushes.size());
   const double drift = 0.5 * count * (count + 1);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = grains[k];
@@ -228,7 +232,8 @@ HWY_ATTR inline void GlideSliding(GrainArrays& g, std::span<const std::size_t> g
   }
 }
 
-/// On a plane that carries them along.
+/// On a plane that carries them along. Those that fly stay.
+template <bool kLifts>
 HWY_ATTR void GlideDriven(GrainArrays& grains, std::size_t first, std::size_t last,
                           const std::vector<GrainKind>& kinds, const GrainSteps& steps) {
   const GrainDriving& driving = *steps.driving;
@@ -239,10 +244,66 @@ HWY_ATTR void GlideDriven(GrainArrays& grains, std::size_t first, std::size_t la
     std::size_t count = 0;
     for (std::size_t i = begin; i < end; ++i) {
       sliding[count] = i;
-      count += grains.sticks[i] * driving.rolls[grains.kind[i]].holds > 0 ? 0 : 1;
+      const bool rolls = grains.sticks[i] * driving.rolls[grains.kind[i]].holds > 0;
+      count += rolls || (kLifts && grains.flies[i] > 0) ? 0 : 1;
     }
     if (count < end - begin) GlideRolling(grains, begin, end, time, driving);
-    GlideSliding(grains, {sliding.data(), count}, kinds, steps);
+    GlideSliding(grains, {sliding.data(), count}, kinds, steps.step, driving.steps);
+  }
+}
+
+/// The next `count` steps of one that flies, or as many as it takes to come down. Returns their
+/// number.
+HWY_ATTR inline std::size_t Fly(GrainArrays& g, std::size_t i, double radius, double gravity,
+                                const GrainPush& push, double h, std::size_t count) {
+  const double fall = h * gravity, z = g.z[i], vz = g.vz[i];
+  const auto height = [=](double m) { return z + h * (m * vz - 0.5 * m * (m + 1) * fall); };
+  const auto is_down = [=](std::size_t steps) {
+    const auto m = static_cast<double>(steps);
+    return height(m) < radius && vz - m * fall < 0;
+  };
+  if (is_down(count)) {  // and will be: the first of those steps
+    for (std::size_t above = 0; count - above > 1;) {
+      const std::size_t between = (above + count) / 2;
+      (is_down(between) ? count : above) = between;
+    }
+  }
+  const auto m = static_cast<double>(count);
+  const double ax = h * push.slope_x, ay = h * push.slope_y, drift = 0.5 * m * (m + 1);
+  g.x[i] += h * (m * g.vx[i] + drift * ax);
+  g.y[i] += h * (m * g.vy[i] + drift * ay);
+  g.z[i] = height(m);
+  g.vx[i] += m * ax;
+  g.vy[i] += m * ay;
+  g.vz[i] = vz - m * fall;
+  g.dvx[i] = ax;
+  g.dvy[i] = ay;
+  g.dvz[i] = -fall;
+  g.dwx[i] = g.dwy[i] = g.dwz[i] = g.bounced[i] = 0;
+  return count;
+}
+
+/// Those that fly, on or until they come down; what does so glides from there.
+template <bool kDriven>
+HWY_ATTR void GlideFlying(GrainArrays& g, std::size_t first, std::size_t last,
+                          const std::vector<GrainKind>& kinds, const GrainPlane& plane,
+                          const GrainSteps& steps) {
+  for (std::size_t i = first; i < last; ++i) {
+    if (!(g.flies[i] > 0)) continue;
+    const GrainKind& kind = kinds[g.kind[i]];
+    std::size_t left = steps.count;
+    const auto push_after = [&](std::size_t done) -> const GrainPush& {
+      return kDriven ? steps.driving->steps[done - 1] : kNoPush;
+    };
+    while (left > 0 && g.flies[i] > 0) {
+      left -= Fly(g, i, kind.radius, plane.gravity, push_after(1), steps.step, left);
+      land_grain(kind, plane, push_after(steps.count - left), g, i);
+    }
+    if (left == 0) continue;
+    if constexpr (kDriven)
+      GlideSliding(g, {&i, 1}, kinds, steps.step, std::span(steps.driving->steps).last(left));
+    else
+      GlideWithFriction<false, false>(g, i, i + 1, kinds, steps.step, static_cast<double>(left));
   }
 }
 
@@ -266,20 +327,39 @@ HWY_ATTR double LargestSquare(const std::vector<double>& x, const std::vector<do
   return found;
 }
 
-HWY_ATTR double Glide(const GrainFeatures& features, GrainArrays& grains, std::size_t first,
+template <bool kOneKind>
+HWY_ATTR void GlideOn(const GrainFeatures& features, GrainArrays& grains, std::size_t first,
                       std::size_t last, const std::vector<GrainKind>& kinds,
                       const GrainSteps& steps) {
   const auto count = static_cast<double>(steps.count);
-  if (features.driven)
-    GlideDriven(grains, first, last, kinds, steps);
-  else if (features.on_plane && kinds.size() == 1)
-    GlideWithFriction<true>(grains, first, last, kinds, steps.step, count);
-  else if (features.on_plane)
-    GlideWithFriction<false>(grains, first, last, kinds, steps.step, count);
+  if (features.lifts)
+    GlideWithFriction<kOneKind, true>(grains, first, last, kinds, steps.step, count);
   else
-    GlideFreely(grains, first, last, steps.step * count);
+    GlideWithFriction<kOneKind, false>(grains, first, last, kinds, steps.step, count);
+}
+
+HWY_ATTR GrainSpeeds Glide(const GrainFeatures& features, GrainArrays& grains, std::size_t first,
+                           std::size_t last, const std::vector<GrainKind>& kinds,
+                           const GrainPlane& plane, const GrainSteps& steps) {
+  if (features.driven && features.lifts) {
+    GlideDriven<true>(grains, first, last, kinds, steps);
+    GlideFlying<true>(grains, first, last, kinds, plane, steps);
+  } else if (features.driven) {
+    GlideDriven<false>(grains, first, last, kinds, steps);
+  } else if (!features.on_plane) {
+    GlideFreely(grains, first, last, steps.step * static_cast<double>(steps.count));
+  } else {
+    if (kinds.size() == 1)
+      GlideOn<true>(features, grains, first, last, kinds, steps);
+    else
+      GlideOn<false>(features, grains, first, last, kinds, steps);
+    if (features.lifts) GlideFlying<false>(grains, first, last, kinds, plane, steps);
+  }
   const GrainPush& push = features.driven ? steps.driving->steps.back() : kNoPush;
-  return LargestSquare(grains.vx, grains.vy, first, last, push.drift_x, push.drift_y);
+  GrainSpeeds fastest;
+  fastest.along2 = LargestSquare(grains.vx, grains.vy, first, last, push.drift_x, push.drift_y);
+  if (features.lifts) fastest.across2 = LargestSquare(grains.vz, grains.vz, first, last, 0, 0) / 2;
+  return fastest;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "reference/steps/step_body.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reference/steps/grain_kernels.cpp"
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
@@ -35,23 +37,51 @@ void GrainBatch::hold(std::size_t count, std::size_t pair_count, const GrainFeat
   if (has.rubs) each({&tz});
   if (has.rubs || has.on_plane) each({&inverse_inertia});
   if (has.on_plane) each({&fz, &tx, &ty, &load, &weight, &share, &turn, &mu_s, &mu_k});
-  if (has.radii) each({&radius});
+  if (has.is_uneven()) each({&radius});
+  if (has.lifts) kind.resize(count);
 }
 
 void GrainBatch::take(std::size_t k, const GrainArrays& from, std::size_t i,
                       const std::vector<GrainKind>& kinds, const GrainFeatures& has) {
   grains.take(k, from, i, has);
-  const GrainKind& kind = kinds[from.kind[i]];
+  const GrainKind& of = kinds[from.kind[i]];
   fastest[k] = 0;
-  inverse_mass[k] = kind.inverse_mass;
-  if (has.rubs || has.on_plane) inverse_inertia[k] = kind.inverse_inertia;
+  inverse_mass[k] = of.inverse_mass;
+  if (has.rubs || has.on_plane) inverse_inertia[k] = of.inverse_inertia;
   if (!has.on_plane) return;
-  weight[k] = kind.weight;
-  share[k] = kind.share;
-  turn[k] = kind.turn;
-  mu_s[k] = kind.static_friction;
-  mu_k[k] = kind.kinetic_friction;
-  if (has.radii) radius[k] = kind.radius;
+  weight[k] = of.weight;
+  share[k] = of.share;
+  turn[k] = of.turn;
+  mu_s[k] = of.static_friction;
+  mu_k[k] = of.kinetic_friction;
+  if (has.is_uneven()) radius[k] = of.radius;
+  if (has.lifts) kind[k] = &of;
+}
+
+void land_grain(const GrainKind& kind, const GrainPlane& plane, const GrainPush& push,
+                GrainArrays& grains, std::size_t i) {
+  GrainArrays& g = grains;
+  if (!(g.z[i] < kind.radius && g.vz[i] < 0)) return;
+  StepKind of;
+  of.inverse_mass = kind.inverse_mass;
+  of.sphere = *kind.sphere;
+  of.contact = kind.contact;
+  StepSurroundings around;
+  around.velocity = {push.plane_x, push.plane_y};
+  StepBody body;
+  body.position = {g.x[i], g.y[i], g.z[i]};
+  body.radius = kind.radius;
+  body.velocity = {g.vx[i], g.vy[i], g.vz[i]};
+  body.angular_velocity = {g.wx[i], g.wy[i], g.wz[i]};
+  land_after_drift(body, of, around, plane.slowest_rebound);
+  g.z[i] = body.position.z();
+  g.vx[i] = body.velocity.x(), g.vy[i] = body.velocity.y(), g.vz[i] = body.velocity.z();
+  g.wx[i] = body.angular_velocity.x(), g.wy[i] = body.angular_velocity.y();
+  g.wz[i] = body.angular_velocity.z();
+  g.dvx[i] = g.dvy[i] = g.dvz[i] = g.dwx[i] = g.dwy[i] = g.dwz[i] = 0;
+  g.flies[i] = body.supported ? 0 : 1;
+  g.sticks[i] = body.sticks ? 1 : 0;
+  g.bounced[i] = double{body.bounced};
 }
 
 std::string GrainKernels::instruction_set() {
@@ -64,14 +94,14 @@ void GrainKernels::find_near(const GrainArrays& grains, std::span<const std::uin
   HWY_DYNAMIC_DISPATCH(FindNear)(features_, grains, plane_, first, second, margin, near);
 }
 
-double GrainKernels::glide(GrainArrays& grains, std::size_t first, std::size_t last,
-                           const GrainSteps& steps) const {
-  return HWY_DYNAMIC_DISPATCH(Glide)(features_, grains, first, last, kinds_, steps);
+GrainSpeeds GrainKernels::glide(GrainArrays& grains, std::size_t first, std::size_t last,
+                                const GrainSteps& steps) const {
+  return HWY_DYNAMIC_DISPATCH(Glide)(features_, grains, first, last, kinds_, plane_, steps);
 }
 
 std::size_t GrainKernels::run(GrainBatch& batch, const GrainGroup& group,
                               const GrainSteps& steps) const {
-  return HWY_DYNAMIC_DISPATCH(Run)(features_, batch, laws_, plane_.radius, group, steps);
+  return HWY_DYNAMIC_DISPATCH(Run)(features_, batch, laws_, plane_, group, steps);
 }
 
 }  // namespace slipcheck

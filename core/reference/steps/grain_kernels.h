@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +24,7 @@ struct GrainBatch {
   /// each grain.
   std::vector<double> fx, fy, fz, tx, ty, tz, load, fastest;
   std::vector<double> inverse_mass, inverse_inertia, weight, share, turn, mu_s, mu_k, radius;
+  std::vector<const GrainKind*> kind;  ///< where grains land
 
   static constexpr std::size_t kAtOnce = 256;  ///< grains without others, in the nearest cache
 
@@ -77,16 +79,37 @@ struct GrainPlane {
   double radius = 0;                  ///< R, the largest [m]
   double smallest = 0, mean = 0;      ///< of R [m]
   double length_x = 0, length_y = 0;  ///< of the periodic cell [m]; 0: none
+  double gravity = 0;                 ///< g, normal to the plane [m/s²]
+  double slowest_rebound = 0;         ///< of a landing [m/s]
 };
 
-/// How far apart centres of two that touch are in the plane both lie on, 2 √(R_a R_b) [m].
-inline double level_reach(double a, double b) { return std::sqrt(4 * (a * b)); }
+/// How far apart centres of two uneven grains that touch are at most, seen from above: 2 √(R_a R_b)
+/// where both lie on a plane, else both radii [m].
+inline double level_reach(const GrainArrays& grains, std::size_t i, std::size_t j) {
+  const double a = grains.radius[i], b = grains.radius[j];
+  return grains.z.empty() ? std::sqrt(4 * (a * b)) : a + b;
+}
+
+/// A grain that has come down on the substrate within a step with that push lands; see
+/// land_after_drift() of StepBody. Others stay as they are.
+void land_grain(const GrainKind& kind, const GrainPlane& plane, const GrainPush& push,
+                GrainArrays& grains, std::size_t i);
 
 /// What a distance is shortened by to the nearest image of `length` [m]; 0: there are none.
 inline double shift_to_nearest_image(double distance, double length) {
   if (!(std::abs(distance) > 0.5 * length)) return 0;  // most
   return length > 0 ? length * std::nearbyint(distance / length) : 0;
 }
+
+/// Squares of the largest speeds along the plane, and away from it or towards it [m²/s²].
+struct GrainSpeeds {
+  double along2 = 0, across2 = 0;
+
+  void add(const GrainSpeeds& other) {
+    along2 = std::max(along2, other.along2);
+    across2 = std::max(across2, other.across2);
+  }
+};
 
 /// Calls for the loop of these features on the best instruction set that the machine has. All give
 /// the same bits.
@@ -107,10 +130,9 @@ class GrainKernels {
                  std::span<const std::uint32_t> second, double margin,
                  std::vector<std::uint32_t>& near) const;
   /// Steps of the grains first … last − 1, which meet none: to rounding what single steps do, in
-  /// one go but for those that slide on a driven plane. Returns the square of the largest speed
-  /// [m²/s²].
-  double glide(GrainArrays& grains, std::size_t first, std::size_t last,
-               const GrainSteps& steps) const;
+  /// one go but for those that slide on a driven plane.
+  GrainSpeeds glide(GrainArrays& grains, std::size_t first, std::size_t last,
+                    const GrainSteps& steps) const;
   /// Steps of one group. Returns how many contacts began.
   std::size_t run(GrainBatch& batch, const GrainGroup& group, const GrainSteps& steps) const;
 

@@ -133,8 +133,10 @@ class GrainLook {
     const double wy = has.on_plane ? g.wy[k] : grains_.wy[body];
     const double wz = has.rubs ? g.wz[k] : grains_.wz[body];
     const GrainKind& kind = kernels_.kinds()[grains_.kind[i]];
-    (*shown_)[body] = {{x, y, kind.radius}, {g.vx[k], g.vy[k], 0}, {wx, wy, wz}};
+    const double z = has.lifts ? g.z[k] : kind.radius, vz = has.lifts ? g.vz[k] : 0;
+    (*shown_)[body] = {{x, y, z}, {g.vx[k], g.vy[k], vz}, {wx, wy, wz}};
     impulses_[i] = has.on_plane ? 2 * batch_.load[k] : half_.begun ? kind.weight * half_.step : 0;
+    if (has.lifts && grains_.flies[i] > 0) impulses_[i] += grains_.bounced[i];
   }
 
   const GrainKernels& kernels_;

@@ -13,7 +13,7 @@ void GrainLoop::find_forces(StepWorld& world) {
     for (const StepBody& body : world.bodies)
       states.push_back({body.position, body.velocity, body.angular_velocity});
     std::vector<StepBody>().swap(world.bodies);  // before there is memory for grains
-    solver_.emplace(*scene_, states, world.step, threads_);
+    solver_.emplace(*scene_, states, world.step, threads_, world.slowest_rebound);
   }
   world.touching = solver_->touching();
 }
@@ -46,14 +46,16 @@ void GrainLoop::exchange(StateArchive& archive, StepWorld& world) {
 
 std::vector<std::string> GrainLoop::features() const {
   const GrainFeatures has = grain_features(*scene_, scene_->hard.initial);
+  const std::string lift = has.lifts ? " and lift-off" : ", no lift-off";
   return {
       has.any_normal ? "any normal force" : "linear normal force",
       has.rubs ? "viscous tangential force with Coulomb's cap" : "no tangential force, no torque",
-      has.driven     ? "tilted or moving substrate with Coulomb friction, no lift-off"
-      : has.on_plane ? "level, still substrate with Coulomb friction, no lift-off"
+      has.driven     ? "tilted or moving substrate with Coulomb friction" + lift
+      : has.on_plane ? "level, still substrate with Coulomb friction" + lift
                      : "level, still substrate without friction or lift-off",
-      has.radii ? "unlike radii: each centre stays at its height"
-                : "one radius, centres in a plane: no z",
+      has.lifts   ? "centres at any height"
+      : has.radii ? "unlike radii: each centre stays at its height"
+                  : "one radius, centres in a plane: no z",
       "many bodies: neighbours, islands, " + GrainSolver::instruction_set()};
 }
 

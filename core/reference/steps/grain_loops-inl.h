@@ -19,7 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // --- which grains are near -----------------------------------------------------------------------
 
-template <bool kRadii>
+template <bool kRadii, bool kLifts>
 HWY_ATTR void FindNearOf(const GrainArrays& grains, const GrainPlane& plane,
                          std::span<const std::uint32_t> first,
                          std::span<const std::uint32_t> second, double margin,
@@ -53,9 +53,10 @@ HWY_ATTR void FindNearOf(const GrainArrays& grains, const GrainPlane& plane,
       auto most2 = reach2;
       if constexpr (kRadii) {
         const double* const R = grains.radius.data();
-        const auto most = hn::Add(
-            hn::Sqrt(hn::Mul(four, hn::Mul(hn::GatherIndex(d, R, i), hn::GatherIndex(d, R, j)))),
-            hn::Set(d, margin));
+        const auto a = hn::GatherIndex(d, R, i), b = hn::GatherIndex(d, R, j);
+        auto level = hn::Add(a, b);
+        if constexpr (!kLifts) level = hn::Sqrt(hn::Mul(four, hn::Mul(a, b)));
+        const auto most = hn::Add(level, hn::Set(d, margin));
         most2 = hn::Mul(most, most);
       }
       const auto is_near = hn::Le(distance2, most2);
@@ -72,7 +73,7 @@ HWY_ATTR void FindNearOf(const GrainArrays& grains, const GrainPlane& plane,
     double dx = grains.x[i] - grains.x[j], dy = grains.y[i] - grains.y[j];
     if (plane.length_x > 0) dx -= plane.length_x * std::nearbyint(dx * (1 / plane.length_x));
     if (plane.length_y > 0) dy -= plane.length_y * std::nearbyint(dy * (1 / plane.length_y));
-    const double most = kRadii ? level_reach(grains.radius[i], grains.radius[j]) + margin : reach;
+    const double most = kRadii ? level_reach(grains, i, j) + margin : reach;
     if (dx * dx + dy * dy <= most * most) near.push_back(static_cast<std::uint32_t>(k));
   }
 }
@@ -81,18 +82,21 @@ HWY_ATTR void FindNear(const GrainFeatures& features, const GrainArrays& grains,
                        const GrainPlane& plane, std::span<const std::uint32_t> first,
                        std::span<const std::uint32_t> second, double margin,
                        std::vector<std::uint32_t>& near) {
-  if (features.radii)
-    FindNearOf<true>(grains, plane, first, second, margin, near);
+  if (features.radii && features.lifts)
+    FindNearOf<true, true>(grains, plane, first, second, margin, near);
+  else if (features.radii)
+    FindNearOf<true, false>(grains, plane, first, second, margin, near);
   else
-    FindNearOf<false>(grains, plane, first, second, margin, near);
+    FindNearOf<false, false>(grains, plane, first, second, margin, near);
 }
 
 // --- grains that may meet ------------------------------------------------------------------------
 
-/// Velocities after a kick of dt, and positions after a drift of h; StepBody's kick without lift.
-template <bool kRubs, bool kOnPlane, bool kDriven, bool kRadii>
-HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group, double radius,
-                                      double dt, double h, const GrainPush& push) {
+/// Velocities after a kick of dt, and positions after a drift of h; StepBody's kick.
+template <bool kRubs, bool kOnPlane, bool kDriven, bool kRadii, bool kLifts>
+HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group,
+                                      const GrainPlane& plane, double dt, double h,
+                                      const GrainPush& push) {
   const std::size_t n = group.last_grain - group.first_grain, o = group.first_grain;
   GrainArrays& g = batch.grains;
   const auto begin = [o](std::vector<double>& values) {
@@ -127,7 +131,12 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group
   const double* HWY_RESTRICT mu_s = begin(batch.mu_s);
   const double* HWY_RESTRICT mu_k = begin(batch.mu_k);
   const double* HWY_RESTRICT radius_of = begin(batch.radius);
-  const double per_radius = 1 / radius;
+  double* HWY_RESTRICT z = begin(g.z);
+  double* HWY_RESTRICT vz = begin(g.vz);
+  double* HWY_RESTRICT dvz = begin(g.dvz);
+  double* HWY_RESTRICT flies = begin(g.flies);
+  double* HWY_RESTRICT bounced = begin(g.bounced);
+  const double radius = plane.radius, per_radius = 1 / radius, fall = dt * plane.gravity;
   SLIPCHECK_EACH_ALONE
   for (std::size_t i = 0; i < n; ++i) {
     double ax = vx[i] + (dt * inverse_mass[i]) * fx[i];
@@ -147,7 +156,17 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group
       const double R = kRadii ? radius_of[i] : radius, per_R = kRadii ? 1 / R : per_radius;
       double bx = wx[i] + (dt * inverse_inertia[i]) * tx[i];
       double by = wy[i] + (dt * inverse_inertia[i]) * ty[i];
-      const double load = std::abs(weight[i] - fz[i]) * dt;
+      const double normal = weight[i] - fz[i];
+      const bool on_plane = !kLifts || ((flies[i] <= 0) & (normal >= 0));
+      const double load = on_plane ? std::abs(normal) * dt : 0;
+      if constexpr (kLifts) {
+        const double az = on_plane ? 0 : vz[i] + (dt * inverse_mass[i]) * fz[i] - fall;
+        dvz[i] = az - vz[i];
+        vz[i] = az;
+        z[i] += h * az;
+        flies[i] = on_plane ? 0 : 1;
+        bounced[i] = 0;
+      }
       tx[i] = ty[i] = fz[i] = 0;
       load_of[i] = load;
       double ux = ax - R * by, uy = ay + R * bx;
@@ -158,7 +177,7 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group
       const double slip2 = ux * ux + uy * uy, share2 = share[i] * share[i];
       const double per_slip = load * inverse_mass[i];
       const double cap = (sticks[i] > 0 ? mu_s[i] : mu_k[i]) * per_slip;
-      const bool held = slip2 * share2 <= cap * cap;
+      const bool held = on_plane & (slip2 * share2 <= cap * cap);
       // The slip expected in the middle of the step; see rub_alone() and follows() of StepBody.
       double px = vx[i] + 0.5 * dvx[i] - R * (wy[i] + 0.5 * dwy[i]);
       double py = vy[i] + 0.5 * dvy[i] + R * (wx[i] + 0.5 * dwx[i]);
@@ -202,10 +221,27 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group
   }
 }
 
-template <class Contact, bool kRubs, bool kOnPlane, bool kDriven, bool kRadii>
-HWY_ATTR std::size_t RunOf(GrainBatch& batch, const std::vector<GrainLaw>& laws, double R,
-                           const GrainGroup& group, const GrainSteps& steps) {
-  const Contact contact(batch, laws, R, steps.step);
+/// Those that have come down on the substrate within the step.
+HWY_ATTR HWY_INLINE void Land(GrainBatch& batch, const GrainGroup& group, const GrainPlane& plane,
+                              const GrainPush& push) {
+  GrainArrays& g = batch.grains;
+  const hn::ScalableTag<double> d;
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t i = group.first_grain;
+  for (; i + lanes <= group.last_grain; i += lanes) {
+    const auto below = hn::Lt(hn::LoadU(d, g.z.data() + i), hn::LoadU(d, batch.radius.data() + i));
+    const auto falls = hn::Lt(hn::LoadU(d, g.vz.data() + i), hn::Zero(d));
+    if (hn::AllFalse(d, hn::And(below, falls))) continue;
+    for (std::size_t k = i; k < i + lanes; ++k) land_grain(*batch.kind[k], plane, push, g, k);
+  }
+  for (; i < group.last_grain; ++i) land_grain(*batch.kind[i], plane, push, g, i);
+}
+
+template <class Contact, bool kRubs, bool kOnPlane, bool kDriven, bool kRadii, bool kLifts>
+HWY_ATTR std::size_t RunOf(GrainBatch& batch, const std::vector<GrainLaw>& laws,
+                           const GrainPlane& plane, const GrainGroup& group,
+                           const GrainSteps& steps) {
+  const Contact contact(batch, laws, plane.radius, steps.step);
   std::size_t begun = 0;
   for (std::size_t s = 0; s < steps.count; ++s) {
     for (std::size_t k = group.first_pair; k < group.last_pair; ++k) {
@@ -217,46 +253,62 @@ HWY_ATTR std::size_t RunOf(GrainBatch& batch, const std::vector<GrainLaw>& laws,
       else if (pair.touching)
         contact.part(pair, between, std::sqrt(distance2), s);
     }
-    KickAndDrift<kRubs, kOnPlane, kDriven, kRadii>(
-        batch, group, R, s == 0 ? steps.first_kick : steps.step, steps.drift ? steps.step : 0,
-        kDriven ? steps.driving->steps[s] : kNoPush);
+    const GrainPush& push = kDriven ? steps.driving->steps[s] : kNoPush;
+    KickAndDrift<kRubs, kOnPlane, kDriven, kRadii, kLifts>(batch, group, plane,
+                                                           s == 0 ? steps.first_kick : steps.step,
+                                                           steps.drift ? steps.step : 0, push);
+    if (kLifts && steps.drift) Land(batch, group, plane, push);
   }
   return begun;
 }
 
-template <bool kLinear, bool kRubs, bool kOnPlane, bool kDriven, bool kRadii>
-HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws, double R,
-                           const GrainGroup& group, const GrainSteps& steps) {
-  return RunOf<GrainContact<kLinear, kRubs, kOnPlane, kRadii>, kRubs, kOnPlane, kDriven, kRadii>(
-      batch, laws, R, group, steps);
+template <bool kLinear, bool kRubs, bool kOnPlane, bool kDriven, bool kRadii = false,
+          bool kLifts = false>
+HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws,
+                           const GrainPlane& plane, const GrainGroup& group,
+                           const GrainSteps& steps) {
+  return RunOf<GrainContact<kLinear, kRubs, kOnPlane, kRadii, kLifts>, kRubs, kOnPlane, kDriven,
+               kRadii, kLifts>(batch, laws, plane, group, steps);
 }
 
 template <bool kRubs, bool kOnPlane, bool kDriven>
 HWY_ATTR std::size_t RunWith(const GrainFeatures& features, GrainBatch& batch,
-                             const std::vector<GrainLaw>& laws, double R, const GrainGroup& group,
-                             const GrainSteps& steps) {
+                             const std::vector<GrainLaw>& laws, const GrainPlane& plane,
+                             const GrainGroup& group, const GrainSteps& steps) {
   if (features.any_normal)
-    return RunAs<false, kRubs, kOnPlane, kDriven, false>(batch, laws, R, group, steps);
-  return RunAs<true, kRubs, kOnPlane, kDriven, false>(batch, laws, R, group, steps);
+    return RunAs<false, kRubs, kOnPlane, kDriven>(batch, laws, plane, group, steps);
+  return RunAs<true, kRubs, kOnPlane, kDriven>(batch, laws, plane, group, steps);
 }
 
 template <bool kRubs>
 HWY_ATTR std::size_t RunOn(const GrainFeatures& features, GrainBatch& batch,
-                           const std::vector<GrainLaw>& laws, double R, const GrainGroup& group,
-                           const GrainSteps& steps) {
-  if (features.driven) return RunWith<kRubs, true, true>(features, batch, laws, R, group, steps);
-  if (features.on_plane) return RunWith<kRubs, true, false>(features, batch, laws, R, group, steps);
-  return RunWith<kRubs, false, false>(features, batch, laws, R, group, steps);
+                           const std::vector<GrainLaw>& laws, const GrainPlane& plane,
+                           const GrainGroup& group, const GrainSteps& steps) {
+  if (features.driven)
+    return RunWith<kRubs, true, true>(features, batch, laws, plane, group, steps);
+  if (features.on_plane)
+    return RunWith<kRubs, true, false>(features, batch, laws, plane, group, steps);
+  return RunWith<kRubs, false, false>(features, batch, laws, plane, group, steps);
+}
+
+/// Centres at unlike heights.
+template <bool kDriven>
+HWY_ATTR std::size_t RunUneven(const GrainFeatures& features, GrainBatch& batch,
+                               const std::vector<GrainLaw>& laws, const GrainPlane& plane,
+                               const GrainGroup& group, const GrainSteps& steps) {
+  if (features.lifts)
+    return RunAs<false, true, true, kDriven, true, true>(batch, laws, plane, group, steps);
+  return RunAs<false, true, true, kDriven, true>(batch, laws, plane, group, steps);
 }
 
 HWY_ATTR std::size_t Run(const GrainFeatures& features, GrainBatch& batch,
-                         const std::vector<GrainLaw>& laws, double R, const GrainGroup& group,
-                         const GrainSteps& steps) {
-  if (features.radii && features.driven)
-    return RunAs<false, true, true, true, true>(batch, laws, R, group, steps);
-  if (features.radii) return RunAs<false, true, true, false, true>(batch, laws, R, group, steps);
-  return features.rubs ? RunOn<true>(features, batch, laws, R, group, steps)
-                       : RunOn<false>(features, batch, laws, R, group, steps);
+                         const std::vector<GrainLaw>& laws, const GrainPlane& plane,
+                         const GrainGroup& group, const GrainSteps& steps) {
+  if (features.is_uneven())
+    return features.driven ? RunUneven<true>(features, batch, laws, plane, group, steps)
+                           : RunUneven<false>(features, batch, laws, plane, group, steps);
+  return features.rubs ? RunOn<true>(features, batch, laws, plane, group, steps)
+                       : RunOn<false>(features, batch, laws, plane, group, steps);
 }
 
 std::int64_t Target() { return HWY_TARGET; }

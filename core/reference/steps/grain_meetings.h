@@ -15,15 +15,16 @@ namespace slipcheck {
 class GrainMeetings {
  public:
   /// Of what must outlive this. margin: how near two must be to meet in the block [m]; time: of the
-  /// block [s]; braking: the largest acceleration of a grain by
-  /// friction [m/s²]; step: h [s].
+  /// block [s]; step: h [s]; braking, landing: as of GrainBlocks.
   GrainMeetings(const GrainKernels& kernels, const GrainArrays& grains, const GrainPairs& listed,
-                double margin, double time, double braking, double step)
+                double margin, double time, double step, double braking, double landing)
       : kernels_(&kernels),
         grains_(&grains),
         listed_(listed),
         margin_(margin),
         time_(time),
+        step_(step),
+        landing_(landing),
         // What the substrate's friction takes from two grains, and roundings.
         aside_(braking * time * (time + step) + 1e-9 * kernels.plane().radius) {}
 
@@ -34,10 +35,21 @@ class GrainMeetings {
     kernels_->find_near(*grains_, listed_.first.subspan(first, count),
                         listed_.second.subspan(first, count), margin_, found.near);
     for (std::uint32_t& each : found.near) each += static_cast<std::uint32_t>(first);
-    find_hit(found);
+    kernels_->features().lifts ? find_hit<true>(found) : find_hit<false>(found);
   }
 
  private:
+  /// How far a grain comes off its way where it lands within the block, at most [m].
+  double aside(std::uint32_t i) const {
+    const GrainArrays& g = *grains_;
+    const double fall = kernels_->plane().gravity * time_;
+    const double height = g.z[i] + g.vz[i] * time_ - 0.5 * fall * (time_ + step_);
+    return g.flies[i] > 0 && height < g.radius[i]
+               ? landing_ * (std::abs(g.vz[i]) + 1.5 * fall) * time_
+               : 0;
+  }
+
+  template <bool kLifts>
   void find_hit(GrainNear& found) const {
     const GrainPlane& plane = kernels_->plane();
     const GrainArrays& g = *grains_;
@@ -54,11 +66,13 @@ class GrainMeetings {
       // Closest to each other at once, in the end, or between.
       const double speed2 = std::max(ux * ux + uy * uy, std::numeric_limits<double>::min());
       const double when = std::clamp(-(dx * ux + dy * uy) / speed2, 0.0, time_);
-      if (radii) reach = level_reach(g.radius[i], g.radius[j]) + aside_;
+      if (radii) reach = level_reach(g, i, j) + aside_;
+      double most = reach;
+      if constexpr (kLifts) most += aside(i) + aside(j);
       dx += ux * when;
       dy += uy * when;
       found.hit[hits] = i;
-      hits += dx * dx + dy * dy <= reach * reach ? 1 : 0;
+      hits += dx * dx + dy * dy <= most * most ? 1 : 0;
     }
     found.hit.resize(hits);
   }
@@ -66,7 +80,7 @@ class GrainMeetings {
   const GrainKernels* kernels_;
   const GrainArrays* grains_;
   GrainPairs listed_;
-  double margin_, time_, aside_;
+  double margin_, time_, step_, landing_, aside_;
 };
 
 }  // namespace slipcheck

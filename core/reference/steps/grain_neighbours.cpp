@@ -206,7 +206,7 @@ void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane
             double dx = x[i] - x[j], dy = y[i] - y[j];
             dx -= shift_to_nearest_image(dx, plane.length_x);
             dy -= shift_to_nearest_image(dy, plane.length_y);
-            if (radii) reach = level_reach(grains.radius[i], grains.radius[j]) + skin;
+            if (radii) reach = level_reach(grains, i, j) + skin;
             found.first[count] = i;
             found.second[count] = j;
             count += dx * dx + dy * dy <= reach * reach ? 1 : 0;

@@ -23,7 +23,8 @@ std::vector<GrainKind> kinds_of(const Scene& scene, std::vector<std::uint32_t>& 
       kinds.push_back({1 / sphere.mass, 1 / sphere.moment_of_inertia(), sphere.mass * scene.gravity,
                        1 / (1 + sphere.inverse_shape_factor()),
                        sphere.inverse_shape_factor() / sphere.radius, contact.static_friction,
-                       contact.kinetic_friction, scene.material[i], sphere.radius});
+                       contact.kinetic_friction, scene.material[i], sphere.radius, &sphere,
+                       &contact});
     }
     kind.push_back(at->second);
   }
@@ -50,6 +51,22 @@ bool slides_or_rolls(const Scene& scene) {
                      [](const SubstrateContact& c) { return c.kinetic_friction > 0; });
 }
 
+/// Higher than a few grains upon each other: there would be many neighbours.
+bool is_high(const Sphere& sphere, const BodyState& state) {
+  return state.position.z() > 6 * sphere.radius;
+}
+
+bool is_on_plane(const Sphere& sphere, const BodyState& state) {
+  return std::abs(state.position.z() - sphere.radius) <= 1e-12 * sphere.radius &&
+         state.velocity.z() == 0;
+}
+
+bool are_on_plane(const std::vector<Sphere>& bodies, std::span<const BodyState> states) {
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (!is_on_plane(bodies[i], states[i])) return false;
+  return true;
+}
+
 bool rubs(const GrainLaw& law) { return law.damping > 0 && law.friction > 0; }
 
 GrainFeatures features_of(const Scene& scene, const std::vector<GrainLaw>& laws,
@@ -65,15 +82,24 @@ GrainFeatures features_of(const Scene& scene, const std::vector<GrainLaw>& laws,
   features.driven = !scene.motion.is_still() || !scene.downhill.isZero(0);
   features.on_plane =
       slides_or_rolls(scene) || (features.rubs && spins_level) || features.driven || features.radii;
+  features.lifts = !scene.confined &&
+                   ((features.rubs && features.on_plane) || !are_on_plane(scene.bodies, initial));
+  features.rubs |= features.lifts;
+  features.on_plane |= features.lifts;
   features.any_normal = std::any_of(laws.begin(), laws.end(), [](const GrainLaw& law) {
     return !std::holds_alternative<LinearForce>(law.normal);
   });
-  features.any_normal |= features.radii;  // one loop for all of them
+  features.any_normal |= features.is_uneven();  // one loop for all of them
   return features;
 }
 
-GrainPlane plane_of(const Scene& scene) {
-  GrainPlane plane{0, scene.bodies[0].radius, 0, scene.periodic.x(), scene.periodic.y()};
+GrainPlane plane_of(const Scene& scene, double slowest_rebound) {
+  GrainPlane plane;
+  plane.gravity = scene.gravity;
+  plane.slowest_rebound = slowest_rebound;
+  plane.smallest = scene.bodies[0].radius;
+  plane.length_x = scene.periodic.x();
+  plane.length_y = scene.periodic.y();
   double sum = 0;
   for (const Sphere& sphere : scene.bodies) {
     plane.radius = std::max(plane.radius, sphere.radius);
@@ -87,11 +113,11 @@ GrainPlane plane_of(const Scene& scene) {
 }  // namespace
 
 GrainKernels grain_kernels(const ContactScene& scene, std::span<const BodyState> initial,
-                           std::vector<std::uint32_t>& kind) {
+                           double slowest_rebound, std::vector<std::uint32_t>& kind) {
   const Scene& hard = scene.hard;
   std::vector<GrainLaw> laws = laws_of(scene);
   const GrainFeatures features = features_of(hard, laws, initial);
-  return {features, std::move(laws), kinds_of(hard, kind), plane_of(hard)};
+  return {features, std::move(laws), kinds_of(hard, kind), plane_of(hard, slowest_rebound)};
 }
 
 GrainFeatures grain_features(const ContactScene& scene, std::span<const BodyState> initial) {
@@ -110,15 +136,10 @@ std::string grain_refusal(const ContactScene& scene, std::span<const BodyState> 
     if (std::holds_alternative<AsperityForce>(scene.soft[k]->tangential))
       return "bodies have asperities";
   }
-  for (std::size_t i = 0; i < hard.bodies.size(); ++i) {
-    if (std::abs(initial[i].position.z() - hard.bodies[i].radius) > 1e-12 * hard.bodies[i].radius ||
-        initial[i].velocity.z() != 0)
-      return "bodies are above the substrate";
-  }
-  const GrainFeatures features = features_of(hard, laws_of(scene), initial);
-  if (!hard.confined && features.rubs && features.on_plane)
-    return "bodies that rub or differ in radius can lift each other off the substrate, which is "
-           "not confined";
+  if (hard.confined && !are_on_plane(hard.bodies, initial))
+    return "bodies are above the substrate, which confines them";
+  for (std::size_t i = 0; i < hard.bodies.size(); ++i)
+    if (is_high(hard.bodies[i], initial[i])) return "bodies are high above the substrate";
   return "";
 }
 

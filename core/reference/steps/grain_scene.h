@@ -18,8 +18,9 @@ std::string grain_refusal(const ContactScene& scene, std::span<const BodyState> 
 /// What the scene needs of the loop.
 GrainFeatures grain_features(const ContactScene& scene, std::span<const BodyState> initial);
 
-/// The loop for the scene; appends the kind of each body.
+/// The loop for the scene, which outlives it; appends the kind of each body. slowest_rebound: of a
+/// landing [m/s].
 GrainKernels grain_kernels(const ContactScene& scene, std::span<const BodyState> initial,
-                           std::vector<std::uint32_t>& kind);
+                           double slowest_rebound, std::vector<std::uint32_t>& kind);
 
 }  // namespace slipcheck

@@ -37,9 +37,10 @@ double folded(double x, double length, std::int32_t& cell) {
 class GrainSolver::Impl {
  public:
   Impl(const ContactScene& scene, std::span<const BodyState> initial, double step,
-       std::size_t threads)
+       std::size_t threads, double slowest_rebound)
       : step_(step),
-        kernels_(grain_kernels(scene, initial, grains_.kind)),
+        kernels_(grain_kernels(scene, initial, std::max(slowest_rebound, scene.hard.gravity * step),
+                               grains_.kind)),
         drive_(scene.hard, initial, step),
         contacts_(kernels_, scene.hard.substrate.size()),
         team_(threads) {
@@ -50,11 +51,13 @@ class GrainSolver::Impl {
     grains_.kind = std::move(kind);
     places_.cell_x.assign(n, 0);
     places_.cell_y.assign(n, 0);
-    double fastest2 = 0;
+    GrainSpeeds fastest;
     places_.body.reserve(n);
-    if (features().radii)
+    if (features().is_uneven())
       for (const std::uint32_t k : grains_.kind)
         grains_.radius.push_back(kernels_.kinds()[k].radius);
+    if (features().lifts)
+      grains_.for_each_lifted([n](std::vector<double>& values) { values.resize(n); });
     for (std::size_t i = 0; i < n; ++i) {
       const BodyState& state = initial[i];
       places_.body.push_back(static_cast<std::uint32_t>(i));
@@ -71,10 +74,11 @@ class GrainSolver::Impl {
                                 R * state.angular_velocity.norm());
       grains_.sticks[i] = drive_.slip(state, i).norm() <= round_off ? 1 : 0;
       const Vector2 speed = state.velocity.head<2>() - drift_of(0);
-      fastest2 = std::max(fastest2, speed.squaredNorm());
+      fastest.along2 = std::max(fastest.along2, speed.squaredNorm());
+      if (features().lifts) fastest.across2 = std::max(fastest.across2, raise(i, state));
     }
-    blocks_ = {step, features().driven ? drive_.most(braking()) : braking()};
-    blocks_.set_fastest(std::sqrt(fastest2));
+    blocks_ = {step, braking_beside_drift(), landing()};
+    blocks_.set_fastest(fastest);
     find_neighbours(1);
   }
 
@@ -138,7 +142,7 @@ class GrainSolver::Impl {
   struct Ended {
     std::size_t begun = 0, touching = 0;
     std::size_t touching_before = 0;  ///< of the groups before it
-    double fastest2 = 0;
+    GrainSpeeds fastest;
     std::vector<std::uint32_t> parted;  ///< a grain of each two that did in the last step
   };
 
@@ -160,6 +164,33 @@ class GrainSolver::Impl {
                         std::max(held_by, kind.kinetic_friction) * kind.weight * kind.inverse_mass);
       }
     return most;
+  }
+
+  /// What blocks reckon with: beside the drift, and with landings, of which several may follow each
+  /// other. In a time t the substrate gives a grain no more than m (2 |v_z| + 3 g t).
+  double braking_beside_drift() const {
+    return (features().driven ? drive_.most(braking()) : braking()) +
+           1.5 * landing() * kernels_.plane().gravity;
+  }
+
+  /// 2 μ_k, by which a landing changes the speed along the plane for the one towards it at most.
+  double landing() const {
+    double most = 0;
+    if (features().lifts)
+      for (const GrainKind& kind : kernels_.kinds())
+        most = std::max(most, 2 * kind.kinetic_friction);
+    return most;
+  }
+
+  /// Puts grain `i` at its height. Returns v_z² [m²/s²].
+  double raise(std::size_t i, const BodyState& state) {
+    const double R = grains_.radius[i], z = state.position.z(), vz = state.velocity.z();
+    const bool flies = vz > 0 || z > R * (1 + 4 * kEpsilon);
+    grains_.flies[i] = flies ? 1 : 0;
+    grains_.z[i] = flies ? z : R;
+    grains_.vz[i] = flies ? vz : 0;
+    if (flies) grains_.sticks[i] = 0;
+    return grains_.vz[i] * grains_.vz[i];
   }
 
   /// 0 where the list of neighbours no longer covers one step.
@@ -194,7 +225,7 @@ class GrainSolver::Impl {
     grains_.for_each_changing(features(),
                               [&](std::vector<double>& values) { all.push_back(&values); });
     all.insert(all.end(), {&places_.cell_x, &places_.cell_y, &places_.body});
-    if (features().radii) all.push_back(&grains_.radius);
+    if (features().is_uneven()) all.push_back(&grains_.radius);
     if (kernels_.kinds().size() > 1) all.push_back(&grains_.kind);
     order_.apply(order, all, team_);
     contacts_.reorder(neighbours_);
@@ -204,7 +235,7 @@ class GrainSolver::Impl {
   bool run_block(std::size_t length) {
     const GrainPairs listed = {neighbours_.first(), neighbours_.second()};
     const GrainMeetings meetings(kernels_, grains_, listed, blocks_.margin(length),
-                                 step_ * static_cast<double>(length), braking(), step_);
+                                 step_ * static_cast<double>(length), step_, braking(), landing());
     contacts_.find_hit(hit_);
     islands_.find(
         grains_.size(), listed, hit_,
@@ -224,16 +255,16 @@ class GrainSolver::Impl {
       each.touching_before = all.touching;
       all.begun += each.begun;
       all.touching += each.touching;
-      all.fastest2 = std::max(all.fastest2, each.fastest2);
+      all.fastest.add(each.fastest);
     }
-    if (std::sqrt(all.fastest2) > blocks_.bound(length)) {
-      blocks_.set_fastest(std::sqrt(all.fastest2));
+    if (std::sqrt(all.fastest.along2) > blocks_.bound(length)) {
+      all.fastest.add(blocks_.speeds());
+      blocks_.set_fastest(all.fastest);
       return false;
     }
-    const double still2 = end_block(length, all.touching);
+    all.fastest.add(end_block(length, all.touching));
     collisions_ += all.begun;
-    blocks_.took(length, islands_.grain_count(), all.touching,
-                 std::sqrt(std::max(all.fastest2, still2)));
+    blocks_.took(length, islands_.grain_count(), all.touching, all.fastest);
     return true;
   }
 
@@ -255,22 +286,25 @@ class GrainSolver::Impl {
     }
     Ended ended;
     ended.begun = kernels_.run(batch_, group, steps_of(length));
-    for (std::size_t k = group.first_grain; k < group.last_grain; ++k)
-      ended.fastest2 = std::max(ended.fastest2, batch_.fastest[k]);
+    for (std::size_t k = group.first_grain; k < group.last_grain; ++k) {
+      const double vz = features().lifts ? batch_.grains.vz[k] : 0;
+      ended.fastest.add({batch_.fastest[k], vz * vz});
+    }
     for (std::size_t p = group.first_pair; p < group.last_pair; ++p)
       ended.touching += batch_.pairs[p].touching ? 1 : 0;
     return ended;
   }
 
   /// Grains that met none glide; the others, and contacts, are taken back from the batch. Returns
-  /// the square of the largest speed of those that glided.
-  double end_block(std::size_t length, std::size_t touching) {
+  /// the speeds of those that glided.
+  GrainSpeeds end_block(std::size_t length, std::size_t touching) {
     contacts_.renew(touching);
     // The first kick is half as long, and without friction there is none.
     const bool begins = n_ == 0 && features().on_plane;
-    std::vector<double> still2(team_.size(), begins ? begin_gliding() : 0);
+    std::vector<GrainSpeeds> gliding(team_.size());
+    if (begins) gliding[0] = begin_gliding();
     team_.run_shares(grains_.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
-      if (!begins) still2[own] = kernels_.glide(grains_, first, last, steps_of(length));
+      if (!begins) gliding[own] = kernels_.glide(grains_, first, last, steps_of(length));
       const auto take_back = [&](const GrainIslandGroup& group, bool is_between) {
         for (std::size_t k = 0; k < group.grains.size(); ++k) {
           const std::uint32_t i = group.grains[k];
@@ -284,7 +318,9 @@ class GrainSolver::Impl {
       for (std::size_t k = group; k < end; ++k) keep_contacts(k, length);
     });
     for (const Ended& each : ended_) contacts_.add_parted(each.parted);
-    return *std::max_element(still2.begin(), still2.end());
+    GrainSpeeds fastest;
+    for (const GrainSpeeds& each : gliding) fastest.add(each);
+    return fastest;
   }
 
   void keep_contacts(std::size_t k, std::size_t length) {
@@ -294,10 +330,10 @@ class GrainSolver::Impl {
   }
 
   /// The first step with its half kick.
-  double begin_gliding() {
+  GrainSpeeds begin_gliding() {
     GrainBatch batch;
     batch.hold(GrainBatch::kAtOnce, 0, features());
-    double fastest2 = 0;
+    GrainSpeeds fastest;
     for (std::size_t first = 0; first < grains_.size(); first += GrainBatch::kAtOnce) {
       const std::size_t count = std::min(GrainBatch::kAtOnce, grains_.size() - first);
       for (std::size_t k = 0; k < count; ++k)
@@ -305,10 +341,11 @@ class GrainSolver::Impl {
       kernels_.run(batch, {0, count, 0, 0}, steps_of(1));
       for (std::size_t k = 0; k < count; ++k) {
         grains_.take(first + k, batch.grains, k, features());
-        fastest2 = std::max(fastest2, batch.fastest[k]);
+        const double vz = features().lifts ? batch.grains.vz[k] : 0;
+        fastest.add({batch.fastest[k], vz * vz});
       }
     }
-    return fastest2;
+    return fastest;
   }
 
   double step_;
@@ -330,8 +367,8 @@ class GrainSolver::Impl {
 };
 
 GrainSolver::GrainSolver(const ContactScene& scene, std::span<const BodyState> initial, double step,
-                         std::size_t threads)
-    : impl_(std::make_unique<Impl>(scene, initial, step, threads)) {}
+                         std::size_t threads, double slowest_rebound)
+    : impl_(std::make_unique<Impl>(scene, initial, step, threads, slowest_rebound)) {}
 GrainSolver::~GrainSolver() = default;
 GrainSolver::GrainSolver(GrainSolver&&) noexcept = default;
 

@@ -11,8 +11,9 @@
 
 namespace slipcheck {
 
-/// Many soft spheres that stay on a plane, by StepSolver's steps: K's monolayer on a substrate,
-/// maybe tilted or moving, or a gas on a plane without friction. Periodic or not.
+/// Many soft spheres on a plane, by StepSolver's steps: K's monolayer on a substrate, maybe tilted
+/// or moving, from which grains may lift each other off, or a gas on a plane without friction.
+/// Periodic or not.
 ///
 /// Time goes in blocks of steps. Grains that can meet none within a block do it in one go; those
 /// that can are sorted into islands, which do all its steps one after the other in the nearest
@@ -24,9 +25,11 @@ class GrainSolver {
   static std::string instruction_set();
 
   /// The scene must outlive the solver and have no grain_refusal(). step: h [s], > 0; threads: that
-  /// share its islands, 0: one for each core; any number gives the same bits.
+  /// share its islands, 0: one for each core; any number gives the same bits. slowest_rebound: a
+  /// landing that would rebound slower does not [m/s], >= 0; nor does one slower than what gravity
+  /// adds in a step.
   GrainSolver(const ContactScene& scene, std::span<const BodyState> initial, double step,
-              std::size_t threads = 1);
+              std::size_t threads = 1, double slowest_rebound = 0);
   ~GrainSolver();
   GrainSolver(GrainSolver&&) noexcept;
 
