@@ -38,6 +38,7 @@ struct Laws {
   SubstrateMotion motion = {};
   bool unlike = false;  // radii
   bool lifts = false;
+  double rolling = 0;  // μ_r
 };
 
 std::string name_of(const testing::TestParamInfo<Laws>& info) { return info.param.name; }
@@ -61,6 +62,12 @@ void make_lifting(Scene& scene, double speed) {
     if (i % 2 == 0) scene.initial[i].position.z() += 0.3 * R;
     scene.initial[i].velocity.z() = i % 2 == 0 ? -speed : 0.7 * speed;
   }
+}
+
+/// With as much drilling friction.
+void add_rolling(Scene& scene, double coefficient) {
+  scene.substrate[0].rolling = RollingFriction(coefficient);
+  scene.substrate[0].drilling_length = coefficient * scene.bodies[0].radius;
 }
 
 void PrintTo(const Laws& laws, std::ostream* out) { *out << laws.name; }
@@ -92,6 +99,7 @@ ContactScene cluster(const Laws& laws, std::size_t side) {
     }
   }
   if (laws.lifts) make_lifting(hard, 0.1);
+  add_rolling(hard, laws.rolling);
   SoftContact contact{laws.normal, laws.end, NoTangentialForce{}};
   const double reduced = 0.5 * hard.bodies[0].mass;
   if (laws.rubs) contact.tangential = ViscousForce{reduced * 0.1 / kCollisionTime, 0.3};
@@ -208,6 +216,46 @@ INSTANTIATE_TEST_SUITE_P(
              kShaken,
              true,
              true},
+        Laws{"rolling",
+             kLinear,
+             ContactEnd::zero_overlap,
+             true,
+             true,
+             {0, 0},
+             {},
+             false,
+             false,
+             0.02},
+        Laws{"rolling_smooth",
+             kLinear,
+             ContactEnd::zero_overlap,
+             false,
+             true,
+             {0, 0},
+             {},
+             false,
+             false,
+             0.2},
+        Laws{"rolling_lifting",
+             kClamped,
+             ContactEnd::zero_force,
+             true,
+             true,
+             {0, 0},
+             {},
+             true,
+             true,
+             0.02},
+        Laws{"rolling_shaken",
+             kLinear,
+             ContactEnd::zero_overlap,
+             true,
+             true,
+             {-1, 0.5},
+             kShaken,
+             true,
+             true,
+             0.02},
         Laws{"smooth", kLinear, ContactEnd::zero_overlap, false, false},
         Laws{"smooth_clamped", kClamped, ContactEnd::zero_force, false, false},
         Laws{"smooth_on_plane", kLinear, ContactEnd::zero_overlap, false, true},
@@ -277,6 +325,7 @@ struct Driven {
   SubstrateMotion motion;
   bool unlike = false;  // radii
   bool lifts = false;
+  double rolling = 0;  // μ_r
 };
 
 void PrintTo(const Driven& driven, std::ostream* out) { *out << driven.name; }
@@ -295,6 +344,7 @@ TEST_P(GrainsOn, GlideAsStepSolverDoes) {
   hard.substrate[0].kinetic_friction = kMu;
   if (GetParam().unlike) make_unlike(hard);
   if (GetParam().lifts) make_lifting(hard, 0.5);
+  add_rolling(hard, GetParam().rolling);
   for (std::size_t i = 0; i < hard.initial.size(); i += 2) {  // as it rolls on the plane
     BodyState& state = hard.initial[i];
     const Vector2 v = state.velocity.head<2>() - hard.motion.velocity(0).head<2>();
@@ -317,6 +367,14 @@ INSTANTIATE_TEST_SUITE_P(
                SubstrateMotion::oscillation({0.1, 0.05}, 2, 0.4),
                true,
                true},
+        Driven{"rolling", {0, 0}, {}, false, false, 0.005},
+        Driven{"rolling_lifting", {0, 0}, {}, true, true, 0.05},
+        Driven{"rolling_shaken",
+               {0.5, 0},
+               SubstrateMotion::oscillation({0.1, 0.05}, 2, 0.4),
+               true,
+               false,
+               0.02},
         Driven{"slope", {1, 0.4}, {}}, Driven{"steep", {3, -20}, {}},
         Driven{"shaken", {0, 0}, SubstrateMotion::oscillation({0.1, 0.05}, 2, 0.4)},
         Driven{"fast", {0.5, 0}, SubstrateMotion::oscillation({0.02, 0.02}, 8, 1)},
@@ -504,6 +562,7 @@ TEST_P(GrainKernelsFor, SameBitsOnEveryInstructionSet) {
   ContactScene scene = periodic_gas(500, 0.6, true, 0.8);
   if (GetParam() == std::string("unlike")) make_unlike(scene.hard);
   if (GetParam() == std::string("lifting")) make_lifting(scene.hard, 0.5);
+  if (GetParam() == std::string("rolling")) add_rolling(scene.hard, 0.02);
   if (GetParam() == std::string("driven")) {
     scene.hard.downhill = {0.2, 0};
     scene.hard.motion = SubstrateMotion::oscillation({0.1, 0.2}, 1, 0);
@@ -525,7 +584,7 @@ TEST_P(GrainKernelsFor, SameBitsOnEveryInstructionSet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GrainKernelsFor,
-                         testing::Values("plain", "driven", "unlike", "lifting"),
+                         testing::Values("plain", "driven", "unlike", "lifting", "rolling"),
                          [](const auto& each) { return std::string(each.param); });
 
 /// Beyond the limit of the linear contact, 2/ω0 = (2/π) t_col, energy grows until grains jump over
@@ -580,8 +639,14 @@ TEST(GrainSolver, TellsWhatItDoesNotTake) {
     const std::string found = refusal(change);
     EXPECT_NE(found.find(reason), std::string::npos) << found;
   };
-  expect("rolling", [](ContactScene& s) { s.hard.substrate[0].rolling = RollingFriction(0.1); });
-  expect("drilling", [](ContactScene& s) { s.hard.substrate[0].drilling_length = 0.1; });
+  expect("depends on the speed", [](ContactScene& s) {
+    s.hard.substrate[0].rolling = RollingFriction({{0, 0.1}, {1, 0.2}});
+  });
+  expect("bodies that slide", [](ContactScene& s) {
+    s.hard.substrate[0].rolling = RollingFriction(0.1);
+    s.hard.substrate[0].rolling_while_sliding = true;
+  });
+  expect("share their friction", [](ContactScene& s) { s.hard.substrate[0].coupled_radius = 0.1; });
   expect("not all contacts", [](ContactScene& s) { s.soft[0].reset(); });
   expect("asperities", [](ContactScene& s) { s.soft[0]->tangential = AsperityForce{0.1, 1e-3}; });
   expect("above", [](ContactScene& s) { s.hard.initial[3].position.z() = 0.6; });

@@ -20,9 +20,10 @@ struct GrainFeatures {
   bool any_normal = false;  ///< other normal forces than the linear one
   bool radii = false;       ///< on_plane and rubs, with centres at unlike heights
   bool lifts = false;       ///< on_plane and rubs, and grains leave the substrate
+  bool rolls = false;       ///< on_plane and rubs, with rolling and drilling friction
 
-  /// Whether centres lie at unlike heights.
-  bool is_uneven() const { return radii || lifts; }
+  /// Whether centres lie at unlike heights, or the loops for such do the rest as well.
+  bool is_uneven() const { return radii || lifts || rolls; }
 };
 
 /// What the grains of one kind have in common; see StepBody.
@@ -35,7 +36,9 @@ struct GrainKind {
   double static_friction = 0;   ///< μ_s [-]
   double kinetic_friction = 0;  ///< μ_k [-]
   std::uint32_t material = 0;
-  double radius = 0;  ///< R [m]
+  double radius = 0;            ///< R [m]
+  double rolling_friction = 0;  ///< μ_r [-]
+  double drilling_length = 0;   ///< torque about the vertical for the load [m]
   const Sphere* sphere = nullptr;
   const SubstrateContact* contact = nullptr;
 };

@@ -15,13 +15,22 @@ HWY_BEFORE_NAMESPACE();
 namespace slipcheck {
 namespace HWY_NAMESPACE {
 
+/// What a loop is made for, of GrainFeatures.
+template <bool linear, bool rubs, bool on_plane, bool driven, bool uneven = false,
+          bool lifts = false, bool rolls = false>
+struct GrainHas {
+  static constexpr bool kLinear = linear, kRubs = rubs, kOnPlane = on_plane, kDriven = driven;
+  static constexpr bool kUneven = uneven, kLifts = lifts, kRolls = rolls;
+};
+
 /// StepLoop's contact of two bodies (K (1)-(6)), written out for grains whose centres stay in the
 /// plane. With the direction n to the first and t = k̂×n, the slip has the parts u_t and, where
 /// grains roll, u_z. Centres of unlike grains, and of those that leave the substrate, lie at unlike
 /// heights: n is not level then, and all have three parts.
-template <bool kLinear, bool kRubs, bool kOnPlane, bool kRadii, bool kLifts>
+template <class Has>
 class GrainContact {
-  static_assert(kRadii || !kLifts);
+  static constexpr bool kLinear = Has::kLinear, kRubs = Has::kRubs, kOnPlane = Has::kOnPlane;
+  static constexpr bool kUneven = Has::kUneven, kLifts = Has::kLifts;
 
  public:
   GrainContact(GrainBatch& batch, const std::vector<GrainLaw>& laws, double radius, double step)
@@ -35,11 +44,11 @@ class GrainContact {
     double x, y, z;
     double reach;  ///< two radii
     HWY_ATTR double distance2() const {
-      if constexpr (kRadii) return x * x + y * y + z * z;
+      if constexpr (kUneven) return x * x + y * y + z * z;
       return x * x + y * y;
     }
     HWY_ATTR Direction direction(double distance) const {
-      if constexpr (kRadii) return {x / distance, y / distance, z / distance};
+      if constexpr (kUneven) return {x / distance, y / distance, z / distance};
       return {x / distance, y / distance, 0};
     }
   };
@@ -47,7 +56,7 @@ class GrainContact {
   HWY_ATTR Between between(const GrainPair& pair) const {
     const std::size_t a = pair.a, b = pair.b;
     const double x = g_.x[a] - g_.x[b] - pair.shift_x, y = g_.y[a] - g_.y[b] - pair.shift_y;
-    if constexpr (!kRadii) return {x, y, 0, 2 * radius_};
+    if constexpr (!kUneven) return {x, y, 0, 2 * radius_};
     const double A = s_.radius[a], B = s_.radius[b];
     if constexpr (kLifts) return {x, y, g_.z[a] - g_.z[b], A + B};
     return {x, y, A - B, A + B};
@@ -123,7 +132,7 @@ class GrainContact {
     double dvz = 0;
     if constexpr (kLifts) dvz = (g_.vz[a] - g_.vz[b]) + ahead * (g_.dvz[a] - g_.dvz[b]);
     m.closing = kLifts ? -(n.x * dvx + n.y * dvy + n.z * dvz) : -(n.x * dvx + n.y * dvy);
-    if constexpr (kRadii) {
+    if constexpr (kUneven) {
       const double A = s_.radius[a], B = s_.radius[b];
       const double x = (A * g_.wx[a] + B * g_.wx[b]) + ahead * (A * g_.dwx[a] + B * g_.dwx[b]);
       const double y = (A * g_.wy[a] + B * g_.wy[b]) + ahead * (A * g_.dwy[a] + B * g_.dwy[b]);
@@ -147,12 +156,12 @@ class GrainContact {
                                  const Direction& n) {
     if constexpr (!kRubs) return {normal * n.x, normal * n.y, 0, 0, 0, 0};
     const double cap = law.friction * std::abs(normal);
-    const double along2 = kRadii ? m.u_x * m.u_x + m.u_y * m.u_y : m.u_t * m.u_t;
+    const double along2 = kUneven ? m.u_x * m.u_x + m.u_y * m.u_y : m.u_t * m.u_t;
     const double slip2 = along2 + m.u_z * m.u_z;
     const bool is_capped = law.damping * law.damping * slip2 > cap * cap;
     const double per_slip = is_capped ? -cap / std::sqrt(slip2) : -law.damping;
     const double tz = per_slip * m.u_z;
-    if constexpr (kRadii) {
+    if constexpr (kUneven) {
       const double tx = per_slip * m.u_x, ty = per_slip * m.u_y;
       return {normal * n.x + tx, normal * n.y + ty, normal * n.z + tz, tx, ty, tz};
     } else {
@@ -168,7 +177,7 @@ class GrainContact {
             p * f.z + q * g.z,
             p * f.across_x + q * g.across_x,
             p * f.across_y + q * g.across_y,
-            kRadii ? p * f.across_z + q * g.across_z : 0};
+            kUneven ? p * f.across_z + q * g.across_z : 0};
   }
 
   HWY_ATTR void push(const GrainPair& pair, const Force& f, const Direction& n) const {
@@ -177,7 +186,7 @@ class GrainContact {
     s_.fy[a] += f.y;
     s_.fx[b] -= f.x;
     s_.fy[b] -= f.y;
-    if constexpr (kRadii) {  // R F×n
+    if constexpr (kUneven) {  // R F×n
       const double x = f.across_y * n.z - f.across_z * n.y;
       const double y = f.across_z * n.x - f.across_x * n.z;
       const double z = f.across_x * n.y - f.across_y * n.x;

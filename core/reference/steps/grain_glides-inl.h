@@ -50,7 +50,10 @@ HWY_ATTR inline void GlideFreely(GrainArrays& grains, std::size_t first, std::si
 
 /// Steps against a constant friction μ_k g, m of them until one stops the slip, then straight on:
 /// the sums over the steps that StepBody's kick and drift make one by one. Those that fly stay.
-template <bool kOneKind, bool kLifts>
+///
+/// Rolling friction takes r from the speed in each step from the one that stops the slip on, until
+/// it is zero.
+template <bool kOneKind, bool kLifts, bool kRolls>
 HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, std::size_t first, std::size_t last,
                                        const std::vector<GrainKind>& kinds, double h,
                                        double steps) {
@@ -60,10 +63,12 @@ HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, std::size_t first, s
   double* HWY_RESTRICT vy = grains.vy.data();
   double* HWY_RESTRICT wx = grains.wx.data();
   double* HWY_RESTRICT wy = grains.wy.data();
+  double* HWY_RESTRICT wz = grains.wz.data();
   double* HWY_RESTRICT dvx = grains.dvx.data();
   double* HWY_RESTRICT dvy = grains.dvy.data();
   double* HWY_RESTRICT dwx = grains.dwx.data();
   double* HWY_RESTRICT dwy = grains.dwy.data();
+  double* HWY_RESTRICT dwz = grains.dwz.data();
   double* HWY_RESTRICT sticks = grains.sticks.data();
   const double* HWY_RESTRICT flies = grains.flies.data();
   const std::uint32_t* HWY_RESTRICT kind = grains.kind.data();
@@ -89,15 +94,36 @@ HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, std::size_t first, s
     const double rx = wx[i] - m * k.turn * ay, ry = wy[i] + m * k.turn * ax;
     const bool stops = m < count;
     const double gx = stops ? k.share * (sx - R * ry) : 0, gy = stops ? k.share * (sy + R * rx) : 0;
-    const double ex = sx - gx, ey = sy - gy;  // velocity in the end
-    const double fx = stops ? -ey / R : rx, fy = stops ? ex / R : ry;
     const double rest = count - m;
-    x[i] += h * (m * vx[i] - drift * ax + rest * ex);
-    y[i] += h * (m * vy[i] - drift * ay + rest * ey);
-    dvx[i] = stops ? (rest > 1 ? 0 : -gx) : -ax;
-    dvy[i] = stops ? (rest > 1 ? 0 : -gy) : -ay;
-    dwx[i] = stops ? (rest > 1 ? 0 : fx - rx) : -k.turn * ay;
-    dwy[i] = stops ? (rest > 1 ? 0 : fy - ry) : k.turn * ax;
+    double ex = sx - gx, ey = sy - gy;  // velocity in the end
+    double way = rest, last_x = 0, last_y = 0;
+    const double from_x = ex, from_y = ey;  // where it begins to roll
+    if constexpr (kRolls) {
+      const double r = k.rolling_friction * k.weight * k.inverse_mass * h;
+      const double speed = std::sqrt(ex * ex + ey * ey), per_speed = speed > 0 ? 1 / speed : 0;
+      // Steps after which it still moves.
+      const double all = std::ceil(speed / r) - 1, moving = all < rest ? all : rest;
+      const double left = stops ? (moving < rest ? 0 : 1 - rest * r * per_speed) : 1;
+      const double before = moving + 1 < rest ? 0 : 1 - (rest - 1) * r * per_speed;
+      way = stops ? moving - 0.5 * moving * (moving + 1) * r * per_speed : rest;
+      ex = left * from_x;
+      ey = left * from_y;
+      last_x = ex - before * from_x;
+      last_y = ey - before * from_y;
+      const double lost_spin = k.drilling_length * k.weight * k.inverse_inertia * h;
+      const double spin = std::abs(wz[i]);
+      const double kept = spin - count * lost_spin, kept_before = kept + lost_spin;
+      const double turned = std::copysign(kept > 0 ? kept : 0, wz[i]);
+      dwz[i] = count > 0 ? turned - std::copysign(kept_before > 0 ? kept_before : 0, wz[i]) : 0;
+      wz[i] = turned;
+    }
+    const double fx = stops ? -ey / R : rx, fy = stops ? ex / R : ry;
+    x[i] += h * (m * vx[i] - drift * ax + way * from_x);
+    y[i] += h * (m * vy[i] - drift * ay + way * from_y);
+    dvx[i] = stops ? (rest > 1 ? last_x : kRolls ? ex - sx : -gx) : -ax;
+    dvy[i] = stops ? (rest > 1 ? last_y : kRolls ? ey - sy : -gy) : -ay;
+    dwx[i] = stops ? (rest > 1 ? -last_y / R : fx - rx) : -k.turn * ay;
+    dwy[i] = stops ? (rest > 1 ? last_x / R : fy - ry) : k.turn * ax;
     vx[i] = ex;
     vy[i] = ey;
     wx[i] = fx;
@@ -283,30 +309,6 @@ HWY_ATTR inline std::size_t Fly(GrainArrays& g, std::size_t i, double radius, do
   return count;
 }
 
-/// Those that fly, on or until they come down; what does so glides from there.
-template <bool kDriven>
-HWY_ATTR void GlideFlying(GrainArrays& g, std::size_t first, std::size_t last,
-                          const std::vector<GrainKind>& kinds, const GrainPlane& plane,
-                          const GrainSteps& steps) {
-  for (std::size_t i = first; i < last; ++i) {
-    if (!(g.flies[i] > 0)) continue;
-    const GrainKind& kind = kinds[g.kind[i]];
-    std::size_t left = steps.count;
-    const auto push_after = [&](std::size_t done) -> const GrainPush& {
-      return kDriven ? steps.driving->steps[done - 1] : kNoPush;
-    };
-    while (left > 0 && g.flies[i] > 0) {
-      left -= Fly(g, i, kind.radius, plane.gravity, push_after(1), steps.step, left);
-      land_grain(kind, plane, push_after(steps.count - left), g, i);
-    }
-    if (left == 0) continue;
-    if constexpr (kDriven)
-      GlideSliding(g, {&i, 1}, kinds, steps.step, std::span(steps.driving->steps).last(left));
-    else
-      GlideWithFriction<false, false>(g, i, i + 1, kinds, steps.step, static_cast<double>(left));
-  }
-}
-
 HWY_ATTR double LargestSquare(const std::vector<double>& x, const std::vector<double>& y,
                               std::size_t first, std::size_t last, double from_x, double from_y) {
   const hn::ScalableTag<double> d;
@@ -327,15 +329,42 @@ HWY_ATTR double LargestSquare(const std::vector<double>& x, const std::vector<do
   return found;
 }
 
-template <bool kOneKind>
-HWY_ATTR void GlideOn(const GrainFeatures& features, GrainArrays& grains, std::size_t first,
-                      std::size_t last, const std::vector<GrainKind>& kinds,
-                      const GrainSteps& steps) {
-  const auto count = static_cast<double>(steps.count);
-  if (features.lifts)
-    GlideWithFriction<kOneKind, true>(grains, first, last, kinds, steps.step, count);
-  else
-    GlideWithFriction<kOneKind, false>(grains, first, last, kinds, steps.step, count);
+/// On a level, still plane. Those that fly stay.
+HWY_ATTR void GlideOn(const GrainFeatures& has, GrainArrays& grains, std::size_t first,
+                      std::size_t last, const std::vector<GrainKind>& kinds, double h,
+                      double count) {
+  const bool one = kinds.size() == 1;
+  const auto glide = has.rolls && has.lifts ? GlideWithFriction<false, true, true>
+                     : has.rolls            ? GlideWithFriction<false, false, true>
+                     : has.lifts && one     ? GlideWithFriction<true, true, false>
+                     : has.lifts            ? GlideWithFriction<false, true, false>
+                     : one                  ? GlideWithFriction<true, false, false>
+                                            : GlideWithFriction<false, false, false>;
+  glide(grains, first, last, kinds, h, count);
+}
+
+/// Those that fly, on or until they come down; what does so glides from there.
+template <bool kDriven>
+HWY_ATTR void GlideFlying(const GrainFeatures& has, GrainArrays& g, std::size_t first,
+                          std::size_t last, const std::vector<GrainKind>& kinds,
+                          const GrainPlane& plane, const GrainSteps& steps) {
+  for (std::size_t i = first; i < last; ++i) {
+    if (!(g.flies[i] > 0)) continue;
+    const GrainKind& kind = kinds[g.kind[i]];
+    std::size_t left = steps.count;
+    const auto push_after = [&](std::size_t done) -> const GrainPush& {
+      return kDriven ? steps.driving->steps[done - 1] : kNoPush;
+    };
+    while (left > 0 && g.flies[i] > 0) {
+      left -= Fly(g, i, kind.radius, plane.gravity, push_after(1), steps.step, left);
+      land_grain(kind, plane, push_after(steps.count - left), g, i);
+    }
+    if (left == 0) continue;
+    if constexpr (kDriven)
+      GlideSliding(g, {&i, 1}, kinds, steps.step, std::span(steps.driving->steps).last(left));
+    else
+      GlideOn(has, g, i, i + 1, kinds, steps.step, static_cast<double>(left));
+  }
 }
 
 HWY_ATTR GrainSpeeds Glide(const GrainFeatures& features, GrainArrays& grains, std::size_t first,
@@ -343,17 +372,15 @@ HWY_ATTR GrainSpeeds Glide(const GrainFeatures& features, GrainArrays& grains, s
                            const GrainPlane& plane, const GrainSteps& steps) {
   if (features.driven && features.lifts) {
     GlideDriven<true>(grains, first, last, kinds, steps);
-    GlideFlying<true>(grains, first, last, kinds, plane, steps);
+    GlideFlying<true>(features, grains, first, last, kinds, plane, steps);
   } else if (features.driven) {
     GlideDriven<false>(grains, first, last, kinds, steps);
   } else if (!features.on_plane) {
     GlideFreely(grains, first, last, steps.step * static_cast<double>(steps.count));
   } else {
-    if (kinds.size() == 1)
-      GlideOn<true>(features, grains, first, last, kinds, steps);
-    else
-      GlideOn<false>(features, grains, first, last, kinds, steps);
-    if (features.lifts) GlideFlying<false>(grains, first, last, kinds, plane, steps);
+    const auto count = static_cast<double>(steps.count);
+    GlideOn(features, grains, first, last, kinds, steps.step, count);
+    if (features.lifts) GlideFlying<false>(features, grains, first, last, kinds, plane, steps);
   }
   const GrainPush& push = features.driven ? steps.driving->steps.back() : kNoPush;
   GrainSpeeds fastest;

@@ -38,6 +38,7 @@ void GrainBatch::hold(std::size_t count, std::size_t pair_count, const GrainFeat
   if (has.rubs || has.on_plane) each({&inverse_inertia});
   if (has.on_plane) each({&fz, &tx, &ty, &load, &weight, &share, &turn, &mu_s, &mu_k});
   if (has.is_uneven()) each({&radius});
+  if (has.rolls) each({&mu_r, &drilling});
   if (has.lifts) kind.resize(count);
 }
 
@@ -55,6 +56,7 @@ void GrainBatch::take(std::size_t k, const GrainArrays& from, std::size_t i,
   mu_s[k] = of.static_friction;
   mu_k[k] = of.kinetic_friction;
   if (has.is_uneven()) radius[k] = of.radius;
+  if (has.rolls) mu_r[k] = of.rolling_friction, drilling[k] = of.drilling_length;
   if (has.lifts) kind[k] = &of;
 }
 

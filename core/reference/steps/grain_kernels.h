@@ -23,7 +23,8 @@ struct GrainBatch {
   /// substrate [N s], squares of the largest speeds [m²/s²], and the constants of GrainKind, for
   /// each grain.
   std::vector<double> fx, fy, fz, tx, ty, tz, load, fastest;
-  std::vector<double> inverse_mass, inverse_inertia, weight, share, turn, mu_s, mu_k, radius;
+  std::vector<double> inverse_mass, inverse_inertia, weight, share, turn, mu_s, mu_k, mu_r,
+      drilling, radius;
   std::vector<const GrainKind*> kind;  ///< where grains land
 
   static constexpr std::size_t kAtOnce = 256;  ///< grains without others, in the nearest cache
@@ -130,7 +131,7 @@ class GrainKernels {
                  std::span<const std::uint32_t> second, double margin,
                  std::vector<std::uint32_t>& near) const;
   /// Steps of the grains first … last − 1, which meet none: to rounding what single steps do, in
-  /// one go but for those that slide on a driven plane.
+  /// one go but for those that slide on a driven plane. Not where that has rolling friction.
   GrainSpeeds glide(GrainArrays& grains, std::size_t first, std::size_t last,
                     const GrainSteps& steps) const;
   /// Steps of one group. Returns how many contacts began.

@@ -46,12 +46,14 @@ void GrainLoop::exchange(StateArchive& archive, StepWorld& world) {
 
 std::vector<std::string> GrainLoop::features() const {
   const GrainFeatures has = grain_features(*scene_, scene_->hard.initial);
+  const std::string friction =
+      has.rolls ? "Coulomb, rolling and drilling friction" : "Coulomb friction";
   const std::string lift = has.lifts ? " and lift-off" : ", no lift-off";
   return {
       has.any_normal ? "any normal force" : "linear normal force",
       has.rubs ? "viscous tangential force with Coulomb's cap" : "no tangential force, no torque",
-      has.driven     ? "tilted or moving substrate with Coulomb friction" + lift
-      : has.on_plane ? "level, still substrate with Coulomb friction" + lift
+      has.driven     ? "tilted or moving substrate with " + friction + lift
+      : has.on_plane ? "level, still substrate with " + friction + lift
                      : "level, still substrate without friction or lift-off",
       has.lifts   ? "centres at any height"
       : has.radii ? "unlike radii: each centre stays at its height"

@@ -93,10 +93,12 @@ HWY_ATTR void FindNear(const GrainFeatures& features, const GrainArrays& grains,
 // --- grains that may meet ------------------------------------------------------------------------
 
 /// Velocities after a kick of dt, and positions after a drift of h; StepBody's kick.
-template <bool kRubs, bool kOnPlane, bool kDriven, bool kRadii, bool kLifts>
+template <class Has>
 HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group,
                                       const GrainPlane& plane, double dt, double h,
                                       const GrainPush& push) {
+  constexpr bool kRubs = Has::kRubs, kOnPlane = Has::kOnPlane, kDriven = Has::kDriven;
+  constexpr bool kUneven = Has::kUneven, kLifts = Has::kLifts, kRolls = Has::kRolls;
   const std::size_t n = group.last_grain - group.first_grain, o = group.first_grain;
   GrainArrays& g = batch.grains;
   const auto begin = [o](std::vector<double>& values) {
@@ -130,6 +132,8 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group
   const double* HWY_RESTRICT turn = begin(batch.turn);
   const double* HWY_RESTRICT mu_s = begin(batch.mu_s);
   const double* HWY_RESTRICT mu_k = begin(batch.mu_k);
+  const double* HWY_RESTRICT mu_r = begin(batch.mu_r);
+  const double* HWY_RESTRICT drilling = begin(batch.drilling);
   const double* HWY_RESTRICT radius_of = begin(batch.radius);
   double* HWY_RESTRICT z = begin(g.z);
   double* HWY_RESTRICT vz = begin(g.vz);
@@ -146,19 +150,27 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group
       ax += dt * push.slope_x;
       ay += dt * push.slope_y;
     }
+    bool on_plane = true;
+    double load = 0;
+    if constexpr (kOnPlane) {
+      const double normal = weight[i] - fz[i];
+      if constexpr (kLifts) on_plane = (flies[i] <= 0) & (normal >= 0);
+      load = on_plane ? std::abs(normal) * dt : 0;
+    }
     if constexpr (kRubs) {
-      const double az = wz[i] + (dt * inverse_inertia[i]) * tz[i];
+      double az = wz[i] + (dt * inverse_inertia[i]) * tz[i];
+      if constexpr (kRolls) {
+        const double left = std::abs(az) - (drilling[i] * load) * inverse_inertia[i];
+        az = std::copysign(left > 0 ? left : 0, az);
+      }
       dwz[i] = az - wz[i];
       wz[i] = az;
       tz[i] = 0;
     }
     if constexpr (kOnPlane) {
-      const double R = kRadii ? radius_of[i] : radius, per_R = kRadii ? 1 / R : per_radius;
+      const double R = kUneven ? radius_of[i] : radius, per_R = kUneven ? 1 / R : per_radius;
       double bx = wx[i] + (dt * inverse_inertia[i]) * tx[i];
       double by = wy[i] + (dt * inverse_inertia[i]) * ty[i];
-      const double normal = weight[i] - fz[i];
-      const bool on_plane = !kLifts || ((flies[i] <= 0) & (normal >= 0));
-      const double load = on_plane ? std::abs(normal) * dt : 0;
       if constexpr (kLifts) {
         const double az = on_plane ? 0 : vz[i] + (dt * inverse_mass[i]) * fz[i] - fall;
         dvz[i] = az - vz[i];
@@ -191,6 +203,13 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group
       const double size2 = follows ? expected2 : slip2;
       const double change = friction * (1 / std::sqrt(size2 > 0 ? size2 : 1));
       double rolling_x = ax - share[i] * ux, rolling_y = ay - share[i] * uy;
+      if constexpr (kRolls) {  // relative to the plane
+        const double rx = rolling_x - push.plane_x, ry = rolling_y - push.plane_y;
+        const double speed = std::sqrt(rx * rx + ry * ry), lost = mu_r[i] * per_slip;
+        const double factor = (lost < speed ? lost : speed) / (speed > 0 ? speed : 1);
+        rolling_x -= factor * rx;
+        rolling_y -= factor * ry;
+      }
       const double turned_x = bx - change * turn[i] * sy, turned_y = by + change * turn[i] * sx;
       ax = held ? rolling_x : ax - change * sx;
       ay = held ? rolling_y : ay - change * sy;
@@ -237,10 +256,11 @@ HWY_ATTR HWY_INLINE void Land(GrainBatch& batch, const GrainGroup& group, const 
   for (; i < group.last_grain; ++i) land_grain(*batch.kind[i], plane, push, g, i);
 }
 
-template <class Contact, bool kRubs, bool kOnPlane, bool kDriven, bool kRadii, bool kLifts>
-HWY_ATTR std::size_t RunOf(GrainBatch& batch, const std::vector<GrainLaw>& laws,
+template <class Has>
+HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws,
                            const GrainPlane& plane, const GrainGroup& group,
                            const GrainSteps& steps) {
+  using Contact = GrainContact<Has>;
   const Contact contact(batch, laws, plane.radius, steps.step);
   std::size_t begun = 0;
   for (std::size_t s = 0; s < steps.count; ++s) {
@@ -253,62 +273,50 @@ HWY_ATTR std::size_t RunOf(GrainBatch& batch, const std::vector<GrainLaw>& laws,
       else if (pair.touching)
         contact.part(pair, between, std::sqrt(distance2), s);
     }
-    const GrainPush& push = kDriven ? steps.driving->steps[s] : kNoPush;
-    KickAndDrift<kRubs, kOnPlane, kDriven, kRadii, kLifts>(batch, group, plane,
-                                                           s == 0 ? steps.first_kick : steps.step,
-                                                           steps.drift ? steps.step : 0, push);
-    if (kLifts && steps.drift) Land(batch, group, plane, push);
+    const GrainPush& push = Has::kDriven ? steps.driving->steps[s] : kNoPush;
+    KickAndDrift<Has>(batch, group, plane, s == 0 ? steps.first_kick : steps.step,
+                      steps.drift ? steps.step : 0, push);
+    if (Has::kLifts && steps.drift) Land(batch, group, plane, push);
   }
   return begun;
 }
 
-template <bool kLinear, bool kRubs, bool kOnPlane, bool kDriven, bool kRadii = false,
-          bool kLifts = false>
-HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws,
-                           const GrainPlane& plane, const GrainGroup& group,
-                           const GrainSteps& steps) {
-  return RunOf<GrainContact<kLinear, kRubs, kOnPlane, kRadii, kLifts>, kRubs, kOnPlane, kDriven,
-               kRadii, kLifts>(batch, laws, plane, group, steps);
-}
+using RunLoop = std::size_t (*)(GrainBatch&, const std::vector<GrainLaw>&, const GrainPlane&,
+                                const GrainGroup&, const GrainSteps&);
 
 template <bool kRubs, bool kOnPlane, bool kDriven>
-HWY_ATTR std::size_t RunWith(const GrainFeatures& features, GrainBatch& batch,
-                             const std::vector<GrainLaw>& laws, const GrainPlane& plane,
-                             const GrainGroup& group, const GrainSteps& steps) {
-  if (features.any_normal)
-    return RunAs<false, kRubs, kOnPlane, kDriven>(batch, laws, plane, group, steps);
-  return RunAs<true, kRubs, kOnPlane, kDriven>(batch, laws, plane, group, steps);
+RunLoop LoopWith(const GrainFeatures& has) {
+  return has.any_normal ? RunAs<GrainHas<false, kRubs, kOnPlane, kDriven>>
+                        : RunAs<GrainHas<true, kRubs, kOnPlane, kDriven>>;
 }
 
 template <bool kRubs>
-HWY_ATTR std::size_t RunOn(const GrainFeatures& features, GrainBatch& batch,
-                           const std::vector<GrainLaw>& laws, const GrainPlane& plane,
-                           const GrainGroup& group, const GrainSteps& steps) {
-  if (features.driven)
-    return RunWith<kRubs, true, true>(features, batch, laws, plane, group, steps);
-  if (features.on_plane)
-    return RunWith<kRubs, true, false>(features, batch, laws, plane, group, steps);
-  return RunWith<kRubs, false, false>(features, batch, laws, plane, group, steps);
+RunLoop LoopOn(const GrainFeatures& has) {
+  return has.driven     ? LoopWith<kRubs, true, true>(has)
+         : has.on_plane ? LoopWith<kRubs, true, false>(has)
+                        : LoopWith<kRubs, false, false>(has);
 }
 
-/// Centres at unlike heights.
+/// Centres at unlike heights, maybe.
+template <bool kDriven, bool kRolls>
+RunLoop UnevenLoop(const GrainFeatures& has) {
+  return has.lifts ? RunAs<GrainHas<false, true, true, kDriven, true, true, kRolls>>
+                   : RunAs<GrainHas<false, true, true, kDriven, true, false, kRolls>>;
+}
+
 template <bool kDriven>
-HWY_ATTR std::size_t RunUneven(const GrainFeatures& features, GrainBatch& batch,
-                               const std::vector<GrainLaw>& laws, const GrainPlane& plane,
-                               const GrainGroup& group, const GrainSteps& steps) {
-  if (features.lifts)
-    return RunAs<false, true, true, kDriven, true, true>(batch, laws, plane, group, steps);
-  return RunAs<false, true, true, kDriven, true>(batch, laws, plane, group, steps);
+RunLoop UnevenLoopOn(const GrainFeatures& has) {
+  return has.rolls ? UnevenLoop<kDriven, true>(has) : UnevenLoop<kDriven, false>(has);
 }
 
-HWY_ATTR std::size_t Run(const GrainFeatures& features, GrainBatch& batch,
+HWY_ATTR std::size_t Run(const GrainFeatures& has, GrainBatch& batch,
                          const std::vector<GrainLaw>& laws, const GrainPlane& plane,
                          const GrainGroup& group, const GrainSteps& steps) {
-  if (features.is_uneven())
-    return features.driven ? RunUneven<true>(features, batch, laws, plane, group, steps)
-                           : RunUneven<false>(features, batch, laws, plane, group, steps);
-  return features.rubs ? RunOn<true>(features, batch, laws, plane, group, steps)
-                       : RunOn<false>(features, batch, laws, plane, group, steps);
+  const RunLoop loop = has.is_uneven() && has.driven ? UnevenLoopOn<true>(has)
+                       : has.is_uneven()             ? UnevenLoopOn<false>(has)
+                       : has.rubs                    ? LoopOn<true>(has)
+                                                     : LoopOn<false>(has);
+  return loop(batch, laws, plane, group, steps);
 }
 
 std::int64_t Target() { return HWY_TARGET; }

@@ -23,8 +23,8 @@ std::vector<GrainKind> kinds_of(const Scene& scene, std::vector<std::uint32_t>& 
       kinds.push_back({1 / sphere.mass, 1 / sphere.moment_of_inertia(), sphere.mass * scene.gravity,
                        1 / (1 + sphere.inverse_shape_factor()),
                        sphere.inverse_shape_factor() / sphere.radius, contact.static_friction,
-                       contact.kinetic_friction, scene.material[i], sphere.radius, &sphere,
-                       &contact});
+                       contact.kinetic_friction, scene.material[i], sphere.radius,
+                       contact.rolling(0), contact.drilling_length, &sphere, &contact});
     }
     kind.push_back(at->second);
   }
@@ -67,6 +67,12 @@ bool are_on_plane(const std::vector<Sphere>& bodies, std::span<const BodyState> 
   return true;
 }
 
+bool rolls(const Scene& scene) {
+  return std::ranges::any_of(scene.substrate, [](const SubstrateContact& c) {
+    return !c.rolling.is_zero() || c.drilling_length > 0;
+  });
+}
+
 bool rubs(const GrainLaw& law) { return law.damping > 0 && law.friction > 0; }
 
 GrainFeatures features_of(const Scene& scene, const std::vector<GrainLaw>& laws,
@@ -75,13 +81,14 @@ GrainFeatures features_of(const Scene& scene, const std::vector<GrainLaw>& laws,
   features.rubs = std::any_of(laws.begin(), laws.end(), rubs);
   features.radii = std::ranges::any_of(
       scene.bodies, [&](const Sphere& s) { return s.radius != scene.bodies[0].radius; });
-  features.rubs |= features.radii;
+  features.rolls = rolls(scene);
+  features.rubs |= features.radii || features.rolls;
   const bool spins_level = std::any_of(initial.begin(), initial.end(), [](const BodyState& s) {
     return !s.angular_velocity.head<2>().isZero(0);
   });
   features.driven = !scene.motion.is_still() || !scene.downhill.isZero(0);
-  features.on_plane =
-      slides_or_rolls(scene) || (features.rubs && spins_level) || features.driven || features.radii;
+  features.on_plane = slides_or_rolls(scene) || (features.rubs && spins_level) || features.driven ||
+                      features.radii || features.rolls;
   features.lifts = !scene.confined &&
                    ((features.rubs && features.on_plane) || !are_on_plane(scene.bodies, initial));
   features.rubs |= features.lifts;
@@ -128,9 +135,12 @@ std::string grain_refusal(const ContactScene& scene, std::span<const BodyState> 
   const Scene& hard = scene.hard;
   if (hard.box) return "the scene is a box";
   if (scene.own) return "each two bodies have a contact of their own";
-  for (const SubstrateContact& c : hard.substrate)
-    if (!c.rolling.is_zero() || c.drilling_length > 0 || c.coupled_radius > 0)
-      return "the substrate has rolling or drilling friction";
+  for (const SubstrateContact& c : hard.substrate) {
+    if (!c.rolling.is_constant()) return "rolling friction depends on the speed";
+    if (c.rolling_while_sliding && !c.rolling.is_zero())
+      return "rolling friction acts on bodies that slide";
+    if (c.coupled_radius > 0) return "sliding and drilling share their friction";
+  }
   for (std::size_t k = 0; k < scene.soft.size(); ++k) {
     if (!scene.soft[k]) return "not all contacts of bodies are soft";
     if (std::holds_alternative<AsperityForce>(scene.soft[k]->tangential))

@@ -153,15 +153,15 @@ class GrainSolver::Impl {
     return features().driven ? drive_.drift_of(n) : Vector2::Zero();
   }
 
-  /// The largest acceleration of a grain by friction of the plane [m/s²]: μ_k g, and μ_s g where
-  /// that holds what the plane carries along.
+  /// The largest acceleration of a grain by friction of the plane [m/s²]: μ_k g, or μ_s g where
+  /// that holds what the plane carries along, and that of rolling friction.
   double braking() const {
     double most = 0;
     if (features().on_plane)
       for (const GrainKind& kind : kernels_.kinds()) {
         const double held_by = features().driven ? kind.static_friction : 0;
-        most = std::max(most,
-                        std::max(held_by, kind.kinetic_friction) * kind.weight * kind.inverse_mass);
+        most = std::max(most, (std::max(held_by, kind.kinetic_friction) + kind.rolling_friction) *
+                                  kind.weight * kind.inverse_mass);
       }
     return most;
   }
@@ -299,12 +299,13 @@ class GrainSolver::Impl {
   /// the speeds of those that glided.
   GrainSpeeds end_block(std::size_t length, std::size_t touching) {
     contacts_.renew(touching);
-    // The first kick is half as long, and without friction there is none.
-    const bool begins = n_ == 0 && features().on_plane;
+    // The first kick is half as long, and without friction there is none; of rolling friction on a
+    // plane that carries grains along no sum is known.
+    const bool alone = (n_ == 0 && features().on_plane) || (features().driven && features().rolls);
     std::vector<GrainSpeeds> gliding(team_.size());
-    if (begins) gliding[0] = begin_gliding();
     team_.run_shares(grains_.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
-      if (!begins) gliding[own] = kernels_.glide(grains_, first, last, steps_of(length));
+      gliding[own] = alone ? step_alone(first, last, length)
+                           : kernels_.glide(grains_, first, last, steps_of(length));
       const auto take_back = [&](const GrainIslandGroup& group, bool is_between) {
         for (std::size_t k = 0; k < group.grains.size(); ++k) {
           const std::uint32_t i = group.grains[k];
@@ -329,16 +330,16 @@ class GrainSolver::Impl {
     contacts_.keep(group, pairs, length, ended_[k].touching_before, neighbours_, ended_[k].parted);
   }
 
-  /// The first step with its half kick.
-  GrainSpeeds begin_gliding() {
+  /// Of grains that meet none, one by one.
+  GrainSpeeds step_alone(std::size_t begin, std::size_t end, std::size_t length) {
     GrainBatch batch;
     batch.hold(GrainBatch::kAtOnce, 0, features());
     GrainSpeeds fastest;
-    for (std::size_t first = 0; first < grains_.size(); first += GrainBatch::kAtOnce) {
-      const std::size_t count = std::min(GrainBatch::kAtOnce, grains_.size() - first);
+    for (std::size_t first = begin; first < end; first += GrainBatch::kAtOnce) {
+      const std::size_t count = std::min(GrainBatch::kAtOnce, end - first);
       for (std::size_t k = 0; k < count; ++k)
         batch.take(k, grains_, first + k, kernels_.kinds(), features());
-      kernels_.run(batch, {0, count, 0, 0}, steps_of(1));
+      kernels_.run(batch, {0, count, 0, 0}, steps_of(length));
       for (std::size_t k = 0; k < count; ++k) {
         grains_.take(first + k, batch.grains, k, features());
         const double vz = features().lifts ? batch.grains.vz[k] : 0;
