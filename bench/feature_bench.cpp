@@ -8,7 +8,6 @@
 
 #include "grain_gas.h"
 #include "reference/near_pairs.h"
-#include "reference/piles/pile_solver.h"
 #include "reference/steps/step_solver.h"
 
 namespace slipcheck {
@@ -23,7 +22,6 @@ void enclose(ContactScene& scene) {
   const double room = hard.bodies.front().radius;  // for those that lie across an edge
   const Vector3 least(-room, -room, 0), most(hard.periodic.x() + room, hard.periodic.y() + room, 0);
   hard.periodic.setZero();
-  hard.confined = false;  // PileSolver knows no other
   for (const auto& [point, normal] : {std::pair{least, Vector3(1, 0, 0)},
                                       {least, Vector3(0, 1, 0)},
                                       {most, Vector3(-1, 0, 0)},
@@ -47,14 +45,6 @@ ContactScene monolayer(const std::string& feature) {
   return scene;
 }
 
-std::unique_ptr<KeptSolver> solver_of(const ContactScene& scene) {
-  const std::vector<BodyState>& initial = scene.hard.initial;
-  if (scene.hard.surfaces.empty())
-    return std::make_unique<StepSolver>(scene, initial, StepSettings{.step = bench::kStep});
-  return std::make_unique<PileSolver>(
-      scene, initial, PileSettings{.step = bench::kStep, .collision_time = 50 * bench::kStep});
-}
-
 /// Steps of grains that lie like those of the plain scene, with one feature more. Time for a grain
 /// and step, and for a step of each pair that lies nearer than half a radius at the start.
 void BM_GrainFeature(benchmark::State& state, const std::string& feature) {
@@ -62,10 +52,10 @@ void BM_GrainFeature(benchmark::State& state, const std::string& feature) {
   constexpr double kWarmUp = 100, kSteps = 1000;
   for (auto _ : state) {
     state.PauseTiming();
-    const std::unique_ptr<KeptSolver> solver = solver_of(scene);
-    solver->run(until_time(kWarmUp * bench::kStep), nullptr);
+    StepSolver solver(scene, scene.hard.initial, {.step = bench::kStep});
+    solver.run(until_time(kWarmUp * bench::kStep), nullptr);
     state.ResumeTiming();
-    const SolvedRun run = solver->run(until_time((kWarmUp + kSteps) * bench::kStep), nullptr);
+    const SolvedRun run = solver.run(until_time((kWarmUp + kSteps) * bench::kStep), nullptr);
     if (run.failed) state.SkipWithError(run.reason.c_str());
   }
   const auto near = near_pairs(

@@ -18,6 +18,7 @@
 #include "reference/piles/pile_law.h"
 #include "reference/piles/pile_solver.h"
 #include "reference/run_variation.h"
+#include "reference/steps/grain_scene.h"
 #include "reference/steps/step_length.h"
 #include "reference/steps/step_solver.h"
 #include "reference/steps/steps_as_events.h"
@@ -147,13 +148,14 @@ void ReferenceSolver::choose_on_plane() {
     if (const std::string obstacle = SurfaceWorld::obstacle(scene.hard); !obstacle.empty())
       throw Unsupported("event knows no " + obstacle +
                         " beside surfaces; compare.reference may be contact");
-  if (settings_.asked != Compare::Reference::event && needs_piles(scene, automatic)) {
-    choose_piles();
-    return;
-  }
   const bool stepped =
       settings_.asked == Compare::Reference::steps ||
       (automatic && soft && (periodic || scene.hard.bodies.size() > kMostIntegrated));
+  if (settings_.asked != Compare::Reference::event && needs_piles(scene, automatic) &&
+      !(stepped && grain_refusal(scene, scene.hard.initial).empty())) {
+    choose_piles();
+    return;
+  }
   resolved_ = stepped || settings_.asked == Compare::Reference::contact || (automatic && soft);
   if (resolved_ && !scene.hard.extents.empty())
     throw Unsupported(
@@ -176,7 +178,7 @@ void ReferenceSolver::choose_on_plane() {
         "the integrator knows no images across a periodic plane's edges; compare.reference may be "
         "steps, or event where every contact is hard");
   if (!stepped) return;
-  const double collision = shortest_collision(scene);
+  const double collision = std::min(shortest_collision(scene), shortest_at_surfaces(scene));
   if (collision == kNever)
     throw Unsupported(
         "steps of fixed length need a collision to be measured by: no two bodies have a soft "

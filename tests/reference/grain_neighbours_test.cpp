@@ -44,10 +44,19 @@ std::vector<NearSphere> spheres_at(const GrainArrays& grains) {
   return spheres;
 }
 
+/// 0: it does not repeat itself that way.
+GrainPlane periodic_plane(double length_x, double length_y) {
+  GrainPlane plane;
+  plane.radius = kRadius;
+  plane.length_x = length_x;
+  plane.length_y = length_y;
+  return plane;
+}
+
 /// Grains in no order, most of which are in cells of another thread's, and those in their order.
 TEST(GrainNeighbours, LieAlikeWhoeverSortsThem) {
   const double x = 7.1 * kWidth, y = 5.1 * kWidth;
-  const GrainPlane plane = {kRadius, x, y};
+  const GrainPlane plane = periodic_plane(x, y);
   GrainArrays grains = random_grains(200, x, y);
   for (int turn = 0; turn < 2; ++turn) {
     ThreadTeam alone(1);
@@ -70,7 +79,7 @@ TEST(GrainNeighbours, AreThoseOfAllPairsWhateverTheCells) {
            {std::pair(true, true), {true, false}, {false, true}, {false, false}})
         for (const std::size_t threads : {1, 3}) {
           const double x = 1.01 * columns * kWidth, y = 1.01 * rows * kWidth;
-          const GrainPlane plane = {kRadius, repeats_x ? x : 0, repeats_y ? y : 0};
+          const GrainPlane plane = periodic_plane(repeats_x ? x : 0, repeats_y ? y : 0);
           const auto n = static_cast<std::size_t>(20 + columns * rows);
           const GrainArrays grains = random_grains(n, x, y);
           ThreadTeam team(threads);

@@ -39,6 +39,7 @@ struct Laws {
   bool unlike = false;  // radii
   bool lifts = false;
   double rolling = 0;  // μ_r
+  bool walls = false;
 };
 
 std::string name_of(const testing::TestParamInfo<Laws>& info) { return info.param.name; }
@@ -62,6 +63,26 @@ void make_lifting(Scene& scene, double speed) {
     if (i % 2 == 0) scene.initial[i].position.z() += 0.3 * R;
     scene.initial[i].velocity.z() = i % 2 == 0 ? -speed : 0.7 * speed;
   }
+}
+
+/// Four walls, smoother than grains and one of them softer, a radius outside of such a rectangle.
+void enclose(ContactScene& scene, const Vector2& least, const Vector2& most) {
+  Scene& hard = scene.hard;
+  const double R = hard.bodies[0].radius;
+  hard.periodic.setZero();
+  for (const auto& [point, normal] : {std::pair{least, Vector2(1, 0)},
+                                      {least, Vector2(0, 1)},
+                                      {most, Vector2(-1, 0)},
+                                      {most, Vector2(0, -1)}}) {
+    const Vector2 at = point - R * normal;
+    hard.surfaces.push_back({PlaneShape{{at.x(), at.y(), 0}, {normal.x(), normal.y(), 0}}, {}});
+    hard.on_surfaces.emplace_back();
+    scene.soft_surfaces.emplace_back(scene.soft[0]);
+    if (auto* rubs = std::get_if<ViscousForce>(&scene.soft_surfaces.back()->tangential))
+      rubs->friction *= 0.5;
+  }
+  scene.soft_surfaces[2]->normal =
+      LinearForce{0.5 * std::get<LinearForce>(scene.soft[0]->normal).stiffness, 0};
 }
 
 /// With as much drilling friction.
@@ -103,7 +124,14 @@ ContactScene cluster(const Laws& laws, std::size_t side) {
   SoftContact contact{laws.normal, laws.end, NoTangentialForce{}};
   const double reduced = 0.5 * hard.bodies[0].mass;
   if (laws.rubs) contact.tangential = ViscousForce{reduced * 0.1 / kCollisionTime, 0.3};
-  return with_contact(std::move(hard), contact);
+  ContactScene scene = with_contact(std::move(hard), contact);
+  if (laws.walls) {
+    const double extent = 2.2 * kRadius * 0.5 * static_cast<double>(side - 1) + 0.1 * kRadius;
+    enclose(scene, {-extent, -extent}, {extent, extent});
+    for (std::size_t i = 1; i < scene.hard.initial.size(); i += 4)
+      scene.hard.initial[i].velocity.head<2>() *= -1;  // outwards
+  }
+  return scene;
 }
 
 double largest_difference(const std::vector<BodyState>& a, const std::vector<BodyState>& b,
@@ -256,6 +284,50 @@ INSTANTIATE_TEST_SUITE_P(
              true,
              true,
              0.02},
+        Laws{"walls",
+             kLinear,
+             ContactEnd::zero_overlap,
+             true,
+             true,
+             {0, 0},
+             {},
+             false,
+             false,
+             0,
+             true},
+        Laws{"walls_smooth",
+             kLinear,
+             ContactEnd::zero_overlap,
+             false,
+             false,
+             {0, 0},
+             {},
+             false,
+             false,
+             0,
+             true},
+        Laws{"walls_lifting",
+             kClamped,
+             ContactEnd::zero_force,
+             true,
+             true,
+             {0, 0},
+             {},
+             true,
+             true,
+             0,
+             true},
+        Laws{"walls_rolling",
+             kLinear,
+             ContactEnd::zero_overlap,
+             true,
+             true,
+             {0, 0},
+             {},
+             true,
+             true,
+             0.02,
+             true},
         Laws{"smooth", kLinear, ContactEnd::zero_overlap, false, false},
         Laws{"smooth_clamped", kClamped, ContactEnd::zero_force, false, false},
         Laws{"smooth_on_plane", kLinear, ContactEnd::zero_overlap, false, true},
@@ -326,6 +398,7 @@ struct Driven {
   bool unlike = false;  // radii
   bool lifts = false;
   double rolling = 0;  // μ_r
+  bool walls = false;
 };
 
 void PrintTo(const Driven& driven, std::ostream* out) { *out << driven.name; }
@@ -345,13 +418,15 @@ TEST_P(GrainsOn, GlideAsStepSolverDoes) {
   if (GetParam().unlike) make_unlike(hard);
   if (GetParam().lifts) make_lifting(hard, 0.5);
   add_rolling(hard, GetParam().rolling);
+  const Vector2 length = hard.periodic;
+  if (GetParam().walls) enclose(scene, {0, 0}, length);
   for (std::size_t i = 0; i < hard.initial.size(); i += 2) {  // as it rolls on the plane
     BodyState& state = hard.initial[i];
     const Vector2 v = state.velocity.head<2>() - hard.motion.velocity(0).head<2>();
     state.angular_velocity.head<2>() = Vector2(-v.y(), v.x()) / hard.bodies[i].radius;
   }
   constexpr std::size_t kCounts[] = {1, 10, 100, 1000, 1000};
-  EXPECT_GT(expect_steps_of_step_solver(scene, hard.periodic.x(), 2e-4, kCounts), 10u);
+  EXPECT_GT(expect_steps_of_step_solver(scene, length.x(), 2e-4, kCounts), 10u);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -375,7 +450,9 @@ INSTANTIATE_TEST_SUITE_P(
                true,
                false,
                0.02},
-        Driven{"slope", {1, 0.4}, {}}, Driven{"steep", {3, -20}, {}},
+        Driven{"walls", {0, 0}, {}, false, false, 0, true},
+        Driven{"walls_lifting", {0, 0}, {}, true, true, 0.005, true}, Driven{"slope", {1, 0.4}, {}},
+        Driven{"steep", {3, -20}, {}},
         Driven{"shaken", {0, 0}, SubstrateMotion::oscillation({0.1, 0.05}, 2, 0.4)},
         Driven{"fast", {0.5, 0}, SubstrateMotion::oscillation({0.02, 0.02}, 8, 1)},
         Driven{"belt", {0, 0}, SubstrateMotion::constant({2, -0.3})},
@@ -563,6 +640,10 @@ TEST_P(GrainKernelsFor, SameBitsOnEveryInstructionSet) {
   if (GetParam() == std::string("unlike")) make_unlike(scene.hard);
   if (GetParam() == std::string("lifting")) make_lifting(scene.hard, 0.5);
   if (GetParam() == std::string("rolling")) add_rolling(scene.hard, 0.02);
+  if (GetParam() == std::string("walls")) {
+    scene.hard.confined = false;
+    enclose(scene, {0, 0}, scene.hard.periodic);
+  }
   if (GetParam() == std::string("driven")) {
     scene.hard.downhill = {0.2, 0};
     scene.hard.motion = SubstrateMotion::oscillation({0.1, 0.2}, 1, 0);
@@ -584,7 +665,8 @@ TEST_P(GrainKernelsFor, SameBitsOnEveryInstructionSet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GrainKernelsFor,
-                         testing::Values("plain", "driven", "unlike", "lifting", "rolling"),
+                         testing::Values("plain", "driven", "unlike", "lifting", "rolling",
+                                         "walls"),
                          [](const auto& each) { return std::string(each.param); });
 
 /// Beyond the limit of the linear contact, 2/ω0 = (2/π) t_col, energy grows until grains jump over

@@ -21,9 +21,10 @@ struct GrainFeatures {
   bool radii = false;       ///< on_plane and rubs, with centres at unlike heights
   bool lifts = false;       ///< on_plane and rubs, and grains leave the substrate
   bool rolls = false;       ///< on_plane and rubs, with rolling and drilling friction
+  bool walls = false;       ///< on_plane and rubs, upright on the plane
 
   /// Whether centres lie at unlike heights, or the loops for such do the rest as well.
-  bool is_uneven() const { return radii || lifts || rolls; }
+  bool is_uneven() const { return radii || lifts || rolls || walls; }
 };
 
 /// What the grains of one kind have in common; see StepBody.
@@ -124,8 +125,10 @@ struct GrainArrays {
   }
 };
 
-/// Two grains that are close enough to meet soon, or touch.
+/// Two grains that are close enough to meet soon, or touch; or a grain and a wall.
 struct GrainPair {
+  static constexpr std::uint16_t kNoWall = 0xffff;
+
   /// On the first grain, and of that the part across the line of centres [N].
   struct Force {
     double x = 0, y = 0, z = 0;
@@ -136,8 +139,9 @@ struct GrainPair {
   double shift_x = 0, shift_y = 0;  ///< from b's place to its image next to a [m]
   std::uint32_t law = 0;
   bool touching = false;
-  std::uint16_t parted_in = 0;  ///< 1 for the first step of the block; 0: in none
-  double normal_force = 0;      ///< F_N [N]
+  std::uint16_t parted_in = 0;   ///< 1 for the first step of the block; 0: in none
+  std::uint16_t wall = kNoWall;  ///< that b stands for
+  double normal_force = 0;       ///< F_N [N]
   Force force;
 };
 

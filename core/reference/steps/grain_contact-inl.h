@@ -17,10 +17,11 @@ namespace HWY_NAMESPACE {
 
 /// What a loop is made for, of GrainFeatures.
 template <bool linear, bool rubs, bool on_plane, bool driven, bool uneven = false,
-          bool lifts = false, bool rolls = false>
+          bool lifts = false, bool rolls = false, bool walls = false>
 struct GrainHas {
   static constexpr bool kLinear = linear, kRubs = rubs, kOnPlane = on_plane, kDriven = driven;
   static constexpr bool kUneven = uneven, kLifts = lifts, kRolls = rolls;
+  static constexpr bool kWalls = walls;
 };
 
 /// StepLoop's contact of two bodies (K (1)-(6)), written out for grains whose centres stay in the
@@ -33,8 +34,14 @@ class GrainContact {
   static constexpr bool kUneven = Has::kUneven, kLifts = Has::kLifts;
 
  public:
-  GrainContact(GrainBatch& batch, const std::vector<GrainLaw>& laws, double radius, double step)
-      : s_(batch), g_(batch.grains), laws_(laws.data()), radius_(radius), h_(step) {}
+  GrainContact(GrainBatch& batch, const std::vector<GrainLaw>& laws, const GrainPlane& plane,
+               double step)
+      : s_(batch),
+        g_(batch.grains),
+        laws_(laws.data()),
+        walls_(plane.walls.data()),
+        radius_(plane.radius),
+        h_(step) {}
 
   struct Direction {
     double x = 0, y = 0, z = 0;
@@ -55,6 +62,13 @@ class GrainContact {
 
   HWY_ATTR Between between(const GrainPair& pair) const {
     const std::size_t a = pair.a, b = pair.b;
+    if constexpr (Has::kWalls) {
+      if (pair.wall != GrainPair::kNoWall) {
+        const GrainWall& wall = walls_[pair.wall];
+        const double distance = wall.distance(g_.x[a], g_.y[a]);
+        return {distance * wall.x, distance * wall.y, 0, s_.radius[a]};
+      }
+    }
     const double x = g_.x[a] - g_.x[b] - pair.shift_x, y = g_.y[a] - g_.y[b] - pair.shift_y;
     if constexpr (!kUneven) return {x, y, 0, 2 * radius_};
     const double A = s_.radius[a], B = s_.radius[b];
@@ -241,6 +255,7 @@ class GrainContact {
   GrainBatch& s_;
   const GrainArrays& g_;
   const GrainLaw* laws_;
+  const GrainWall* walls_;
   double radius_, h_;
 };
 

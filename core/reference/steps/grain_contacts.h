@@ -38,7 +38,7 @@ class GrainContacts {
       GrainPair& pair = contact.pair;
       pair.a = list.sorted(pair.a);
       pair.b = list.sorted(pair.b);
-      if (pair.a < pair.b) continue;
+      if (pair.a <= pair.b) continue;
       std::swap(pair.a, pair.b);
       const GrainPair::Force& f = pair.force;
       pair.force = {-f.x, -f.y, -f.z, -f.across_x, -f.across_y, -f.across_z};
@@ -48,7 +48,7 @@ class GrainContacts {
   /// The list is new.
   void find(const GrainNeighbours& list) {
     for (Contact& contact : touching_)
-      contact.listed = list.place_of(contact.pair.a, contact.pair.b);
+      contact.listed = list.place_of(contact.pair.a, contact.pair.b, contact.pair.wall);
     remember(list);
   }
 
@@ -72,8 +72,12 @@ class GrainContacts {
     pair.shift_x = shift_to_nearest_image(grains.x[i] - grains.x[j], plane.length_x);
     pair.shift_y = shift_to_nearest_image(grains.y[i] - grains.y[j], plane.length_y);
     const std::vector<GrainKind>& kinds = kernels_->kinds();
-    pair.law = static_cast<std::uint32_t>(kinds[grains.kind[i]].material * materials_ +
-                                          kinds[grains.kind[j]].material);
+    const std::size_t material = kinds[grains.kind[i]].material;
+    pair.wall = list.wall(listed);
+    pair.law = static_cast<std::uint32_t>(
+        pair.wall == GrainPair::kNoWall
+            ? material * materials_ + kinds[grains.kind[j]].material
+            : materials_ * materials_ + material * plane.walls.size() + pair.wall);
   }
 
   /// Forgets all and makes room for so many.

@@ -193,7 +193,7 @@ void GrainIslands::make_groups(std::size_t threads) {
                          std::span(share.grains).subspan(ends[first], own_grains),
                          std::span(share.pairs).subspan(share.pair_start[first], own_pairs),
                          static_cast<std::uint32_t>(grains - ends[first])});
-      grains += own_grains;
+      grains += own_grains + 1;
       pairs += own_pairs;
       first = last;
     }

@@ -22,7 +22,8 @@ struct GrainNear {
   std::vector<std::uint32_t> hit;   ///< of each near pair that is to meet, its first grain
 };
 
-/// Islands whose steps are done at once; in the batch they are to lie as `batch` says.
+/// Islands whose steps are done at once; in the batch they are to lie as `batch` says. The place
+/// behind the last grain belongs to none: there is what stands for walls.
 struct GrainIslandGroup {
   GrainGroup batch;
   std::span<const std::uint32_t> grains;
@@ -57,7 +58,9 @@ class GrainIslands {
   std::uint32_t place(std::uint32_t grain) const { return place_[grain]; }
   std::size_t grain_count() const;
   /// What a batch must hold for all groups.
-  std::size_t grain_places() const { return groups_.empty() ? 0 : groups_.back().batch.last_grain; }
+  std::size_t grain_places() const {
+    return groups_.empty() ? 0 : groups_.back().batch.last_grain + 1;
+  }
   std::size_t pair_count() const { return groups_.empty() ? 0 : groups_.back().batch.last_pair; }
 
  private:

@@ -60,6 +60,11 @@ void GrainBatch::take(std::size_t k, const GrainArrays& from, std::size_t i,
   if (has.lifts) kind[k] = &of;
 }
 
+void GrainBatch::take_wall(std::size_t k, const GrainFeatures& has) {
+  grains.for_each_changing(has, [k](std::vector<double>& values) { values[k] = 0; });
+  for (auto* values : {&fx, &fy, &fz, &tx, &ty, &tz, &weight, &radius}) (*values)[k] = 0;
+}
+
 void land_grain(const GrainKind& kind, const GrainPlane& plane, const GrainPush& push,
                 GrainArrays& grains, std::size_t i) {
   GrainArrays& g = grains;
@@ -103,7 +108,12 @@ GrainSpeeds GrainKernels::glide(GrainArrays& grains, std::size_t first, std::siz
 
 std::size_t GrainKernels::run(GrainBatch& batch, const GrainGroup& group,
                               const GrainSteps& steps) const {
-  return HWY_DYNAMIC_DISPATCH(Run)(features_, batch, laws_, plane_, group, steps);
+  const bool walls = features_.walls && group.first_pair < group.last_pair;
+  if (walls) batch.take_wall(group.last_grain, features_);
+  const std::size_t begun =
+      HWY_DYNAMIC_DISPATCH(Run)(features_, batch, laws_, plane_, group, steps);
+  if (walls) batch.take_wall(group.last_grain, features_);  // no forces are left
+  return begun;
 }
 
 }  // namespace slipcheck

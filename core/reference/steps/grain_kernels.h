@@ -31,6 +31,8 @@ struct GrainBatch {
 
   /// Makes room for so many; what there is stays.
   void hold(std::size_t count, std::size_t pair_count, const GrainFeatures& has);
+  /// Grain `k` stands for walls: a point at rest.
+  void take_wall(std::size_t k, const GrainFeatures& has);
   /// Takes grain `i` of `from` as grain `k`.
   void take(std::size_t k, const GrainArrays& from, std::size_t i,
             const std::vector<GrainKind>& kinds, const GrainFeatures& has);
@@ -75,6 +77,14 @@ struct GrainSteps {
   const GrainDriving* driving = nullptr;  ///< of so many steps, where the plane is driven
 };
 
+/// A wall upright on the plane, touched from where n·x > c.
+struct GrainWall {
+  double x = 0, y = 0;  ///< n
+  double c = 0;         ///< [m]
+
+  double distance(double at_x, double at_y) const { return x * at_x + y * at_y - c; }
+};
+
 /// What all grains share.
 struct GrainPlane {
   double radius = 0;                  ///< R, the largest [m]
@@ -82,6 +92,7 @@ struct GrainPlane {
   double length_x = 0, length_y = 0;  ///< of the periodic cell [m]; 0: none
   double gravity = 0;                 ///< g, normal to the plane [m/s²]
   double slowest_rebound = 0;         ///< of a landing [m/s]
+  std::vector<GrainWall> walls;
 };
 
 /// How far apart centres of two uneven grains that touch are at most, seen from above: 2 √(R_a R_b)

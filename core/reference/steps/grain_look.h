@@ -77,25 +77,32 @@ class GrainLook {
   }
 
   void show_group(const GrainIslandGroup& group, const GrainIslands& islands) {
-    batch_.hold(group.grains.size(), group.pairs.size(), kernels_.features());
-    for (std::size_t k = 0; k < group.grains.size(); ++k) take(k, group.grains[k]);
+    const std::size_t count = group.grains.size();
+    batch_.hold(count + 1, group.pairs.size(), kernels_.features());
+    for (std::size_t k = 0; k < count; ++k) take(k, group.grains[k]);
     const std::uint32_t shift = group.shift - static_cast<std::uint32_t>(group.batch.first_grain);
     for (std::size_t p = 0; p < group.pairs.size(); ++p) {
       GrainPair& pair = batch_.pairs[p];
       contacts_.take(group.pairs[p], list_, grains_, pair);
       pair.a = islands.place(pair.a) + shift;
-      pair.b = islands.place(pair.b) + shift;
+      pair.b = pair.wall == GrainPair::kNoWall ? islands.place(pair.b) + shift
+                                               : static_cast<std::uint32_t>(count);
     }
-    kernels_.run(batch_, {0, group.grains.size(), 0, group.pairs.size()}, half_);
-    for (std::size_t k = 0; k < group.grains.size(); ++k) show_grain(k, group.grains[k]);
+    kernels_.run(batch_, {0, count, 0, group.pairs.size()}, half_);
+    for (std::size_t k = 0; k < count; ++k) show_grain(k, group.grains[k]);
     for (std::size_t p = 0; p < group.pairs.size(); ++p) {
       const GrainPair& pair = batch_.pairs[p];
       const double impulse = std::abs(pair.normal_force) * half_.step;
       if (!pair.touching || !(impulse > 0)) continue;
-      const auto [i, j] =
-          std::minmax(places_.body[group.grains[pair.a]], places_.body[group.grains[pair.b]]);
-      touches_.push_back({group.pairs[p], {static_cast<int>(i), static_cast<int>(j), impulse}});
+      touches_.push_back({group.pairs[p], touch_of(pair, group, impulse)});
     }
+  }
+
+  Touch touch_of(const GrainPair& pair, const GrainIslandGroup& group, double impulse) const {
+    const auto first = static_cast<int>(places_.body[group.grains[pair.a]]);
+    if (pair.wall != GrainPair::kNoWall) return {first, surface_touch(pair.wall), impulse};
+    const auto second = static_cast<int>(places_.body[group.grains[pair.b]]);
+    return {std::min(first, second), std::max(first, second), impulse};
   }
 
   /// Those that no group has, so many at once.

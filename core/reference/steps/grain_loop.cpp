@@ -58,6 +58,7 @@ std::vector<std::string> GrainLoop::features() const {
       has.lifts   ? "centres at any height"
       : has.radii ? "unlike radii: each centre stays at its height"
                   : "one radius, centres in a plane: no z",
+      has.walls ? "walls upright on the substrate" : "no walls",
       "many bodies: neighbours, islands, " + GrainSolver::instruction_set()};
 }
 

@@ -261,7 +261,7 @@ HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws,
                            const GrainPlane& plane, const GrainGroup& group,
                            const GrainSteps& steps) {
   using Contact = GrainContact<Has>;
-  const Contact contact(batch, laws, plane.radius, steps.step);
+  const Contact contact(batch, laws, plane, steps.step);
   std::size_t begun = 0;
   for (std::size_t s = 0; s < steps.count; ++s) {
     for (std::size_t k = group.first_pair; k < group.last_pair; ++k) {
@@ -269,7 +269,8 @@ HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws,
       const typename Contact::Between between = contact.between(pair);
       const double distance2 = between.distance2();
       if (distance2 <= between.reach * between.reach)
-        begun += contact.meet(pair, between, std::sqrt(distance2), s, steps.begun || s > 0);
+        begun += contact.meet(pair, between, std::sqrt(distance2), s, steps.begun || s > 0) &&
+                 (!Has::kWalls || pair.wall == GrainPair::kNoWall);
       else if (pair.touching)
         contact.part(pair, between, std::sqrt(distance2), s);
     }
@@ -298,24 +299,29 @@ RunLoop LoopOn(const GrainFeatures& has) {
 }
 
 /// Centres at unlike heights, maybe.
-template <bool kDriven, bool kRolls>
+template <bool kDriven, bool kRolls, bool kWalls>
 RunLoop UnevenLoop(const GrainFeatures& has) {
-  return has.lifts ? RunAs<GrainHas<false, true, true, kDriven, true, true, kRolls>>
-                   : RunAs<GrainHas<false, true, true, kDriven, true, false, kRolls>>;
+  return has.lifts ? RunAs<GrainHas<false, true, true, kDriven, true, true, kRolls, kWalls>>
+                   : RunAs<GrainHas<false, true, true, kDriven, true, false, kRolls, kWalls>>;
 }
 
 template <bool kDriven>
 RunLoop UnevenLoopOn(const GrainFeatures& has) {
-  return has.rolls ? UnevenLoop<kDriven, true>(has) : UnevenLoop<kDriven, false>(has);
+  return has.rolls ? UnevenLoop<kDriven, true, false>(has) : UnevenLoop<kDriven, false, false>(has);
+}
+
+RunLoop LoopBetweenWalls(const GrainFeatures& has) {
+  return has.rolls ? UnevenLoop<false, true, true>(has) : UnevenLoop<false, false, true>(has);
 }
 
 HWY_ATTR std::size_t Run(const GrainFeatures& has, GrainBatch& batch,
                          const std::vector<GrainLaw>& laws, const GrainPlane& plane,
                          const GrainGroup& group, const GrainSteps& steps) {
-  const RunLoop loop = has.is_uneven() && has.driven ? UnevenLoopOn<true>(has)
-                       : has.is_uneven()             ? UnevenLoopOn<false>(has)
-                       : has.rubs                    ? LoopOn<true>(has)
-                                                     : LoopOn<false>(has);
+  const RunLoop loop = has.walls                       ? LoopBetweenWalls(has)
+                       : has.is_uneven() && has.driven ? UnevenLoopOn<true>(has)
+                       : has.is_uneven()               ? UnevenLoopOn<false>(has)
+                       : has.rubs                      ? LoopOn<true>(has)
+                                                       : LoopOn<false>(has);
   return loop(batch, laws, plane, group, steps);
 }
 

@@ -7,6 +7,7 @@
 
 #include "reference/steps/grain_islands.h"
 #include "reference/steps/grain_kernels.h"
+#include "reference/steps/grain_neighbours.h"
 
 namespace slipcheck {
 
@@ -16,11 +17,12 @@ class GrainMeetings {
  public:
   /// Of what must outlive this. margin: how near two must be to meet in the block [m]; time: of the
   /// block [s]; step: h [s]; braking, landing: as of GrainBlocks.
-  GrainMeetings(const GrainKernels& kernels, const GrainArrays& grains, const GrainPairs& listed,
+  GrainMeetings(const GrainKernels& kernels, const GrainArrays& grains, const GrainNeighbours& list,
                 double margin, double time, double step, double braking, double landing)
       : kernels_(&kernels),
         grains_(&grains),
-        listed_(listed),
+        list_(&list),
+        listed_{list.first(), list.second()},
         margin_(margin),
         time_(time),
         step_(step),
@@ -35,7 +37,15 @@ class GrainMeetings {
     kernels_->find_near(*grains_, listed_.first.subspan(first, count),
                         listed_.second.subspan(first, count), margin_, found.near);
     for (std::uint32_t& each : found.near) each += static_cast<std::uint32_t>(first);
-    kernels_->features().lifts ? find_hit<true>(found) : find_hit<false>(found);
+    const GrainFeatures& has = kernels_->features();
+    if (has.walls)
+      std::erase_if(found.near, [&](std::uint32_t k) {
+        return list_->wall(k) != GrainPair::kNoWall && gap(k) > 0.5 * margin_;
+      });
+    if (has.walls)
+      has.lifts ? find_hit<true, true>(found) : find_hit<false, true>(found);
+    else
+      has.lifts ? find_hit<true, false>(found) : find_hit<false, false>(found);
   }
 
  private:
@@ -49,7 +59,23 @@ class GrainMeetings {
                : 0;
   }
 
-  template <bool kLifts>
+  /// Between the grain and the wall of a pair of the list [m].
+  double gap(std::uint32_t k) const {
+    const std::uint32_t i = listed_.first[k];
+    return kernels_->plane().walls[list_->wall(k)].distance(grains_->x[i], grains_->y[i]) -
+           grains_->radius[i];
+  }
+
+  /// Whether the grain of such a pair comes to the wall.
+  bool hits_wall(std::uint32_t k) const {
+    const std::uint32_t i = listed_.first[k];
+    const GrainWall& wall = kernels_->plane().walls[list_->wall(k)];
+    const double closing = -(wall.x * grains_->vx[i] + wall.y * grains_->vy[i]);
+    const double landing = kernels_->features().lifts ? aside(i) : 0;
+    return gap(k) - std::max(closing, 0.0) * time_ <= aside_ + landing;
+  }
+
+  template <bool kLifts, bool kWalls>
   void find_hit(GrainNear& found) const {
     const GrainPlane& plane = kernels_->plane();
     const GrainArrays& g = *grains_;
@@ -59,6 +85,11 @@ class GrainMeetings {
     found.hit.resize(found.near.size());
     for (const std::uint32_t k : found.near) {
       const std::uint32_t i = listed_.first[k], j = listed_.second[k];
+      if (kWalls && i == j) {
+        found.hit[hits] = i;
+        hits += hits_wall(k) ? 1 : 0;
+        continue;
+      }
       double dx = g.x[i] - g.x[j], dy = g.y[i] - g.y[j];
       dx -= shift_to_nearest_image(dx, plane.length_x);
       dy -= shift_to_nearest_image(dy, plane.length_y);
@@ -79,6 +110,7 @@ class GrainMeetings {
 
   const GrainKernels* kernels_;
   const GrainArrays* grains_;
+  const GrainNeighbours* list_;
   GrainPairs listed_;
   double margin_, time_, step_, landing_, aside_;
 };

@@ -120,20 +120,25 @@ void GrainNeighbours::find(const GrainArrays& grains, const GrainPlane& plane, d
   }
   first_.resize(static_cast<std::size_t>(all));
   second_.resize(static_cast<std::size_t>(all));
+  wall_.resize(plane.walls.empty() ? 0 : static_cast<std::size_t>(all));
   team.run(found_.size(), [&](std::size_t own) {
     const Found& found = found_[own];
     std::copy_n(found.first.begin(), found.count, first_.begin() + found.before);
     std::copy_n(found.second.begin(), found.count, second_.begin() + found.before);
+    if (!wall_.empty()) std::copy_n(found.wall.begin(), found.count, wall_.begin() + found.before);
   });
   found_.clear();
 }
 
-std::uint32_t GrainNeighbours::place_of(std::uint32_t i, std::uint32_t j) const {
+std::uint32_t GrainNeighbours::place_of(std::uint32_t i, std::uint32_t j,
+                                        std::uint16_t wall) const {
   const auto [begin, end] = std::equal_range(first_.begin(), first_.end(), i);
   const auto second = second_.begin();
   const auto at =
       std::lower_bound(second + (begin - first_.begin()), second + (end - first_.begin()), j);
-  return static_cast<std::uint32_t>(at - second);
+  auto place = static_cast<std::uint32_t>(at - second);
+  while (wall != this->wall(place)) ++place;  // of the walls of one grain
+  return place;
 }
 
 class GrainNeighbours::Beside {
@@ -192,14 +197,20 @@ void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane
       const std::uint32_t begin = start_[cell], end = start_[cell + 1];
       if (begin == end) continue;
       const std::span<GrainStretch> beside = cells.find(row, column);
-      std::size_t most = count;
+      std::size_t most = count + std::size_t{end - begin} * plane.walls.size();
       for (const GrainStretch& s : beside) most += std::size_t{end - begin} * (s.end - s.begin);
       if (found.first.size() < most) {
         found.first.resize(2 * most);
         found.second.resize(2 * most);
+        if (!plane.walls.empty()) found.wall.resize(2 * most, GrainPair::kNoWall);
       }
       for (std::uint32_t i = begin; i < end; ++i) {
         beside.front().begin = i + 1;
+        for (std::size_t w = 0; w < plane.walls.size(); ++w) {
+          if (plane.walls[w].distance(x[i], y[i]) > grains.radius[i] + skin) continue;
+          found.first[count] = found.second[count] = i;
+          found.wall[count++] = static_cast<std::uint16_t>(w);
+        }
         // Each is written down, and stays where it is near: no branch that nobody foresees.
         for (const GrainStretch& s : beside)
           for (std::uint32_t j = s.begin; j < s.end; ++j) {

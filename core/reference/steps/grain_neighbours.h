@@ -21,16 +21,21 @@ class GrainNeighbours {
   /// Where it has put grain `i` of the order before.
   std::uint32_t sorted(std::uint32_t i) const;
   /// The pairs of grains that sort() has ordered, no further from each other's surface than `skin`
-  /// [m] and in ascending order. The width given to sort() must be that of skin and two radii. The
-  /// team shares the work.
+  /// [m] and in ascending order, and as pairs of each with itself those so near to walls. The width
+  /// given to sort() must be that of skin and two radii. The team shares the work.
   void find(const GrainArrays& grains, const GrainPlane& plane, double skin, ThreadTeam& team);
 
   /// The list; the rest is made anew with it.
-  void exchange(StateArchive& archive) { archive(first_, second_); }
+  void exchange(StateArchive& archive) { archive(first_, second_, wall_); }
   const std::vector<std::uint32_t>& first() const { return first_; }
   const std::vector<std::uint32_t>& second() const { return second_; }  ///< > first()
-  /// The place of a pair i < j of the list in it.
-  std::uint32_t place_of(std::uint32_t i, std::uint32_t j) const;
+  /// Of a grain and a wall, for which both are the grain; else GrainPair::kNoWall.
+  std::uint16_t wall(std::size_t listed) const {
+    return wall_.empty() ? GrainPair::kNoWall : wall_[listed];
+  }
+  /// The place of a pair i < j of the list in it, or of a grain i = j and a wall.
+  std::uint32_t place_of(std::uint32_t i, std::uint32_t j,
+                         std::uint16_t wall = GrainPair::kNoWall) const;
 
  private:
   /// What one thread sorts: grains, as they lay before, and cells; `gone`: of the grains those in
@@ -44,6 +49,7 @@ class GrainNeighbours {
   /// Pairs by the rows of cells that one thread looks at: the first `count` of them.
   struct Found {
     std::vector<std::uint32_t> first, second;
+    std::vector<std::uint16_t> wall;       ///< where there are walls
     std::ptrdiff_t count = 0, before = 0;  ///< before: of other threads
   };
   void count(Sorted& own);
@@ -57,6 +63,7 @@ class GrainNeighbours {
   std::vector<std::uint32_t> order_;
   std::vector<Sorted> sorted_;  ///< by thread
   std::vector<std::uint32_t> first_, second_;
+  std::vector<std::uint16_t> wall_;
   std::vector<Found> found_;
 };
 

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "reference/steps/step_walls.h"
+
 namespace slipcheck {
 namespace {
 
@@ -31,19 +33,59 @@ std::vector<GrainKind> kinds_of(const Scene& scene, std::vector<std::uint32_t>& 
   return kinds;
 }
 
-std::vector<GrainLaw> laws_of(const ContactScene& scene) {
-  std::vector<GrainLaw> laws(scene.soft.size());
-  for (std::size_t k = 0; k < laws.size(); ++k) {
-    if (!scene.soft[k]) continue;
-    const SoftContact& contact = *scene.soft[k];
-    laws[k].normal = contact.normal;
-    laws[k].clamped = contact.end == ContactEnd::zero_force;
-    if (const auto* viscous = std::get_if<ViscousForce>(&contact.tangential)) {
-      laws[k].damping = viscous->damping;
-      laws[k].friction = viscous->friction;
-    }
+GrainLaw law_of(const std::optional<SoftContact>& contact) {
+  GrainLaw law;
+  if (!contact) return law;
+  law.normal = contact->normal;
+  law.clamped = contact->end == ContactEnd::zero_force;
+  if (const auto* viscous = std::get_if<ViscousForce>(&contact->tangential)) {
+    law.damping = viscous->damping;
+    law.friction = viscous->friction;
   }
+  return law;
+}
+
+/// By material × material, then by material × wall.
+std::vector<GrainLaw> laws_of(const ContactScene& scene) {
+  std::vector<GrainLaw> laws;
+  for (const auto* table : {&scene.soft, &scene.soft_surfaces})
+    for (const std::optional<SoftContact>& contact : *table) laws.push_back(law_of(contact));
   return laws;
+}
+
+std::vector<GrainWall> walls_of(const Scene& scene) {
+  std::vector<GrainWall> walls;
+  for (const Surface& surface : scene.surfaces) {
+    const auto& plane = std::get<PlaneShape>(surface.shape);
+    walls.push_back({plane.normal.x(), plane.normal.y(), plane.normal.dot(plane.point)});
+  }
+  return walls;
+}
+
+/// Why a contact that lasts is none of GrainSolver's, or nothing.
+std::string refusal_of(const std::optional<SoftContact>& contact) {
+  if (!contact) return "not all contacts of bodies are soft";
+  if (contact->memory) return "contacts have a memory";
+  if (std::holds_alternative<AsperityForce>(contact->tangential)) return "bodies have asperities";
+  return "";
+}
+
+std::string refusal_of_walls(const ContactScene& scene, bool driven) {
+  const Scene& hard = scene.hard;
+  if (hard.surfaces.empty()) return "";
+  if (driven) return "there are walls on a tilted or moving plane";
+  if (hard.surfaces.size() >= GrainPair::kNoWall) return "there are many walls";
+  for (const Surface& surface : hard.surfaces) {
+    if (!is_wall(surface)) return "there are surfaces that are no walls";
+    const Vector3& normal = std::get<PlaneShape>(surface.shape).normal;
+    for (int k = 0; k < 2; ++k)
+      if (hard.periodic[k] > 0 && std::abs(normal[k]) > 1e-12)
+        return "there are walls where the plane repeats itself";
+  }
+  if (scene.soft_surfaces.empty()) return refusal_of({});
+  for (const std::optional<SoftContact>& contact : scene.soft_surfaces)
+    if (const std::string refusal = refusal_of(contact); !refusal.empty()) return refusal;
+  return "";
 }
 
 bool slides_or_rolls(const Scene& scene) {
@@ -82,13 +124,14 @@ GrainFeatures features_of(const Scene& scene, const std::vector<GrainLaw>& laws,
   features.radii = std::ranges::any_of(
       scene.bodies, [&](const Sphere& s) { return s.radius != scene.bodies[0].radius; });
   features.rolls = rolls(scene);
-  features.rubs |= features.radii || features.rolls;
+  features.walls = !scene.surfaces.empty();
+  features.rubs |= features.radii || features.rolls || features.walls;
   const bool spins_level = std::any_of(initial.begin(), initial.end(), [](const BodyState& s) {
     return !s.angular_velocity.head<2>().isZero(0);
   });
   features.driven = !scene.motion.is_still() || !scene.downhill.isZero(0);
   features.on_plane = slides_or_rolls(scene) || (features.rubs && spins_level) || features.driven ||
-                      features.radii || features.rolls;
+                      features.radii || features.rolls || features.walls;
   features.lifts = !scene.confined &&
                    ((features.rubs && features.on_plane) || !are_on_plane(scene.bodies, initial));
   features.rubs |= features.lifts;
@@ -107,6 +150,7 @@ GrainPlane plane_of(const Scene& scene, double slowest_rebound) {
   plane.smallest = scene.bodies[0].radius;
   plane.length_x = scene.periodic.x();
   plane.length_y = scene.periodic.y();
+  plane.walls = walls_of(scene);
   double sum = 0;
   for (const Sphere& sphere : scene.bodies) {
     plane.radius = std::max(plane.radius, sphere.radius);
@@ -134,6 +178,7 @@ GrainFeatures grain_features(const ContactScene& scene, std::span<const BodyStat
 std::string grain_refusal(const ContactScene& scene, std::span<const BodyState> initial) {
   const Scene& hard = scene.hard;
   if (hard.box) return "the scene is a box";
+  if (!hard.has_substrate) return "there is no substrate";
   if (scene.own) return "each two bodies have a contact of their own";
   for (const SubstrateContact& c : hard.substrate) {
     if (!c.rolling.is_constant()) return "rolling friction depends on the speed";
@@ -141,11 +186,10 @@ std::string grain_refusal(const ContactScene& scene, std::span<const BodyState> 
       return "rolling friction acts on bodies that slide";
     if (c.coupled_radius > 0) return "sliding and drilling share their friction";
   }
-  for (std::size_t k = 0; k < scene.soft.size(); ++k) {
-    if (!scene.soft[k]) return "not all contacts of bodies are soft";
-    if (std::holds_alternative<AsperityForce>(scene.soft[k]->tangential))
-      return "bodies have asperities";
-  }
+  for (const std::optional<SoftContact>& contact : scene.soft)
+    if (const std::string refusal = refusal_of(contact); !refusal.empty()) return refusal;
+  const bool driven = !hard.motion.is_still() || !hard.downhill.isZero(0);
+  if (const std::string refusal = refusal_of_walls(scene, driven); !refusal.empty()) return refusal;
   if (hard.confined && !are_on_plane(hard.bodies, initial))
     return "bodies are above the substrate, which confines them";
   for (std::size_t i = 0; i < hard.bodies.size(); ++i)

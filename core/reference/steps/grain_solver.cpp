@@ -234,7 +234,7 @@ class GrainSolver::Impl {
   /// So many steps, or none where a grain got faster than foreseen.
   bool run_block(std::size_t length) {
     const GrainPairs listed = {neighbours_.first(), neighbours_.second()};
-    const GrainMeetings meetings(kernels_, grains_, listed, blocks_.margin(length),
+    const GrainMeetings meetings(kernels_, grains_, neighbours_, blocks_.margin(length),
                                  step_ * static_cast<double>(length), step_, braking(), landing());
     contacts_.find_hit(hit_);
     islands_.find(
@@ -282,7 +282,8 @@ class GrainSolver::Impl {
       GrainPair& pair = batch_.pairs[group.first_pair + p];
       contacts_.take(islands.pairs[p], neighbours_, grains_, pair);
       pair.a = islands_.place(pair.a) + islands.shift;
-      pair.b = islands_.place(pair.b) + islands.shift;
+      pair.b = pair.wall == GrainPair::kNoWall ? islands_.place(pair.b) + islands.shift
+                                               : static_cast<std::uint32_t>(group.last_grain);
     }
     Ended ended;
     ended.begun = kernels_.run(batch_, group, steps_of(length));

@@ -62,8 +62,9 @@ bool is_bare(const ContactScene& contacts, std::span<const BodyState> initial) {
   for (std::size_t material : scene.material)
     if (scene.substrate[material].kinetic_friction > 0) return false;
   if (scene.confined) return true;
-  for (const auto& contact : contacts.soft)
-    if (contact && !std::holds_alternative<NoTangentialForce>(contact->tangential)) return false;
+  for (const auto* table : {&contacts.soft, &contacts.soft_surfaces})
+    for (const auto& contact : *table)
+      if (contact && !std::holds_alternative<NoTangentialForce>(contact->tangential)) return false;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     if (scene.bodies[i].radius != scene.bodies[0].radius ||
         initial[i].position.z() != scene.bodies[i].radius || initial[i].velocity.z() != 0)
@@ -91,6 +92,46 @@ bool is_of_grains(const ContactScene& scene, std::span<const BodyState> initial,
          grain_refusal(scene, initial).empty();
 }
 
+using AnyLaw = StepLaw<AnyNormalForce, AnyPair>;
+
+AnyLaw any_law(const SoftContact& contact) {
+  return {{contact.normal}, {tangential_of(contact)}, contact.end == ContactEnd::zero_force};
+}
+
+std::unique_ptr<StepWalls> make_walls(const ContactScene& scene) {
+  if (scene.hard.surfaces.empty()) return nullptr;
+  std::vector<AnyLaw> laws;
+  for (const std::optional<SoftContact>& contact : scene.soft_surfaces)
+    laws.push_back(contact ? any_law(*contact) : AnyLaw{});
+  return std::make_unique<StepWalls>(scene.hard, std::move(laws));
+}
+
+/// Throws where a contact that lasts is none of the fixed-step solver's.
+void require_known(const SoftContact& contact) {
+  if (std::holds_alternative<ImpactAngleForce>(contact.tangential))
+    throw Unsupported(
+        "steps of fixed length know no tangential model hard; compare.reference may be "
+        "contact");
+  if (caps_apart(contact.tangential))
+    throw Unsupported("steps of fixed length know no caps apart; compare.reference may be contact");
+}
+
+void require_known_surfaces(const ContactScene& scene) {
+  for (std::size_t s = 0; s < scene.hard.surfaces.size(); ++s)
+    if (!is_wall(scene.hard.surfaces[s]))
+      throw Unsupported(
+          "steps of fixed length know no surfaces but walls: planes at rest, upright on the "
+          "substrate");
+  for (std::size_t i = 0; i < scene.hard.bodies.size(); ++i)
+    for (std::size_t s = 0; s < scene.hard.surfaces.size(); ++s) {
+      if (scene.soft_surfaces.empty() || !scene.on_surface(i, s))
+        throw Unsupported(
+            "steps of fixed length need soft contacts with walls; a hard one happens at an "
+            "instant");
+      require_known(*scene.on_surface(i, s));
+    }
+}
+
 template <class Normal, class Tangential_>
 std::unique_ptr<StepKernel> make(StepLaws<Normal, Tangential_> laws, const ContactScene& contacts,
                                  std::span<const BodyState> initial, const StepSettings& settings,
@@ -107,8 +148,9 @@ std::unique_ptr<StepKernel> make(StepLaws<Normal, Tangential_> laws, const Conta
     features.emplace_back(name);
     if (neighbours) features.emplace_back("many bodies: neighbours in cells by radius");
     if (contacts.own) features.emplace_back("each two bodies have a contact of their own");
+    if (!scene.surfaces.empty()) features.emplace_back("walls");
     return std::make_unique<StepLoop<Pairs, decltype(substrate)>>(
-        std::move(pairs), std::move(neighbours), std::move(features));
+        std::move(pairs), std::move(neighbours), make_walls(contacts), std::move(features));
   };
   if (settings.general) return loop(FullSubstrate{}, "any substrate");
   if (is_bare(contacts, initial))
@@ -155,17 +197,12 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
         throw Unsupported(
             "steps of fixed length need soft contacts between all bodies that can "
             "meet; a hard one happens at an instant");
-      if (std::holds_alternative<ImpactAngleForce>(contact->tangential))
-        throw Unsupported(
-            "steps of fixed length know no tangential model hard; compare.reference may be "
-            "contact");
-      if (caps_apart(contact->tangential))
-        throw Unsupported(
-            "steps of fixed length know no caps apart; compare.reference may be contact");
+      require_known(*contact);
       mixed |= some && (some->normal.index() != contact->normal.index() ||
                         tangential_of(*some).index() != tangential_of(*contact).index());
       some = &*contact;
     }
+  require_known_surfaces(scene);
   if (is_of_grains(scene, initial, settings))
     return std::make_unique<GrainLoop>(scene, sharing_threads(scene, initial, settings));
   // One body alone: any law will do.
@@ -173,13 +210,8 @@ std::unique_ptr<StepKernel> make_step_kernel(const ContactScene& scene,
   if (!some) some = &none;
 
   if (mixed || general) {
-    using Law = StepLaw<AnyNormalForce, AnyPair>;
-    return make(StepLaws<AnyNormalForce, AnyPair>(
-                    scene, Law{}, can_meet,
-                    [](const SoftContact& contact) {
-                      return Law{{contact.normal}, {tangential_of(contact)}, false};
-                    }),
-                scene, initial, settings, {"any normal force", "any tangential force"});
+    return make(StepLaws<AnyNormalForce, AnyPair>(scene, AnyLaw{}, can_meet, any_law), scene,
+                initial, settings, {"any normal force", "any tangential force"});
   }
   return std::visit(
       [&](const auto& normal, const auto& tangential) {

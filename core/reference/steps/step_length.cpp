@@ -39,4 +39,20 @@ double shortest_collision(const ContactScene& scene) {
   return shortest;
 }
 
+double shortest_at_surfaces(const ContactScene& scene) {
+  const double speed = speed_scale(scene);
+  double shortest = kNever;
+  if (!(speed > 0)) return shortest;
+  for (const std::vector<std::size_t>& lightest : lightest_two(scene.hard)) {
+    if (lightest.empty()) continue;
+    for (std::size_t s = 0; s < scene.hard.surfaces.size(); ++s) {
+      const std::optional<SoftContact>& soft = scene.on_surface(lightest[0], s);
+      if (!soft) continue;
+      const double mass = scene.hard.bodies[lightest[0]].mass;
+      shortest = std::min(shortest, impact(soft->normal, mass, speed, soft->end, 1e-6).duration);
+    }
+  }
+  return shortest;
+}
+
 }  // namespace slipcheck

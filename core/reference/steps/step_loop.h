@@ -10,6 +10,7 @@
 #include "base/stop_scope.h"
 #include "reference/steps/step_bodies.h"
 #include "reference/steps/step_pairs.h"
+#include "reference/steps/step_walls.h"
 
 namespace slipcheck {
 
@@ -23,16 +24,18 @@ namespace slipcheck {
 template <class Pairs, class Substrate>
 class StepLoop final : public StepKernel {
  public:
-  /// neighbours: null: all pairs.
+  /// neighbours: null: all pairs; walls: null: there are none.
   StepLoop(Pairs pairs, std::unique_ptr<StepNeighbours> neighbours,
-           std::vector<std::string> features)
+           std::unique_ptr<StepWalls> walls, std::vector<std::string> features)
       : features_(std::move(features)),
         neighbours_(std::move(neighbours)),
-        pairs_(std::move(pairs)) {}
+        pairs_(std::move(pairs)),
+        walls_(std::move(walls)) {}
 
   void find_forces(StepWorld& world) override {
-    if (!world.forces_known)
-      neighbours_ ? pairs_.meet(world, *neighbours_, shares_) : pairs_.meet(world);
+    if (world.forces_known) return;
+    neighbours_ ? pairs_.meet(world, *neighbours_, shares_) : pairs_.meet(world);
+    if (walls_) walls_->meet(world);
     world.forces_known = true;
   }
 
@@ -57,6 +60,7 @@ class StepLoop final : public StepKernel {
 
   void exchange(StateArchive& archive, StepWorld& world) override {
     archive(world, pairs_);
+    if (walls_) archive(*walls_);
     if (!neighbours_) return;
     archive(*neighbours_);
     if (!archive.reads()) return;
@@ -75,6 +79,7 @@ class StepLoop final : public StepKernel {
       if (impulses_[i] > 0)
         frame.touches.push_back({static_cast<int>(i), kSubstrate, impulses_[i]});
     pairs_.show(world, neighbours_.get(), frame.touches);
+    if (walls_) walls_->show(world, frame.touches);
   }
 
  private:
@@ -85,6 +90,7 @@ class StepLoop final : public StepKernel {
   std::vector<std::string> features_;
   std::unique_ptr<StepNeighbours> neighbours_;  ///< null: a few bodies, all pairs
   Pairs pairs_;
+  std::unique_ptr<StepWalls> walls_;
   StepShares shares_;             ///< of neighbours
   std::vector<double> impulses_;  ///< of the substrate, for show() [N s]
 };

@@ -199,7 +199,7 @@ class StepSolver::Impl {
   double next_collision(double limit) {
     const Scene& hard = scene_->hard;
     const std::vector<BodyState> all = states();
-    if (hard.motion.is_still() && hard.downhill.isZero(0)) {
+    if (hard.motion.is_still() && hard.downhill.isZero(0) && hard.surfaces.empty()) {
       EventSolver ahead(hard, all);
       return ahead.next_collision(limit, 0);
     }
@@ -208,11 +208,29 @@ class StepSolver::Impl {
                            all[i].velocity - all[j].velocity, Vector3::Zero(),
                            hard.bodies[i].radius + hard.bodies[j].radius, horizon);
     };
-    if (!hard.periodic.isZero(0)) return 0.5 * first_in_period(all, limit, touch);
+    const double at_wall = first_at_wall(all);
+    if (!hard.periodic.isZero(0))
+      return 0.5 * std::min(at_wall, first_in_period(all, limit, touch));
     std::vector<StraightSphere> spheres;
     for (std::size_t i = 0; i < all.size(); ++i)
       spheres.push_back({all[i].position, all[i].velocity, hard.bodies[i].radius});
-    return 0.5 * MeetingTree(spheres, false).first(limit, touch);
+    const double first = std::min(at_wall, MeetingTree(spheres, false).first(limit, touch));
+    return first < limit ? 0.5 * first : kNever;
+  }
+
+  /// At which one would come to a wall [s].
+  double first_at_wall(const std::vector<BodyState>& all) const {
+    double first = kNever;
+    for (const Surface& surface : scene_->hard.surfaces) {
+      const PlaneShape& wall = std::get<PlaneShape>(surface.shape);
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const double closing = -wall.normal.dot(all[i].velocity);
+        const double gap =
+            wall.normal.dot(all[i].position - wall.point) - scene_->hard.bodies[i].radius;
+        if (closing > 0) first = std::min(first, std::max(gap, 0.0) / closing);
+      }
+    }
+    return first;
   }
 
   /// The same on a periodic plane, or a time in which none comes far: of images there is no end.
