@@ -413,8 +413,9 @@ TEST_P(GrainsOn, GlideAsStepSolverDoes) {
   Scene& hard = scene.hard;
   hard.downhill = GetParam().downhill;
   hard.motion = GetParam().motion;
-  hard.substrate[0].static_friction = 1.2 * kMu;
-  hard.substrate[0].kinetic_friction = kMu;
+  const double mu = GetParam().walls ? 0.05 : kMu;  // so that more come to them
+  hard.substrate[0].static_friction = 1.2 * mu;
+  hard.substrate[0].kinetic_friction = mu;
   if (GetParam().unlike) make_unlike(hard);
   if (GetParam().lifts) make_lifting(hard, 0.5);
   add_rolling(hard, GetParam().rolling);
@@ -539,6 +540,21 @@ TEST(GrainSolver, ABlowReachesGrainsThatNoneWouldHaveMet) {
   }
 }
 
+/// Two that come to touch within the 51st step, though they do not straight on, and part as
+/// StepSolver has them.
+void expect_meeting_in_a_block(const ContactScene& scene) {
+  ASSERT_EQ(grain_refusal(scene, scene.hard.initial), "");
+  GrainSolver grains(scene, scene.hard.initial, kStep);
+  StepSolver steps(scene, scene.hard.initial, {.step = kStep, .general = true});
+  grains.advance(1);
+  grains.advance(50);  // one block
+  ASSERT_EQ(steps.run(until_time(51 * kStep), nullptr).steps, 51u);
+  Frame frame;
+  grains.show(frame);
+  EXPECT_EQ(grains.collisions(), 1u);
+  EXPECT_LT(largest_difference(frame.bodies, steps.states()), 1e-12);
+}
+
 /// Nor do those meet straight on that friction accelerates: two that spin at rest come together by
 /// μ_k g t² within a block.
 TEST(GrainSolver, FrictionDrivesGrainsTogetherWithinABlock) {
@@ -549,16 +565,35 @@ TEST(GrainSolver, FrictionDrivesGrainsTogetherWithinABlock) {
   scene.hard.confined = true;
   for (std::size_t k = 0; k < 2; ++k)
     scene.hard.initial[k].angular_velocity.y() = k == 0 ? 99 : -99;
-  ASSERT_EQ(grain_refusal(scene, scene.hard.initial), "");
-  GrainSolver grains(scene, scene.hard.initial, kStep);
-  StepSolver steps(scene, scene.hard.initial, {kStep});
-  grains.advance(1);
-  grains.advance(50);  // one block
-  ASSERT_EQ(steps.run(until_time(51 * kStep), nullptr).steps, 51u);
-  Frame frame;
-  grains.show(frame);
-  EXPECT_EQ(grains.collisions(), 1u);
-  EXPECT_LT(largest_difference(frame.bodies, steps.states()), 1e-12);
+  expect_meeting_in_a_block(scene);
+}
+
+/// Nor those that rolling friction does: one before which it brakes.
+TEST(GrainSolver, RollingFrictionDrivesGrainsTogetherWithinABlock) {
+  constexpr double kMuG = 0.5 * 9.81;
+  const double after = 40 * kStep;
+  ContactScene scene = colliding(0.3, 0.3, 0.9, kCollisionTime, NoTangentialForce{},
+                                 kRadius + 0.25 * kMuG * after * after);
+  scene.hard.confined = true;
+  scene.hard.substrate[0].kinetic_friction = 0.01;
+  scene.hard.substrate.push_back(scene.hard.substrate[0]);
+  scene.hard.substrate[1].rolling = RollingFriction(0.5);
+  scene.hard.material = {0, 1};
+  scene.hard.pairs.resize(4, scene.hard.pairs[0]);
+  scene.soft.resize(4, scene.soft[0]);
+  expect_meeting_in_a_block(scene);
+}
+
+/// Nor those that a landing does: one that spins and comes down after ten steps gets 0.1 m/s.
+TEST(GrainSolver, ALandingDrivesGrainsTogetherWithinABlock) {
+  constexpr double kFall = 1, kMu = 0.1;
+  ContactScene scene = colliding(0, 0, 0.9, kCollisionTime, NoTangentialForce{},
+                                 kRadius + 0.5 * kMu * kFall * 30 * kStep);
+  BodyState& falls = scene.hard.initial[0];
+  falls.position.z() = kRadius + 10 * kFall * kStep;
+  falls.velocity.z() = -kFall;
+  falls.angular_velocity.y() = 990;
+  expect_meeting_in_a_block(scene);
 }
 
 /// Nor those that a slope drives: a solid sphere that rolls behind a hollow one. Static friction
@@ -575,16 +610,32 @@ TEST(GrainSolver, ASlopeDrivesGrainsTogetherWithinABlock) {
       scene.hard.initial[0].position.x() < scene.hard.initial[1].position.x();
   scene.hard.bodies[first_is_left ? 1 : 0].shape_factor = 2.0 / 3;
   scene.hard.downhill = {kDownhill, 0};
-  ASSERT_EQ(grain_refusal(scene, scene.hard.initial), "");
-  GrainSolver grains(scene, scene.hard.initial, kStep);
-  StepSolver steps(scene, scene.hard.initial, {.step = kStep, .general = true});
-  grains.advance(1);
-  grains.advance(50);  // one block
-  ASSERT_EQ(steps.run(until_time(51 * kStep), nullptr).steps, 51u);
-  Frame frame;
-  grains.show(frame);
-  EXPECT_EQ(grains.collisions(), 1u);
-  EXPECT_LT(largest_difference(frame.bodies, steps.states()), 1e-12);
+  expect_meeting_in_a_block(scene);
+}
+
+/// Two unlike grains that rub, with spins, cross the plane's edge one after the other at any moment
+/// of their contact: there they are sorted anew, as a third one is so fast that the list does not
+/// last. The end of a contact takes back what it did before.
+TEST(GrainSolver, AContactGoesOnWhereItsGrainsAreSortedAnew) {
+  constexpr double kLength = 40 * kRadius, kSpeed = 3;
+  Scene hard = steel_scene(3);
+  hard.confined = true;
+  hard.periodic = {kLength, kLength};
+  hard.bodies[1].radius *= 0.5;
+  hard.bodies[1].mass *= 0.125;
+  const SoftContact contact = {kLinear, ContactEnd::zero_overlap,
+                               ViscousForce{0.05 * kMass / kCollisionTime, 0.3}};
+  const double apart = 2 * std::sqrt(0.5) * kRadius + 1e-6;
+  for (int k = 0; k < 40; ++k) {
+    const double x = kLength - kSpeed * (20 + k) * kStep;
+    hard.initial[0] = rolling_at(x, 5 * kRadius, kSpeed, 0);
+    hard.initial[1] = rolling_at(x - apart, 5.2 * kRadius, kSpeed + 1, 0, 0.5 * kRadius);
+    hard.initial[1].angular_velocity = {300, 100, -800};
+    hard.initial[2] = rolling_at(0.5 * kLength, 30 * kRadius, -300, 0);
+    const ContactScene scene = with_contact(hard, contact);
+    constexpr std::size_t kCounts[] = {100};
+    EXPECT_EQ(expect_steps_of_step_solver(scene, kLength, kStep, kCounts), 1u) << k;
+  }
 }
 
 /// Forces between grains are equal and opposite, and without friction nothing else acts.
