@@ -420,7 +420,14 @@ TEST_P(GrainsOn, GlideAsStepSolverDoes) {
   if (GetParam().lifts) make_lifting(hard, 0.5);
   add_rolling(hard, GetParam().rolling);
   const Vector2 length = hard.periodic;
-  if (GetParam().walls) enclose(scene, {0, 0}, length);
+  if (GetParam().walls) {  // close around
+    Vector2 least = length, most = Vector2::Zero();
+    for (const BodyState& state : hard.initial) {
+      least = least.cwiseMin(state.position.head<2>());
+      most = most.cwiseMax(state.position.head<2>());
+    }
+    enclose(scene, least, most);
+  }
   for (std::size_t i = 0; i < hard.initial.size(); i += 2) {  // as it rolls on the plane
     BodyState& state = hard.initial[i];
     const Vector2 v = state.velocity.head<2>() - hard.motion.velocity(0).head<2>();
@@ -613,9 +620,9 @@ TEST(GrainSolver, ASlopeDrivesGrainsTogetherWithinABlock) {
   expect_meeting_in_a_block(scene);
 }
 
-/// Two unlike grains that rub, with spins, cross the plane's edge one after the other at any moment
-/// of their contact: there they are sorted anew, as a third one is so fast that the list does not
-/// last. The end of a contact takes back what it did before.
+/// Two unlike grains that rub, with spins, cross the plane's edge one after the other, where they
+/// are sorted anew, as a third one is so fast that the list does not last. The end of a contact,
+/// here in any of the steps from there on, takes back what it did in the one before.
 TEST(GrainSolver, AContactGoesOnWhereItsGrainsAreSortedAnew) {
   constexpr double kLength = 40 * kRadius, kSpeed = 3;
   Scene hard = steel_scene(3);
@@ -625,11 +632,11 @@ TEST(GrainSolver, AContactGoesOnWhereItsGrainsAreSortedAnew) {
   hard.bodies[1].mass *= 0.125;
   const SoftContact contact = {kLinear, ContactEnd::zero_overlap,
                                ViscousForce{0.05 * kMass / kCollisionTime, 0.3}};
-  const double apart = 2 * std::sqrt(0.5) * kRadius + 1e-6;
-  for (int k = 0; k < 40; ++k) {
-    const double x = kLength - kSpeed * (20 + k) * kStep;
-    hard.initial[0] = rolling_at(x, 5 * kRadius, kSpeed, 0);
-    hard.initial[1] = rolling_at(x - apart, 5.2 * kRadius, kSpeed + 1, 0, 0.5 * kRadius);
+  const double x = kLength - kSpeed * 38 * kStep, reach = 2 * std::sqrt(0.5) * kRadius;
+  for (int k = 0; k < 30; ++k) {
+    const double apart = reach + (1 + k) * kStep;  // at 1 m/s
+    hard.initial[0] = rolling_at(x - apart, 5 * kRadius, kSpeed + 1, 0);
+    hard.initial[1] = rolling_at(x, 5.05 * kRadius, kSpeed, 0, 0.5 * kRadius);
     hard.initial[1].angular_velocity = {300, 100, -800};
     hard.initial[2] = rolling_at(0.5 * kLength, 30 * kRadius, -300, 0);
     const ContactScene scene = with_contact(hard, contact);

@@ -90,6 +90,21 @@ TEST(ManyThreads, GiveTheBitsOfOneToGrainsThatLiftEachOther) {
   expect_bits_of_one(scene);
 }
 
+TEST(ManyThreads, GiveTheBitsOfOneToGrainsThatRollBetweenWalls) {
+  ContactScene scene = bench::grain_gas(3000, 0.4, true);
+  scene.hard.substrate[0].rolling = RollingFriction(0.001);
+  const Vector2 length = scene.hard.periodic;
+  scene.hard.periodic.setZero();
+  for (const auto& [at, normal] : {std::pair{Vector2(-0.5, 0), Vector2(1, 0)},
+                                   {Vector2(length.x() + 0.5, 0), Vector2(-1, 0)}}) {
+    scene.hard.surfaces.push_back(
+        {PlaneShape{{at.x(), at.y(), 0}, {normal.x(), normal.y(), 0}}, {}});
+    scene.hard.on_surfaces.emplace_back();
+    scene.soft_surfaces.emplace_back(scene.soft[0]);
+  }
+  expect_bits_of_one(scene);
+}
+
 /// Spheres of unlike radii that rub, fall on a plane which swings, and bounce from it and each
 /// other: contacts begin and end under others that go on, and some press a third one down.
 ContactScene falling_on_a_swing(std::size_t count) {
