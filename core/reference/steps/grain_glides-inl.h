@@ -386,6 +386,9 @@ HWY_ATTR GrainSpeeds Glide(const GrainFeatures& features, GrainArrays& grains, s
   GrainSpeeds fastest;
   fastest.along2 = LargestSquare(grains.vx, grains.vy, first, last, push.drift_x, push.drift_y);
   if (features.lifts) fastest.across2 = LargestSquare(grains.vz, grains.vz, first, last, 0, 0) / 2;
+  if (features.lifts && features.walls)
+    fastest.height = *std::max_element(grains.z.begin() + static_cast<std::ptrdiff_t>(first),
+                                       grains.z.begin() + static_cast<std::ptrdiff_t>(last));
   return fastest;
 }
 

@@ -81,6 +81,7 @@ struct GrainSteps {
 struct GrainWall {
   double x = 0, y = 0;  ///< n
   double c = 0;         ///< [m]
+  double top = 0;       ///< where it ends, over the plane [m]
 
   double distance(double at_x, double at_y) const { return x * at_x + y * at_y - c; }
 };
@@ -113,13 +114,16 @@ inline double shift_to_nearest_image(double distance, double length) {
   return length > 0 ? length * std::nearbyint(distance / length) : 0;
 }
 
-/// Squares of the largest speeds along the plane, and away from it or towards it [m²/s²].
+/// Squares of the largest speeds along the plane, and away from it or towards it [m²/s²], and the
+/// greatest height of a centre where there are walls [m].
 struct GrainSpeeds {
   double along2 = 0, across2 = 0;
+  double height = 0;
 
   void add(const GrainSpeeds& other) {
     along2 = std::max(along2, other.along2);
     across2 = std::max(across2, other.across2);
+    height = std::max(height, other.height);
   }
 };
 

@@ -148,6 +148,19 @@ class GrainSolver::Impl {
 
   double radius() const { return kernels_.plane().radius; }
 
+  GrainSpeeds speeds_of(const GrainBatch& batch, std::size_t k) const {
+    if (!features().lifts) return {batch.fastest[k]};
+    const double vz = batch.grains.vz[k];
+    return {batch.fastest[k], vz * vz, batch.grains.z[k]};
+  }
+
+  /// Walls are taken for planes up to their top.
+  void require_below_walls(double height) const {
+    for (const GrainWall& wall : kernels_.plane().walls)
+      if (height > wall.top)
+        throw StepTooLong("a body comes over a wall, which only the general loop follows");
+  }
+
   /// Where the speeds of grains count from [m/s].
   Vector2 drift_of(std::size_t n) const {
     return features().driven ? drive_.drift_of(n) : Vector2::Zero();
@@ -263,6 +276,7 @@ class GrainSolver::Impl {
       return false;
     }
     all.fastest.add(end_block(length, all.touching));
+    require_below_walls(all.fastest.height);
     collisions_ += all.begun;
     blocks_.took(length, islands_.grain_count(), all.touching, all.fastest);
     return true;
@@ -287,10 +301,8 @@ class GrainSolver::Impl {
     }
     Ended ended;
     ended.begun = kernels_.run(batch_, group, steps_of(length));
-    for (std::size_t k = group.first_grain; k < group.last_grain; ++k) {
-      const double vz = features().lifts ? batch_.grains.vz[k] : 0;
-      ended.fastest.add({batch_.fastest[k], vz * vz});
-    }
+    for (std::size_t k = group.first_grain; k < group.last_grain; ++k)
+      ended.fastest.add(speeds_of(batch_, k));
     for (std::size_t p = group.first_pair; p < group.last_pair; ++p)
       ended.touching += batch_.pairs[p].touching ? 1 : 0;
     return ended;
@@ -343,8 +355,7 @@ class GrainSolver::Impl {
       kernels_.run(batch, {0, count, 0, 0}, steps_of(length));
       for (std::size_t k = 0; k < count; ++k) {
         grains_.take(first + k, batch.grains, k, features());
-        const double vz = features().lifts ? batch.grains.vz[k] : 0;
-        fastest.add({batch.fastest[k], vz * vz});
+        fastest.add(speeds_of(batch, k));
       }
     }
     return fastest;

@@ -98,12 +98,12 @@ AnyLaw any_law(const SoftContact& contact) {
   return {{contact.normal}, {tangential_of(contact)}, contact.end == ContactEnd::zero_force};
 }
 
-std::unique_ptr<StepWalls> make_walls(const ContactScene& scene) {
+std::unique_ptr<StepSurfaces> make_surfaces(const ContactScene& scene) {
   if (scene.hard.surfaces.empty()) return nullptr;
   std::vector<AnyLaw> laws;
   for (const std::optional<SoftContact>& contact : scene.soft_surfaces)
     laws.push_back(contact ? any_law(*contact) : AnyLaw{});
-  return std::make_unique<StepWalls>(scene.hard, std::move(laws));
+  return std::make_unique<StepSurfaces>(scene.hard, std::move(laws));
 }
 
 /// Throws where a contact that lasts is none of the fixed-step solver's.
@@ -117,16 +117,15 @@ void require_known(const SoftContact& contact) {
 }
 
 void require_known_surfaces(const ContactScene& scene) {
-  for (std::size_t s = 0; s < scene.hard.surfaces.size(); ++s)
-    if (!is_wall(scene.hard.surfaces[s]))
+  for (const Surface& surface : scene.hard.surfaces)
+    if (!surface.motion.is_still())
       throw Unsupported(
-          "steps of fixed length know no surfaces but walls: planes at rest, upright on the "
-          "substrate");
+          "steps of fixed length know no surfaces that move; compare.reference may be contact");
   for (std::size_t i = 0; i < scene.hard.bodies.size(); ++i)
     for (std::size_t s = 0; s < scene.hard.surfaces.size(); ++s) {
       if (scene.soft_surfaces.empty() || !scene.on_surface(i, s))
         throw Unsupported(
-            "steps of fixed length need soft contacts with walls; a hard one happens at an "
+            "steps of fixed length need soft contacts with surfaces; a hard one happens at an "
             "instant");
       require_known(*scene.on_surface(i, s));
     }
@@ -148,9 +147,9 @@ std::unique_ptr<StepKernel> make(StepLaws<Normal, Tangential_> laws, const Conta
     features.emplace_back(name);
     if (neighbours) features.emplace_back("many bodies: neighbours in cells by radius");
     if (contacts.own) features.emplace_back("each two bodies have a contact of their own");
-    if (!scene.surfaces.empty()) features.emplace_back("walls");
+    if (!scene.surfaces.empty()) features.emplace_back("surfaces at rest");
     return std::make_unique<StepLoop<Pairs, decltype(substrate)>>(
-        std::move(pairs), std::move(neighbours), make_walls(contacts), std::move(features));
+        std::move(pairs), std::move(neighbours), make_surfaces(contacts), std::move(features));
   };
   if (settings.general) return loop(FullSubstrate{}, "any substrate");
   if (is_bare(contacts, initial))

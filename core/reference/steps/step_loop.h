@@ -10,7 +10,7 @@
 #include "base/stop_scope.h"
 #include "reference/steps/step_bodies.h"
 #include "reference/steps/step_pairs.h"
-#include "reference/steps/step_walls.h"
+#include "reference/steps/step_surfaces.h"
 
 namespace slipcheck {
 
@@ -24,18 +24,18 @@ namespace slipcheck {
 template <class Pairs, class Substrate>
 class StepLoop final : public StepKernel {
  public:
-  /// neighbours: null: all pairs; walls: null: there are none.
+  /// neighbours: null: all pairs; surfaces: null: there are none.
   StepLoop(Pairs pairs, std::unique_ptr<StepNeighbours> neighbours,
-           std::unique_ptr<StepWalls> walls, std::vector<std::string> features)
+           std::unique_ptr<StepSurfaces> surfaces, std::vector<std::string> features)
       : features_(std::move(features)),
         neighbours_(std::move(neighbours)),
         pairs_(std::move(pairs)),
-        walls_(std::move(walls)) {}
+        surfaces_(std::move(surfaces)) {}
 
   void find_forces(StepWorld& world) override {
     if (world.forces_known) return;
     neighbours_ ? pairs_.meet(world, *neighbours_, shares_) : pairs_.meet(world);
-    if (walls_) walls_->meet(world);
+    if (surfaces_) surfaces_->meet(world);
     world.forces_known = true;
   }
 
@@ -60,7 +60,7 @@ class StepLoop final : public StepKernel {
 
   void exchange(StateArchive& archive, StepWorld& world) override {
     archive(world, pairs_);
-    if (walls_) archive(*walls_);
+    if (surfaces_) archive(*surfaces_);
     if (!neighbours_) return;
     archive(*neighbours_);
     if (!archive.reads()) return;
@@ -79,7 +79,7 @@ class StepLoop final : public StepKernel {
       if (impulses_[i] > 0)
         frame.touches.push_back({static_cast<int>(i), kSubstrate, impulses_[i]});
     pairs_.show(world, neighbours_.get(), frame.touches);
-    if (walls_) walls_->show(world, frame.touches);
+    if (surfaces_) surfaces_->show(world, frame.touches);
   }
 
  private:
@@ -90,7 +90,7 @@ class StepLoop final : public StepKernel {
   std::vector<std::string> features_;
   std::unique_ptr<StepNeighbours> neighbours_;  ///< null: a few bodies, all pairs
   Pairs pairs_;
-  std::unique_ptr<StepWalls> walls_;
+  std::unique_ptr<StepSurfaces> surfaces_;
   StepShares shares_;             ///< of neighbours
   std::vector<double> impulses_;  ///< of the substrate, for show() [N s]
 };

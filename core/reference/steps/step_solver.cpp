@@ -208,28 +208,27 @@ class StepSolver::Impl {
                            all[i].velocity - all[j].velocity, Vector3::Zero(),
                            hard.bodies[i].radius + hard.bodies[j].radius, horizon);
     };
-    const double at_wall = first_at_wall(all);
+    const double at_surface = first_at_surface(all);
     if (!hard.periodic.isZero(0))
-      return 0.5 * std::min(at_wall, first_in_period(all, limit, touch));
+      return 0.5 * std::min(at_surface, first_in_period(all, limit, touch));
     std::vector<StraightSphere> spheres;
     for (std::size_t i = 0; i < all.size(); ++i)
       spheres.push_back({all[i].position, all[i].velocity, hard.bodies[i].radius});
-    const double first = std::min(at_wall, MeetingTree(spheres, false).first(limit, touch));
+    const double first = std::min(at_surface, MeetingTree(spheres, false).first(limit, touch));
     return first < limit ? 0.5 * first : kNever;
   }
 
-  /// At which one would come to a wall [s].
-  double first_at_wall(const std::vector<BodyState>& all) const {
+  /// Before which none comes to a surface straight on [s]: their shapes are convex, so that what
+  /// goes away comes to none, and what comes closer does not do so faster.
+  double first_at_surface(const std::vector<BodyState>& all) const {
     double first = kNever;
-    for (const Surface& surface : scene_->hard.surfaces) {
-      const PlaneShape& wall = std::get<PlaneShape>(surface.shape);
+    for (const Surface& surface : scene_->hard.surfaces)
       for (std::size_t i = 0; i < all.size(); ++i) {
-        const double closing = -wall.normal.dot(all[i].velocity);
-        const double gap =
-            wall.normal.dot(all[i].position - wall.point) - scene_->hard.bodies[i].radius;
+        const NearestPoint at = nearest_point(surface.shape, all[i].position);
+        const double closing = -at.normal.dot(all[i].velocity);
+        const double gap = at.distance - scene_->hard.bodies[i].radius;
         if (closing > 0) first = std::min(first, std::max(gap, 0.0) / closing);
       }
-    }
     return first;
   }
 

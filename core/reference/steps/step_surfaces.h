@@ -2,9 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "base/state_archive.h"
@@ -13,39 +11,32 @@
 
 namespace slipcheck {
 
-/// Whether the fixed-step solvers know a surface: a plane at rest, upright on the substrate.
-inline bool is_wall(const Surface& surface) {
-  const auto* plane = std::get_if<PlaneShape>(&surface.shape);
-  return plane && surface.motion.is_still() && std::abs(plane->normal.z()) <= 1e-12;
-}
-
-/// The contacts of StepLoop's bodies with walls: of each with each, as few touch one.
-class StepWalls {
+/// The contacts of StepLoop's bodies with surfaces at rest: of each with each, as few touch one.
+class StepSurfaces {
  public:
   using Contact = StepContact<AnyNormalForce, AnyPair>;
   using Law = Contact::Law;
 
-  /// All surfaces of the scene, which outlives this, are walls. laws: by material × wall.
-  StepWalls(const Scene& scene, std::vector<Law> laws)
+  /// The scene's surfaces are still, and it outlives this. laws: by material × surface.
+  StepSurfaces(const Scene& scene, std::vector<Law> laws)
       : scene_(&scene), laws_(std::move(laws)), contacts_(scene.bodies.size() * count()) {}
 
   void exchange(StateArchive& archive) { archive(contacts_); }
 
   /// What they do to bodies now, beside what else does.
   void meet(StepWorld& world) {
-    StepBody wall;
+    StepBody surface;  // where it is touched
     for (std::size_t k = 0; k < world.bodies.size(); ++k) {
       StepBody& body = world.bodies[k];
       const std::size_t i = world.number_of(k);
-      for (std::size_t w = 0; w < count(); ++w) {
-        Contact& contact = contacts_[i * count() + w];
-        const PlaneShape& plane = std::get<PlaneShape>(scene_->surfaces[w].shape);
-        const double distance = plane.normal.dot(body.position - plane.point);
-        if (distance > body.radius && !contact.touching()) continue;
+      for (std::size_t s = 0; s < count(); ++s) {
+        Contact& contact = contacts_[i * count() + s];
+        const NearestPoint at = nearest_point(scene_->surfaces[s].shape, body.position);
+        if (at.distance > body.radius && !contact.touching()) continue;
         StepTally tally;
         contact.step(
-            world, body, wall, distance * plane.normal,
-            [&]() -> const Law& { return laws_[scene_->material[i] * count() + w]; }, tally,
+            world, body, surface, at.distance * at.normal,
+            [&]() -> const Law& { return laws_[scene_->material[i] * count() + s]; }, tally,
             [&](const Contact::Push& push) { push.on(body, false); });
         world.touching += tally.touching;
       }
@@ -66,7 +57,7 @@ class StepWalls {
 
   const Scene* scene_;
   std::vector<Law> laws_;
-  std::vector<Contact> contacts_;  ///< by body, in the scene's order, × wall
+  std::vector<Contact> contacts_;  ///< by body, in the scene's order, × surface
 };
 
 }  // namespace slipcheck
