@@ -13,7 +13,7 @@ namespace slipcheck {
 
 /// Many soft spheres on a plane, by StepSolver's steps: K's monolayer on a substrate, maybe tilted
 /// or moving, from which grains may lift each other off, or a gas on a plane without friction.
-/// Periodic or not.
+/// Periodic or not, or between walls.
 ///
 /// Time goes in blocks of steps. Grains that can meet none within a block do it in one go; those
 /// that can are sorted into islands, which do all its steps one after the other in the nearest
@@ -34,7 +34,7 @@ class GrainSolver {
   GrainSolver(GrainSolver&&) noexcept;
 
   /// Throws StepTooLong where a grain moves by more than half the smallest radius in a
-  /// step.
+  /// step, or comes over a wall.
   void advance(std::size_t steps);
 
   double now() const;              ///< [s]

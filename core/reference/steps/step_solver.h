@@ -49,11 +49,12 @@ class StepTooLong : public std::runtime_error {
 ///
 /// The normal and tangential law and whether the substrate is one without friction, a level plane
 /// at rest with Coulomb friction or more are chosen once, into a loop that has no trace of what the
-/// scene lacks; many bodies in a plane go to GrainLoop.
+/// scene lacks; many bodies on a plane go to GrainLoop. Surfaces are at rest, and their contacts
+/// soft.
 class StepSolver final : public KeptSolver {
  public:
   /// The scene must outlive the solver. Throws Unsupported where bodies could meet whose contact is
-  /// hard.
+  /// hard, for such a contact with a surface, and for surfaces that move.
   StepSolver(const ContactScene& scene, std::span<const BodyState> initial,
              const StepSettings& settings);
   ~StepSolver() override;
