@@ -154,7 +154,7 @@ class GrainKernels {
 
  private:
   GrainFeatures features_;
-  std::vector<GrainLaw> laws_;  ///< by material × material
+  std::vector<GrainLaw> laws_;  ///< by material × material, then by material × wall
   std::vector<GrainKind> kinds_;
   GrainPlane plane_;
 };

@@ -186,12 +186,13 @@ class GrainSolver::Impl {
            1.5 * landing() * kernels_.plane().gravity;
   }
 
-  /// 2 μ_k, by which a landing changes the speed along the plane for the one towards it at most.
+  /// 2 μ, by which a landing changes the speed along the plane for the one towards it at most; of
+  /// sliding or, once a grain rolls, of rolling.
   double landing() const {
     double most = 0;
     if (features().lifts)
       for (const GrainKind& kind : kernels_.kinds())
-        most = std::max(most, 2 * kind.kinetic_friction);
+        most = std::max({most, 2 * kind.kinetic_friction, 2 * kind.rolling_friction});
     return most;
   }
 
