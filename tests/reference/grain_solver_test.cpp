@@ -603,6 +603,19 @@ TEST(GrainSolver, ALandingDrivesGrainsTogetherWithinABlock) {
   expect_meeting_in_a_block(scene);
 }
 
+/// Nor those before which one lands that rolls, as rolling friction brakes it by up to 0.5 m/s.
+TEST(GrainSolver, ALandingThatRollsBrakesAGrainWithinABlock) {
+  constexpr double kFall = 1, kRoll = 0.5, kSpeed = 0.8;
+  ContactScene scene = colliding(kSpeed, kSpeed, 0.9, kCollisionTime, NoTangentialForce{},
+                                 kRadius + 0.5 * kRoll * kFall * 30 * kStep);
+  scene.hard.substrate[0].kinetic_friction = 0.01;
+  scene.hard.substrate[0].rolling = RollingFriction(kRoll);
+  BodyState& falls = scene.hard.initial[1];
+  falls.position.z() = kRadius + 10 * kFall * kStep;
+  falls.velocity.z() = -kFall;
+  expect_meeting_in_a_block(scene);
+}
+
 /// Nor those that a slope drives: a solid sphere that rolls behind a hollow one. Static friction
 /// alone does it, as both are held.
 TEST(GrainSolver, ASlopeDrivesGrainsTogetherWithinABlock) {
