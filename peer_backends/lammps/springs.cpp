@@ -23,24 +23,34 @@ struct HardContact {
   double restitution, tangential_restitution, mass, kappa;
 };
 
-/// ξ̈ + γ ξ̇ + ω0² ξ = 0 takes t_col = π/ω and leaves e = exp(−γ t_col/2).
+/// The spring on which an elastic collision takes the settings' collision time, π/ω0. It never
+/// attracts, as a hard contact does not: friction would count that as well, Coulomb's cap being of
+/// |F_N|, and the impulse of a landing with e = 0.01 be a third too large.
 Spring spring_with(const HardContact& hard, bool holds, const LammpsSettings& settings) {
   if (settings.collision_time == 0)
     throw Refused(
         "lammps: the scene has hard contacts, LAMMPS has forces that last alone, and the setting "
         "collision_time allows no spring in their place");
+  const bool as_typed = settings.coefficients == Coefficients::fields;
+  const double frequency = kPi / settings.collision_time;
+  const LinearContact law = LinearContact::with_stiffness(
+      hard.mass, std::max(hard.restitution, settings.lowest_restitution),
+      hard.mass * frequency * frequency,
+      as_typed ? ContactEnd::zero_overlap : ContactEnd::zero_force);
   Spring spring;
   spring.mass = hard.mass;
-  const double e = std::max(hard.restitution, settings.lowest_restitution);
-  const LinearContact law = LinearContact::with_collision_time(
-      hard.mass, e, settings.collision_time, ContactEnd::zero_overlap);
   spring.stiffness = law.stiffness();
   spring.damping = law.damping_rate() * hard.mass;
-  if (settings.coefficients == Coefficients::fields) spring.tsuji_restitution = hard.restitution;
+  spring.never_attracts = !as_typed;
+  if (as_typed) spring.tsuji_restitution = hard.restitution;
   spring.tangential = settings.sticking / settings.collision_time * hard.mass;
   if (!holds || hard.tangential_restitution == -1) return spring;
-  const StickingSpring sticks =
-      sticking_spring(hard.tangential_restitution, settings.collision_time);
+  // The slip passes through zero for the third time where it is to end there: the stiffer the
+  // spring, the less does LAMMPS's friction fall short of Coulomb's cap where that rises faster
+  // than the spring's force.
+  const double beta = hard.tangential_restitution;
+  const double swings = beta == 0 ? 1 + 2 * kPi / std::atan(2.0) : 1;
+  const StickingSpring sticks = sticking_spring(beta, settings.collision_time / swings);
   const double slides = hard.kappa * hard.mass;
   spring.shear = sticks.frequency * sticks.frequency * slides;
   spring.tangential = 2 * sticks.damping * sticks.frequency * slides;
@@ -203,8 +213,7 @@ double collision_time(const Spring& spring, double speed) {
   const double mass = spring.mass;
   if (spring.hertz)  // elastic: 2.94 ξ_max/v with ξ_max = ((5/4) m v²/ρ)^(2/5)
     return 2.9433 * std::pow(1.25 * mass / spring.stiffness, 0.4) * std::pow(speed, -0.2);
-  const double rate = spring.damping / mass, square = spring.stiffness / mass - rate * rate / 4;
-  return kPi / std::sqrt(square > 0 ? square : spring.stiffness / mass);
+  return kPi / std::sqrt(spring.stiffness / mass);
 }
 
 double approach_speed(const Scene& scene) {

@@ -53,7 +53,7 @@ Spring surface_spring(const EngineScene& scene, std::size_t body, std::size_t k,
 /// contacts remember rests on what holds.
 bool holds_by_springs(const EngineScene& scene, const LammpsSettings& settings);
 
-/// How long a collision takes [s], of a Hertz contact at the relative speed [m/s].
+/// How long an elastic collision takes [s], of a Hertz contact at the relative speed [m/s].
 double collision_time(const Spring& spring, double speed);
 
 /// The fastest approach of two bodies by the velocities at the start, or 1 mm/s [m/s]; of more than
