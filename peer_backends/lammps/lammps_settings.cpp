@@ -14,9 +14,8 @@ const std::vector<SettingRow<LammpsSettings>>& setting_rows() {
                  "e for damping tsuji, rolling friction without its factor"),
       Make::number("collision_time", "s", &S::collision_time)
           .search(1e-6, 1e-3, true)
-          .about(
-              "of the springs that stand for hard contacts and for the substrate; 0: scenes that "
-              "need such are refused"),
+          .about("of an elastic collision on the springs that stand for hard contacts and for the "
+                 "substrate; 0: scenes that need such are refused"),
       Make::count("steps_per_collision", &S::steps_per_collision)
           .within(4, 1e6)
           .try_each({20.0, 50.0, 200.0})
@@ -39,7 +38,9 @@ const std::vector<SettingRow<LammpsSettings>>& setting_rows() {
                  "scene: springs where contacts of the scene remember"),
       Make::number("lowest_restitution", "", &S::lowest_restitution)
           .within(1e-6, 1)
-          .about("of springs that stand for hard contacts: below it they would be overdamped"),
+          .about(
+              "of springs that stand for hard contacts; the less, the more damping. Where bodies "
+              "land and sticking_by is spring, 0.1 does better"),
       Make::number("skin", "R", &S::skin)
           .within(1e-3, 1e3)
           .about("neighbor skin over the smallest radius; lists are checked each step"),
