@@ -300,7 +300,7 @@ TEST(PlanarSolver, BothQueuesServeTheSameEvents) {
 
 /// A loop that leaves out what the scene lacks gives the bits of the one that leaves out nothing.
 TEST(PlanarSolver, LeavingOutWhatASceneLacksChangesNoBit) {
-  struct Case {
+  struct Lack {
     Scene scene;
     double time;
     std::vector<std::string> left_out;
@@ -315,14 +315,14 @@ TEST(PlanarSolver, LeavingOutWhatASceneLacksChangesNoBit) {
   const std::vector<std::string> smooth{"gravity and walls", "different radii",
                                         "friction and spin"};
   const std::vector<std::string> rough{"gravity and walls", "different radii"};
-  const std::vector<Case> cases{
+  const std::vector<Lack> cases{
       {test::smooth_gas(300, 0.2, contact(1)), 40, smooth},
       {spinning, 40, smooth},
       {clustered, 40, smooth},
       {test::smooth_gas(300, 0.3, contact(0.95, 0.1, 0.4)), 40, rough},
       {test::shaken_box(50, 1, contact(0.9, 0.2, 0.3)), 0.5, {"different radii"}},
       {unlike, 0.5, {}}};
-  for (const Case& c : cases) {
+  for (const Lack& c : cases) {
     PlanarSettings settings;
     settings.general = true;
     PlanarSolver general(c.scene, c.scene.initial, settings), chosen(c.scene, c.scene.initial);

@@ -90,14 +90,17 @@ class GrainDrive {
   GrainRoll roll(const GrainKind& kind, const std::vector<GrainPush>& steps) const {
     GrainRoll roll;
     roll.holds = 1;
+    roll.radius = kind.radius;
     roll.per_radius = 1 / kind.radius;
     const double most = kind.static_friction * kind.weight * kind.inverse_mass * step_;
+    double pushed = 0;  // the most in a step
     for (const GrainPush& push : steps) {
       const double ax = step_ * push.slope_x, ay = step_ * push.slope_y;
       const double ux = ax - (push.plane_x - push.before_x);
       const double uy = ay - (push.plane_y - push.before_y);
       const double held2 = kind.share * kind.share * (ux * ux + uy * uy);
       if (!(held2 <= most * most)) roll.holds = 0;
+      pushed = std::max(pushed, std::hypot(ux, uy));
       roll.last_dvx = ax - kind.share * ux;
       roll.last_dvy = ay - kind.share * uy;
       roll.dvx += roll.last_dvx;
@@ -105,6 +108,10 @@ class GrainDrive {
       roll.x += step_ * roll.dvx;
       roll.y += step_ * roll.dvy;
     }
+    // A step changes the slip by so much at most; four are left in the end.
+    const double each =
+        kind.kinetic_friction * kind.weight * kind.inverse_mass * step_ / kind.share + pushed;
+    roll.slides_from = static_cast<double>(steps.size() + 4) * each;
     return roll;
   }
 

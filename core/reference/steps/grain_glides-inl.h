@@ -15,17 +15,7 @@
 #include <vector>
 
 #include "reference/steps/grain_kernels.h"
-
-/// Before a loop each turn of which reads and writes what no other does: compilers do not see it of
-/// more than some arrays. Under sanitizers none is vectorised.
-#undef SLIPCHECK_EACH_ALONE
-#if defined(SLIPCHECK_SANITIZE)
-#define SLIPCHECK_EACH_ALONE
-#elif defined(__clang__)
-#define SLIPCHECK_EACH_ALONE _Pragma("clang loop vectorize(assume_safety)")
-#else
-#define SLIPCHECK_EACH_ALONE _Pragma("GCC ivdep")
-#endif
+#include "reference/steps/grain_slides-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace slipcheck {
@@ -132,10 +122,8 @@ HWY_ATTR inline void GlideWithFriction(GrainArrays& grains, std::size_t first, s
   }
 }
 
-/// How many slide at once, in the nearest cache.
-inline constexpr std::size_t kSliding = 128;
-
 /// Those that roll and go on rolling on a plane that carries them along.
+template <bool kOneKind>
 HWY_ATTR inline void GlideRolling(GrainArrays& grains, std::size_t first, std::size_t last,
                                   double time, const GrainDriving& driving) {
   double* HWY_RESTRICT x = grains.x.data();
@@ -155,7 +143,7 @@ HWY_ATTR inline void GlideRolling(GrainArrays& grains, std::size_t first, std::s
   const double plane_dx = push.plane_x - push.before_x, plane_dy = push.plane_y - push.before_y;
   SLIPCHECK_EACH_ALONE
   for (std::size_t i = first; i < last; ++i) {
-    const GrainRoll& roll = table[kind[i]];
+    const GrainRoll& roll = table[kOneKind ? 0 : kind[i]];
     const bool rolls = roll.holds * sticks[i] > 0;
     const double ex = vx[i] + roll.dvx, ey = vy[i] + roll.dvy;
     const double to_x = x[i] + (time * vx[i] + roll.x), to_y = y[i] + (time * vy[i] + roll.y);
@@ -174,108 +162,33 @@ HWY_ATTR inline void GlideRolling(GrainArrays& grains, std::size_t first, std::s
   }
 }
 
-/// Those that slide, or come to roll, on a plane that carries them along: no sum over the steps is
-/// known, so each is done, of the slip u alone. What friction takes from v is summed.
-HWY_ATTR inline void GlideSliding(GrainArrays& g, std::span<const std::size_t> grains,
-                                  const std::vector<GrainKind>& kinds, double h,
-                                  std::span<const GrainPush> pushes) {
-  struct alignas(64) Row {
-    double of[kSliding];
-  };
-  Row ux, uy, dx, dy, sx, sy, tx, ty, held_by, slides_by, share, grow, sticks;
-  const std::size_t n = grains.size(), padded = (n + 7) / 8 * 8;  // vectors, and nothing beside
-  for (Row* row :
-       {&ux, &uy, &dx, &dy, &sx, &sy, &tx, &ty, &held_by, &slides_by, &share, &grow, &sticks})
-    std::fill(row->of + n, row->of + padded, 0.0);
-  const GrainPush& first = pushes.front();
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = grains[k];
-    const GrainKind& kind = kinds[g.kind[i]];
-    const double R = kind.radius;
-    ux.of[k] = g.vx[i] - R * g.wy[i] - first.before_x;
-    uy.of[k] = g.vy[i] + R * g.wx[i] - first.before_y;
-    dx.of[k] = g.dvx[i] - R * g.dwy[i];  // of the slip, were the plane still
-    dy.of[k] = g.dvy[i] + R * g.dwx[i];
-    sx.of[k] = sy.of[k] = tx.of[k] = ty.of[k] = 0;
-    sticks.of[k] = g.sticks[i];
-    const double load = kind.weight * kind.inverse_mass * h;
-    slides_by.of[k] = kind.kinetic_friction * load;
-    held_by.of[k] = kind.static_friction * load;
-    share.of[k] = kind.share;
-    grow.of[k] = 1 / kind.share;
-  }
-  for (const GrainPush& push : pushes) {
-    const double ax = h * push.slope_x, ay = h * push.slope_y;
-    const double plane_dx = push.plane_x - push.before_x, plane_dy = push.plane_y - push.before_y;
-    SLIPCHECK_EACH_ALONE
-    for (std::size_t k = 0; k < padded; ++k) {
-      const double x = ux.of[k] + (ax - plane_dx), y = uy.of[k] + (ay - plane_dy);
-      const double px = ux.of[k] + 0.5 * (dx.of[k] - plane_dx);
-      const double py = uy.of[k] + 0.5 * (dy.of[k] - plane_dy);
-      const double share2 = share.of[k] * share.of[k], slip2 = x * x + y * y;
-      const double cap = sticks.of[k] > 0 ? held_by.of[k] : slides_by.of[k];
-      const bool held = slip2 * share2 <= cap * cap;
-      const double friction = slides_by.of[k], expected2 = px * px + py * py;
-      const bool follows = (px * x + py * y > 0) & (expected2 * share2 > friction * friction);
-      const double along_x = follows ? px : x, along_y = follows ? py : y;
-      const double size2 = follows ? expected2 : slip2;
-      const double sliding = friction * (1 / std::sqrt(size2 > 0 ? size2 : 1));
-      const double lost_x = held ? share.of[k] * x : sliding * along_x;  // of v
-      const double lost_y = held ? share.of[k] * y : sliding * along_y;
-      const double slip_x = grow.of[k] * lost_x, slip_y = grow.of[k] * lost_y;
-      ux.of[k] = held ? 0 : x - slip_x;
-      uy.of[k] = held ? 0 : y - slip_y;
-      dx.of[k] = ax - slip_x;
-      dy.of[k] = ay - slip_y;
-      const double all_x = sx.of[k] + lost_x, all_y = sy.of[k] + lost_y;
-      sx.of[k] = all_x;
-      sy.of[k] = all_y;
-      tx.of[k] += all_x;
-      ty.of[k] += all_y;
-      sticks.of[k] = held ? 1 : 0;
-    }
-  }
-  const GrainPush& last = pushes.back();
-  const double ax = h * last.slope_x, ay = h * last.slope_y;
-  const auto count = static_cast<double>(pushes.size());
-  const double drift = 0.5 * count * (count + 1);
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = grains[k];
-    const bool rolls = sticks.of[k] > 0;
-    const double turn = kinds[g.kind[i]].turn, R = kinds[g.kind[i]].radius;
-    g.x[i] += h * (count * g.vx[i] + drift * ax - tx.of[k]);
-    g.y[i] += h * (count * g.vy[i] + drift * ay - ty.of[k]);
-    g.vx[i] += count * ax - sx.of[k];
-    g.vy[i] += count * ay - sy.of[k];
-    g.wx[i] = rolls ? -(g.vy[i] - last.plane_y) / R : g.wx[i] - turn * sy.of[k];
-    g.wy[i] = rolls ? (g.vx[i] - last.plane_x) / R : g.wy[i] + turn * sx.of[k];
-    const double lost_x = share.of[k] * (ax - dx.of[k]), lost_y = share.of[k] * (ay - dy.of[k]);
-    g.dvx[i] = ax - lost_x;
-    g.dvy[i] = ay - lost_y;
-    g.dwx[i] = -turn * lost_y;
-    g.dwy[i] = turn * lost_x;
-    g.sticks[i] = sticks.of[k];
-  }
-}
-
 /// On a plane that carries them along. Those that fly stay.
-template <bool kLifts>
+template <bool kOneKind, bool kLifts>
 HWY_ATTR void GlideDriven(GrainArrays& grains, std::size_t first, std::size_t last,
                           const std::vector<GrainKind>& kinds, const GrainSteps& steps) {
   const GrainDriving& driving = *steps.driving;
   const double time = steps.step * static_cast<double>(steps.count);
-  std::array<std::size_t, kSliding> sliding;
+  SlidingList through{SlideThrough}, other{SlideEach};
+  const auto slide = [&](SlidingList& list) {
+    GlideSliding(grains, list, kinds, steps.step, driving.steps);
+    list.count = 0;
+  };
+  SlidingRow slides;
   for (std::size_t begin = first; begin < last; begin += kSliding) {
     const std::size_t end = std::min(last, begin + kSliding);
-    std::size_t count = 0;
+    GlideRolling<kOneKind>(grains, begin, end, time, driving);
+    FindSliding<kOneKind, kLifts>(grains, begin, end, driving, slides);
     for (std::size_t i = begin; i < end; ++i) {
-      sliding[count] = i;
-      const bool rolls = grains.sticks[i] * driving.rolls[grains.kind[i]].holds > 0;
-      count += rolls || (kLifts && grains.flies[i] > 0) ? 0 : 1;
+      const double how = slides.of[i - begin];
+      through.of[through.count] = other.of[other.count] = i;
+      through.count += how == kSlidesThrough ? 1 : 0;
+      other.count += how == kSlides ? 1 : 0;
+      if (through.count == kSliding) slide(through);
+      if (other.count == kSliding) slide(other);
     }
-    if (count < end - begin) GlideRolling(grains, begin, end, time, driving);
-    GlideSliding(grains, {sliding.data(), count}, kinds, steps.step, driving.steps);
   }
+  slide(through);
+  slide(other);
 }
 
 /// The next `count` steps of one that flies, or as many as it takes to come down. Returns their
@@ -361,7 +274,8 @@ HWY_ATTR void GlideFlying(const GrainFeatures& has, GrainArrays& g, std::size_t 
     }
     if (left == 0) continue;
     if constexpr (kDriven)
-      GlideSliding(g, {&i, 1}, kinds, steps.step, std::span(steps.driving->steps).last(left));
+      GlideSliding(g, {SlideEach, 1, {i}}, kinds, steps.step,
+                   std::span(steps.driving->steps).last(left));
     else
       GlideOn(has, g, i, i + 1, kinds, steps.step, static_cast<double>(left));
   }
@@ -371,10 +285,12 @@ HWY_ATTR GrainSpeeds Glide(const GrainFeatures& features, GrainArrays& grains, s
                            std::size_t last, const std::vector<GrainKind>& kinds,
                            const GrainPlane& plane, const GrainSteps& steps) {
   if (features.driven && features.lifts) {
-    GlideDriven<true>(grains, first, last, kinds, steps);
+    GlideDriven<false, true>(grains, first, last, kinds, steps);
     GlideFlying<true>(features, grains, first, last, kinds, plane, steps);
+  } else if (features.driven && kinds.size() == 1) {
+    GlideDriven<true, false>(grains, first, last, kinds, steps);
   } else if (features.driven) {
-    GlideDriven<false>(grains, first, last, kinds, steps);
+    GlideDriven<false, false>(grains, first, last, kinds, steps);
   } else if (!features.on_plane) {
     GlideFreely(grains, first, last, steps.step * static_cast<double>(steps.count));
   } else {

@@ -55,11 +55,13 @@ struct GrainPush {
 
 /// Steps of a grain of one kind that rolls on it all the while, summed.
 struct GrainRoll {
-  double per_radius = 0;              ///< 1/R [1/m]
+  double radius = 0, per_radius = 0;  ///< R [m], and 1/R [1/m]
   double holds = 0;                   ///< 1: static friction does in each of them; else 0
   double dvx = 0, dvy = 0;            ///< of the velocity [m/s]
   double x = 0, y = 0;                ///< beside v t [m]
   double last_dvx = 0, last_dvy = 0;  ///< in the last step [m/s]
+  /// The slip beyond which it would slide in each of them, and turn little in each [m/s].
+  double slides_from = 0;
 };
 
 /// What such a plane does in a row of steps.
