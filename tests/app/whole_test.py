@@ -106,9 +106,9 @@ class Whole(unittest.TestCase):
         loss = [series[0][1] - series[-1][1] for series in (ours, theirs)]
         self.assertAlmostEqual(loss[0] / loss[1], 1, delta=0.1)
         compared = {row["quantity"]: row for row in self.rows("gas.comparison.csv")}
-        # At rest on a spring that lasts t_col and leaves e = 0.01 of a speed a ball has sunk by
-        # g t_col²/(pi² + ln² e); the printed height has 17 digits, its sum over 1200 balls 13.
-        sunk = 9.81 * 1e-3**2 / (math.pi**2 + math.log(0.01)**2)
+        # At rest on a spring on which an elastic collision takes t_col a ball has sunk by
+        # g t_col²/pi²; the printed height has 17 digits, its sum over 1200 balls 13.
+        sunk = 9.81 * 1e-3**2 / math.pi**2
         self.assertAlmostEqual(float(compared["height"]["difference"]) / -sunk, 1, 6)
         kinetic = compared["kinetic_energy"]
         self.assertEqual(kinetic["engine"], "lammps")

@@ -75,7 +75,11 @@ const std::vector<Row> kRows = {
     {"rapier@", "single", "default", yes, yes, no, no, no},
     {"rapier@", "single", "physical", yes, yes, yes, no, yes},
     // Its spheres are solid. A rounding of a turned place is one of an overlap, 10⁴ times smaller.
-    {"lammps", "double", "default", yes, yes, to_its_solvers_tolerance, yes, yes, kSeeds, 1e-7,
+    // A damping force begins with the step that finds a touch: a height that is off by δ so leaves
+    // a velocity off by γ δ, and the next bounce at v comes 2 γ δ/g later, 2 γ v/g times as far
+    // off: 30 times at 1 cm/s and γ = 1.5·10⁴/s. Two of twelve scenes have some such bounces in
+    // turn.
+    {"lammps", "double", "default", yes, yes, to_its_solvers_tolerance, yes, yes, kSeeds, 1e-5,
      0.4},
     {"lammps", "double", "physical", yes, yes, to_its_solvers_tolerance, yes, yes, kFewSeeds, 1e-7,
      0.4, 48},
