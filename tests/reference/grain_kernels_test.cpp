@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "reference/steps/grain_drive.h"
@@ -63,6 +65,7 @@ std::vector<Grain> grains(const Vector2& plane) {
   for (int n = 0; n < 500; ++n) {
     Grain grain{vector(10), vector(1), vector(1), vector(1e-3), vector(1e-3), n % 5 == 0};
     if (n % 7 == 0) grain.d_v = -3 * (grain.v + grain.spin - plane);
+    if (n % 7 == 1) grain.d_v = 0.4 * (grain.v + grain.spin - plane);
     if (n % 5 == 0) grain.spin = plane - grain.v;
     if (n % 5 == 1) grain.spin = plane - grain.v + vector(0.03);
     all.push_back(grain);
@@ -83,13 +86,23 @@ void put(const std::vector<Grain>& from, GrainArrays& to) {
   }
 }
 
+/// A plane, tilted too.
+struct Carrying {
+  std::string name;
+  SubstrateMotion motion;
+};
+
+void PrintTo(const Carrying& plane, std::ostream* out) { *out << plane.name; }
+
+class GrainsAloneOn : public ::testing::TestWithParam<Carrying> {};
+
 /// Each is alone: what is done in one go, in each step without a look at what cannot be, and in
 /// each step as it comes.
-TEST(GrainKernels, GlidingOnADrivenPlaneIsStepByStep) {
+TEST_P(GrainsAloneOn, ADrivenPlaneGlideStepByStep) {
   Scene scene;
   scene.bodies = {Sphere{kRadius, 1, 0.4}};
   scene.downhill = {0.7, -0.2};
-  scene.motion = SubstrateMotion::oscillation({0.01, 0.02}, 8, 0.3);
+  scene.motion = GetParam().motion;
   GrainFeatures features;
   features.rubs = features.on_plane = features.driven = true;
   const std::vector<GrainKind> kinds = {sphere()};
@@ -100,7 +113,7 @@ TEST(GrainKernels, GlidingOnADrivenPlaneIsStepByStep) {
   put(expected, arrays);
   GrainDriving driving;
   std::size_t n = 0;
-  for (const std::size_t count : {1, 2, 64, 25, 64}) {
+  for (const std::size_t count : {25, 1, 2, 64, 64}) {
     drive.find(n, count, kinds, driving);
     kernels.glide(arrays, 0, expected.size(), {kStep, kStep, count, true, true, &driving});
     n += count;
@@ -123,6 +136,16 @@ TEST(GrainKernels, GlidingOnADrivenPlaneIsStepByStep) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    All, GrainsAloneOn,
+    ::testing::Values(Carrying{"slope", {}},
+                      Carrying{"shaken", SubstrateMotion::oscillation({0.01, 0.02}, 8, 0.3)},
+                      // Its velocity jumps within a block, by more than friction takes in a step.
+                      Carrying{"jerked", SubstrateMotion::table({{0, {0, 0}},
+                                                                 {0.0042, {2e-5, 0}},
+                                                                 {0.0123, {1e-5, 3e-5}}})}),
+    [](const auto& each) { return each.param.name; });
 
 }  // namespace
 }  // namespace slipcheck

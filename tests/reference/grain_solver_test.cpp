@@ -747,7 +747,7 @@ INSTANTIATE_TEST_SUITE_P(All, GrainKernelsFor,
 TEST(GrainSolver, BlocksUseUpTheListInEqualParts) {
   for (const std::size_t covered : {5, 13, 14, 27, 33, 100}) {  // steps
     constexpr double kFastest = 1, kFaster = 1.1;
-    GrainBlocks blocks(kStep, 0, 0);
+    GrainBlocks blocks(kStep, 0, 0, false);
     blocks.took(10, 600, 100, {kFastest});
     // The thickest skin, 0.6 diameters: the ways of two in so many steps and a half.
     const double ways = 2 * kFaster * kFastest * kStep * (static_cast<double>(covered) + 0.5);

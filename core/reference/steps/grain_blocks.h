@@ -18,9 +18,10 @@ class GrainBlocks {
 
   GrainBlocks() = default;
   /// step: h [s]; braking: the largest acceleration of a grain by the substrate [m/s²]; landing: by
-  /// a landing, the largest change of its speed along the plane for its speed towards it [-].
-  GrainBlocks(double step, double braking, double landing)
-      : step_(step), braking_(braking), landing_(landing) {}
+  /// a landing, the largest change of its speed along the plane for its speed towards it [-];
+  /// driven: the plane carries the grains along.
+  GrainBlocks(double step, double braking, double landing, bool driven)
+      : step_(step), braking_(braking), landing_(landing), gliding_(driven ? kDriven : 1) {}
 
   void exchange(StateArchive& archive) {
     archive(fastest_, across_, skin_, moved_, joining_, last_length_);
@@ -49,7 +50,8 @@ class GrainBlocks {
   /// listed: pairs of the list; touching: of them, those in contact.
   std::size_t next(std::size_t steps, std::size_t grains, std::size_t listed,
                    std::size_t touching) const {
-    const double all = static_cast<double>(grains) + kLook * static_cast<double>(listed) +
+    const double all = gliding_ * static_cast<double>(grains) +
+                       kLook * static_cast<double>(listed) +
                        kIsland * 2 * static_cast<double>(touching);
     const double best = std::sqrt(all / (kSteps * std::max(joining_, 1e-6)));
     const auto length = static_cast<std::size_t>(
@@ -85,6 +87,7 @@ class GrainBlocks {
  private:
   // Costs in units of one grain gliding through a block, about 1 ns. They only tell how long blocks
   // and how thick skins are.
+  static constexpr double kDriven = 6;        ///< of a grain carried along, beside its steps
   static constexpr double kLook = 1;          ///< at a pair of the list
   static constexpr double kSteps = 4;         ///< of a grain in an island, each step
   static constexpr double kIsland = 40;       ///< to sort a grain into one
@@ -92,7 +95,7 @@ class GrainBlocks {
   /// How much faster than the fastest now a grain may get in a block before it is done again.
   static constexpr double kFaster = 1.1;
 
-  double step_ = 0, braking_ = 0, landing_ = 0;
+  double step_ = 0, braking_ = 0, landing_ = 0, gliding_ = 1;
   double fastest_ = 0, across_ = 0;  ///< speeds of grains along the plane and across it [m/s]
   double skin_ = 0;
   double moved_ = 0;    ///< at most, by any grain since the list was made [m]

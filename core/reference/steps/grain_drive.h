@@ -93,14 +93,19 @@ class GrainDrive {
     roll.radius = kind.radius;
     roll.per_radius = 1 / kind.radius;
     const double most = kind.static_friction * kind.weight * kind.inverse_mass * step_;
-    double pushed = 0;  // the most in a step
+    double pushed = 0, jumps = 0;  // the most in a step, and beside what the last two let expect
+    Vector2 last(0, 0), change(0, 0);
     for (const GrainPush& push : steps) {
       const double ax = step_ * push.slope_x, ay = step_ * push.slope_y;
       const double ux = ax - (push.plane_x - push.before_x);
       const double uy = ay - (push.plane_y - push.before_y);
       const double held2 = kind.share * kind.share * (ux * ux + uy * uy);
       if (!(held2 <= most * most)) roll.holds = 0;
-      pushed = std::max(pushed, std::hypot(ux, uy));
+      const Vector2 pushes(ux, uy), changes = pushes - last;
+      pushed = std::max(pushed, pushes.norm());
+      if (&push - steps.data() >= 2) jumps = std::max(jumps, (changes - change).norm());
+      change = changes;
+      last = pushes;
       roll.last_dvx = ax - kind.share * ux;
       roll.last_dvy = ay - kind.share * uy;
       roll.dvx += roll.last_dvx;
@@ -108,10 +113,11 @@ class GrainDrive {
       roll.x += step_ * roll.dvx;
       roll.y += step_ * roll.dvy;
     }
-    // A step changes the slip by so much at most; four are left in the end.
+    // A step changes the slip by so much at most; twenty are left in the end. 1/|u| is then less
+    // than 1e-3 off what its last three values let expect.
     const double each =
         kind.kinetic_friction * kind.weight * kind.inverse_mass * step_ / kind.share + pushed;
-    roll.slides_from = static_cast<double>(steps.size() + 4) * each;
+    roll.slides_from = std::max(static_cast<double>(steps.size() + 20) * each, 1e5 * jumps);
     return roll;
   }
 

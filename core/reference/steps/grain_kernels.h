@@ -60,7 +60,7 @@ struct GrainRoll {
   double dvx = 0, dvy = 0;            ///< of the velocity [m/s]
   double x = 0, y = 0;                ///< beside v t [m]
   double last_dvx = 0, last_dvy = 0;  ///< in the last step [m/s]
-  /// The slip beyond which it would slide in each of them, and turn little in each [m/s].
+  /// The slip beyond which it would slide in each of them, and go on as it did [m/s].
   double slides_from = 0;
 };
 

@@ -34,11 +34,12 @@ HWY_BEFORE_NAMESPACE();
 namespace slipcheck {
 namespace HWY_NAMESPACE {
 
-/// How many slide at once, in the nearest cache.
-inline constexpr std::size_t kSliding = 128;
+/// How many slide at once, in the nearest cache; a step reads and writes ten rows.
+inline constexpr std::size_t kSliding = 256;
 
+/// Two of them are no multiple of 4 kB apart, which a processor takes for the same place.
 struct alignas(64) SlidingRow {
-  double of[kSliding];
+  double of[kSliding + 8];
 };
 
 /// Those that slide, or come to roll, and what is known of them from step to step.
@@ -136,6 +137,15 @@ HWY_ATTR inline void PutSliding(const SlidingGrains& s, std::span<const std::siz
   }
 }
 
+/// 1/√x of x > 0 by Newton's steps, from the guess that its bits are: the same everywhere.
+HWY_ATTR HWY_INLINE double PerRoot(double x) {
+  constexpr std::uint64_t kGuess = 0x5FE6EB50C7B537A9;  // within 3.5 %, then 2e-3, 5e-6, 3e-11
+  double root = std::bit_cast<double>(kGuess - (std::bit_cast<std::uint64_t>(x) >> 1));
+  const double half = 0.5 * x;
+  for (int n = 0; n < 4; ++n) root *= 1.5 - half * root * root;
+  return root;
+}
+
 /// One by one, of the slip u alone.
 HWY_ATTR inline void SlideEach(SlidingGrains& s, double h, std::span<const GrainPush> pushes) {
   for (const GrainPush& push : pushes) {
@@ -171,57 +181,75 @@ HWY_ATTR inline void SlideEach(SlidingGrains& s, double h, std::span<const Grain
   }
 }
 
-/// 1/√x of x > 0 by Newton's steps, from the guess that its bits are: the same everywhere.
-HWY_ATTR HWY_INLINE double PerRoot(double x) {
-  constexpr std::uint64_t kGuess = 0x5FE6EB50C7B537A9;  // within 3.5 %, then 2e-3, 5e-6, 3e-11
-  double root = std::bit_cast<double>(kGuess - (std::bit_cast<std::uint64_t>(x) >> 1));
-  const double half = 0.5 * x;
-  for (int n = 0; n < 4; ++n) root *= 1.5 - half * root * root;
-  return root;
+/// 1/√x from a guess g that is less than 1e-3 of it off: 4.4 of the fourth power of that is left.
+HWY_ATTR HWY_INLINE double PerRootNear(double x, double g) {
+  const double left = 1 - x * (g * g);
+  return g + (g * left) * (0.5 + left * (0.375 + 0.3125 * left));
+}
+
+/// What a step gives every slip u, and that with half of what the next one will [m/s].
+struct SlipPush {
+  double x, y, ahead_x, ahead_y;
+};
+
+/// Of step n. After the last one the plane is thought still: PutSliding() keeps what changes v.
+HWY_ATTR inline SlipPush FindSlipPush(std::span<const GrainPush> pushes, std::size_t n, double h) {
+  const auto moved_x = [&](std::size_t k) { return pushes[k].plane_x - pushes[k].before_x; };
+  const auto moved_y = [&](std::size_t k) { return pushes[k].plane_y - pushes[k].before_y; };
+  const bool is_last = n + 1 == pushes.size();
+  const double ax = h * pushes[n].slope_x, ay = h * pushes[n].slope_y;
+  const double x = ax - moved_x(n), y = ay - moved_y(n);
+  const double next_x = is_last ? ax : ax - moved_x(n + 1);
+  const double next_y = is_last ? ay : ay - moved_y(n + 1);
+  return {x, y, x + 0.5 * next_x, y + 0.5 * next_y};
 }
 
 /// As SlideEach(), of those that FindSliding() tells: a step is little more than the direction of
-/// the friction, and what that takes is the difference between the pushes and the slip.
+/// the friction, and what that takes is the difference between the pushes and the slip. From the
+/// fifth on 1/|u| is what its last three values let expect, or nearly: the one of the first step
+/// is not, as an impact may have been before it.
 HWY_ATTR inline void SlideThrough(SlidingGrains& s, double h, std::span<const GrainPush> pushes) {
-  // Half of what changes the slip: the last change, and the friction.
-  SlidingRow half_x, half_y, half;
-  const auto moves_x = [](const GrainPush& push) { return push.plane_x - push.before_x; };
-  const auto moves_y = [](const GrainPush& push) { return push.plane_y - push.before_y; };
-  const double first_x = moves_x(pushes.front()), first_y = moves_y(pushes.front());
+  SlidingRow px, py, friction;  // the slip expected in the middle of a step, and what u loses
+  std::array<SlidingRow, 3> roots;
+  const GrainPush& first = pushes.front();
+  const double first_x = first.plane_x - first.before_x, first_y = first.plane_y - first.before_y;
   SLIPCHECK_EACH_ALONE
   for (std::size_t k = 0; k < s.padded; ++k) {
-    half_x.of[k] = 0.5 * (s.dx.of[k] - first_x);
-    half_y.of[k] = 0.5 * (s.dy.of[k] - first_y);
-    half.of[k] = 0.5 * (s.grow.of[k] * s.slides_by.of[k]);
+    px.of[k] = s.ux.of[k] + 0.5 * (s.dx.of[k] - first_x);
+    py.of[k] = s.uy.of[k] + 0.5 * (s.dy.of[k] - first_y);
+    friction.of[k] = s.grow.of[k] * s.slides_by.of[k];
     s.sx.of[k] = s.ux.of[k];
     s.sy.of[k] = s.uy.of[k];
   }
   double pushed_x = 0, pushed_y = 0, way_x = 0, way_y = 0;
-  for (std::size_t n = 0; n < pushes.size(); ++n) {
-    const bool is_last = n + 1 == pushes.size();
-    const double ax = h * pushes[n].slope_x, ay = h * pushes[n].slope_y;
-    const double bx = ax - moves_x(pushes[n]), by = ay - moves_y(pushes[n]);
-    const double next_x = 0.5 * (is_last ? ax : ax - moves_x(pushes[n + 1]));
-    const double next_y = 0.5 * (is_last ? ay : ay - moves_y(pushes[n + 1]));
-    pushed_x += bx;
-    pushed_y += by;
-    way_x += pushed_x;
-    way_y += pushed_y;
+  const auto step = [&](std::size_t n, const auto& per_root) HWY_ATTR {
+    const SlipPush push = FindSlipPush(pushes, n, h);
+    way_x += pushed_x += push.x;
+    way_y += pushed_y += push.y;
+    const double* HWY_RESTRICT last = roots[(n + 2) % 3].of;
+    const double* HWY_RESTRICT before = roots[(n + 1) % 3].of;
+    double* HWY_RESTRICT root = roots[n % 3].of;
     SLIPCHECK_EACH_ALONE
     for (std::size_t k = 0; k < s.padded; ++k) {
-      const double px = s.ux.of[k] + half_x.of[k], py = s.uy.of[k] + half_y.of[k];
-      const double friction = half.of[k] * PerRoot(px * px + py * py);
-      const double lost_x = friction * px, lost_y = friction * py;
-      const double x = (s.ux.of[k] + bx) - (lost_x + lost_x);
-      const double y = (s.uy.of[k] + by) - (lost_y + lost_y);
-      half_x.of[k] = next_x - lost_x;
-      half_y.of[k] = next_y - lost_y;
+      const double slip_x = px.of[k], slip_y = py.of[k];
+      const double per_slip =
+          per_root(slip_x * slip_x + slip_y * slip_y, 3 * (last[k] - before[k]) + root[k]);
+      const double lost_x = friction.of[k] * slip_x * per_slip;
+      const double lost_y = friction.of[k] * slip_y * per_slip;
+      const double x = (s.ux.of[k] + push.x) - lost_x, y = (s.uy.of[k] + push.y) - lost_y;
+      px.of[k] = (s.ux.of[k] + push.ahead_x) - 1.5 * lost_x;
+      py.of[k] = (s.uy.of[k] + push.ahead_y) - 1.5 * lost_y;
       s.ux.of[k] = x;
       s.uy.of[k] = y;
       s.tx.of[k] += x;
       s.ty.of[k] += y;
+      root[k] = per_slip;
     }
-  }
+  };
+  const std::size_t looks = std::min<std::size_t>(pushes.size(), 4);
+  for (std::size_t n = 0; n < looks; ++n)
+    step(n, [](double x, double) HWY_ATTR { return PerRoot(x); });
+  for (std::size_t n = looks; n < pushes.size(); ++n) step(n, PerRootNear);
   const auto count = static_cast<double>(pushes.size());
   SLIPCHECK_EACH_ALONE
   for (std::size_t k = 0; k < s.padded; ++k) {
@@ -230,8 +258,8 @@ HWY_ATTR inline void SlideThrough(SlidingGrains& s, double h, std::span<const Gr
     s.sy.of[k] = s.share.of[k] * (pushed_y - (s.uy.of[k] - from_y));
     s.tx.of[k] = s.share.of[k] * (way_x - (s.tx.of[k] - count * from_x));
     s.ty.of[k] = s.share.of[k] * (way_y - (s.ty.of[k] - count * from_y));
-    s.dx.of[k] = 2 * half_x.of[k];
-    s.dy.of[k] = 2 * half_y.of[k];
+    s.dx.of[k] = 2 * (px.of[k] - s.ux.of[k]);
+    s.dy.of[k] = 2 * (py.of[k] - s.uy.of[k]);
   }
 }
 

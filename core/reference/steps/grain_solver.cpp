@@ -77,7 +77,7 @@ class GrainSolver::Impl {
       fastest.along2 = std::max(fastest.along2, speed.squaredNorm());
       if (features().lifts) fastest.across2 = std::max(fastest.across2, raise(i, state));
     }
-    blocks_ = {step, braking_beside_drift(), landing()};
+    blocks_ = {step, braking_beside_drift(), landing(), features().driven};
     blocks_.set_fastest(fastest);
     find_neighbours(1);
   }
