@@ -108,6 +108,10 @@ class Engine {
   /// some steps the harness hears. That of the whole process, in case the engine has threads of its
   /// own, unless overridden by an engine whose work is done in processes beside it.
   virtual double cpu_seconds() const;
+
+  /// The worker's process is about to end, and nothing of it is taken apart: ends what would
+  /// outlast it, as other processes and their files, within half a second.
+  virtual void finish() {}
 };
 
 }  // namespace slipcheck

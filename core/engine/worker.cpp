@@ -207,7 +207,8 @@ Bytes encode_or_fail(const protocol::Reply& reply, std::size_t most) {
 
 /// What a process holds ends with it: taking a world of many bodies apart takes as long as making
 /// it. A sanitizer is to see that nothing was lost.
-int leave() {
+int leave(Engine& engine) {
+  engine.finish();
 #ifndef SLIPCHECK_SANITIZE
   std::fflush(nullptr);
   std::_Exit(0);
@@ -240,12 +241,12 @@ int run_worker(Engine& engine) {
   try {
     while (const std::optional<Bytes> body = connection.receive(most)) {
       const protocol::Request request = protocol::decode_request(*body);
-      if (std::holds_alternative<protocol::Quit>(request)) return leave();
+      if (std::holds_alternative<protocol::Quit>(request)) return leave(engine);
       protocol::Reply reply = worker.answer(request);
-      if (!connection.send(encode_or_fail(reply, most))) return leave();
+      if (!connection.send(encode_or_fail(reply, most))) return leave(engine);
       worker.take_back(std::move(reply));
     }
-    return leave();
+    return leave(engine);
   } catch (const protocol::Rubbish& rubbish) {  // nothing after it can be trusted
     connection.send(protocol::encode(protocol::Reply(protocol::Failed{rubbish.what()})));
     return 1;

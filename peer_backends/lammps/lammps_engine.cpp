@@ -177,6 +177,11 @@ class LammpsEngine final : public Engine {
     return cpu_seconds_;
   }
 
+  /// mpirun tidies up where it may end; one rank leaves nothing anyway.
+  void finish() override {
+    if (setup_ && setup_->settings.ranks > 1) process_.reset();
+  }
+
  private:
   struct Setup {
     EngineScene scene;

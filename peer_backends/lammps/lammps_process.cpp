@@ -137,7 +137,10 @@ LammpsProcess::~LammpsProcess() {
   for (const int end : {commands_, words_, snapshots_, snapshots_write_}) close(end);
   if (process_ < 0) return;
   // Without commands it ends by itself, and mpirun with it, which so tidies up.
-  for (int k = 0; k < 200 && waitpid(process_, nullptr, WNOHANG) == 0; ++k) usleep(10000);
+  for (int k = 0; k < 200; ++k) {
+    if (waitpid(process_, nullptr, WNOHANG) != 0) return;
+    usleep(10000);
+  }
   kill(process_, SIGKILL);
   waitpid(process_, nullptr, 0);
 }
