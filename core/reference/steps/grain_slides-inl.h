@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "reference/steps/grain_kernels.h"
@@ -62,6 +63,7 @@ HWY_ATTR inline void TakeSliding(const GrainArrays& g, std::span<const std::size
   for (SlidingRow* row : {&s.ux, &s.uy, &s.dx, &s.dy, &s.sx, &s.sy, &s.tx, &s.ty, &s.held_by,
                           &s.slides_by, &s.share, &s.grow, &s.sticks})
     std::fill(row->of + n, row->of + s.padded, 0.0);
+  std::fill(s.ux.of + n, s.ux.of + s.padded, 1.0);  // a slip that has a direction
   const double* HWY_RESTRICT vx = g.vx.data();
   const double* HWY_RESTRICT vy = g.vy.data();
   const double* HWY_RESTRICT wx = g.wx.data();
@@ -222,7 +224,7 @@ HWY_ATTR inline void SlideThrough(SlidingGrains& s, double h, std::span<const Gr
     s.sy.of[k] = s.uy.of[k];
   }
   double pushed_x = 0, pushed_y = 0, way_x = 0, way_y = 0;
-  const auto step = [&](std::size_t n, const auto& per_root) HWY_ATTR {
+  const auto step = [&](std::size_t n, auto goes_on) HWY_ATTR {
     const SlipPush push = FindSlipPush(pushes, n, h);
     way_x += pushed_x += push.x;
     way_y += pushed_y += push.y;
@@ -232,8 +234,12 @@ HWY_ATTR inline void SlideThrough(SlidingGrains& s, double h, std::span<const Gr
     SLIPCHECK_EACH_ALONE
     for (std::size_t k = 0; k < s.padded; ++k) {
       const double slip_x = px.of[k], slip_y = py.of[k];
-      const double per_slip =
-          per_root(slip_x * slip_x + slip_y * slip_y, 3 * (last[k] - before[k]) + root[k]);
+      const double slip2 = slip_x * slip_x + slip_y * slip_y;
+      double per_slip;
+      if constexpr (goes_on)
+        per_slip = PerRootNear(slip2, 3 * (last[k] - before[k]) + root[k]);
+      else
+        per_slip = PerRoot(slip2);
       const double lost_x = friction.of[k] * slip_x * per_slip;
       const double lost_y = friction.of[k] * slip_y * per_slip;
       const double x = (s.ux.of[k] + push.x) - lost_x, y = (s.uy.of[k] + push.y) - lost_y;
@@ -247,9 +253,8 @@ HWY_ATTR inline void SlideThrough(SlidingGrains& s, double h, std::span<const Gr
     }
   };
   const std::size_t looks = std::min<std::size_t>(pushes.size(), 4);
-  for (std::size_t n = 0; n < looks; ++n)
-    step(n, [](double x, double) HWY_ATTR { return PerRoot(x); });
-  for (std::size_t n = looks; n < pushes.size(); ++n) step(n, PerRootNear);
+  for (std::size_t n = 0; n < looks; ++n) step(n, std::false_type());
+  for (std::size_t n = looks; n < pushes.size(); ++n) step(n, std::true_type());
   const auto count = static_cast<double>(pushes.size());
   SLIPCHECK_EACH_ALONE
   for (std::size_t k = 0; k < s.padded; ++k) {
