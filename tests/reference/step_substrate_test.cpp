@@ -30,6 +30,28 @@ struct SlideWatch final : FrameSink {
   double radius_;
 };
 
+/// Balls that roll all the while collide as if of 7/5 their mass.
+TEST(StepSolver, StaticFrictionAloneHoldsWhatRollsThroughASlowCollision) {
+  constexpr double kRestitution = 0.9, kTime = 0.02, kSpeed = 0.005;
+  ContactScene scene = colliding(kSpeed, -kSpeed, kRestitution, kTime);
+  scene.hard.substrate[0].static_friction = 0.5;
+  scene.hard.substrate[0].kinetic_friction = 0;
+  // ξ'' + 2 β ξ' + ω0² ξ = 0 with masses of 7/5.
+  const double beta = -std::log(kRestitution) / kTime, omega = M_PI / kTime;
+  const double slower = beta / 1.4;
+  const double expected =
+      std::exp(-slower * M_PI / std::sqrt((omega * omega + beta * beta) / 1.4 - slower * slower));
+  for (const StepSettings& settings :
+       {StepSettings{.step = kTime / 800}, StepSettings{.step = kTime / 800, .general = true},
+        StepSettings{.step = kTime / 800, .most_in_all_pairs = 1}}) {
+    StepSolver solver(scene, scene.hard.initial, settings);
+    solver.run(until_time(0.1), nullptr);
+    EXPECT_LT(closing(solver.states()), 0);
+    // Of the steps, that are of second order; it is 0.9 without friction.
+    EXPECT_NEAR(-closing(solver.states()) / (2 * kSpeed), expected, 1e-5);
+  }
+}
+
 TEST(StepSolver, SlidingTimeAndDistanceAreOfFirstOrder) {
   Scene scene = test::steel_scene(1);
   scene.initial[0].velocity = {0.3, 0.1, 0};

@@ -72,7 +72,7 @@ std::string refusal_at_surfaces(const ContactScene& scene) {
 
 bool slides_or_rolls(const Scene& scene) {
   return std::any_of(scene.substrate.begin(), scene.substrate.end(),
-                     [](const SubstrateContact& c) { return c.kinetic_friction > 0; });
+                     [](const SubstrateContact& c) { return c.static_friction > 0; });
 }
 
 /// Higher than a few grains upon each other: there would be many neighbours.

@@ -60,7 +60,7 @@ bool is_bare(const ContactScene& contacts, std::span<const BodyState> initial) {
   const Scene& scene = contacts.hard;
   if (!is_plain(scene)) return false;
   for (std::size_t material : scene.material)
-    if (scene.substrate[material].kinetic_friction > 0) return false;
+    if (scene.substrate[material].static_friction > 0) return false;
   if (scene.confined) return true;
   for (const auto* table : {&contacts.soft, &contacts.soft_surfaces})
     for (const auto& contact : *table)
