@@ -50,15 +50,15 @@ class ThreadTeam {
     });
   }
 
-  /// Calls work(k) for all k of 0 … count − 1, each thread for those of its share, and then for
-  /// what is left of others'.
+  /// Calls work(own, k) for all k of 0 … count − 1, each thread `own` for those of its share, and
+  /// then for what is left of others'.
   template <class Work>
   void run_own_first(std::size_t count, Work&& work) {
     for (std::size_t k = 0; k < size(); ++k) left_[k].first = share_of(count, k).first;
     run(size(), [&](std::size_t own) {
       for (std::size_t turn = 0; turn < size(); ++turn) {
         const std::size_t of = (own + turn) % size(), last = share_of(count, of).second;
-        for (std::size_t k = left_[of].first++; k < last; k = left_[of].first++) work(k);
+        for (std::size_t k = left_[of].first++; k < last; k = left_[of].first++) work(own, k);
       }
     });
   }

@@ -43,7 +43,10 @@ TEST(ThreadTeam, SharesAreSideBySide) {
 
 TEST(ThreadTeam, OwnFirstIsEachWorkOnce) {
   expect_each_once([](ThreadTeam& team, std::size_t count, std::vector<std::atomic<int>>& times) {
-    team.run_own_first(count, [&](std::size_t k) { ++times[k]; });
+    team.run_own_first(count, [&](std::size_t own, std::size_t k) {
+      EXPECT_LT(own, team.size());
+      ++times[k];
+    });
   });
 }
 
@@ -52,13 +55,15 @@ TEST(ThreadTeam, WhoIsDoneTakesWhatIsLeftOfOthers) {
   ThreadTeam team(2);
   ASSERT_EQ(team.size(), 2u);
   constexpr std::size_t kCount = 10;
-  std::atomic<std::size_t> done = 0;
+  std::atomic<std::size_t> done = 0, long_one = 2;
   bool all_done = false;
-  team.run_own_first(kCount, [&](std::size_t k) {
+  team.run_own_first(kCount, [&](std::size_t own, std::size_t k) {
     if (k > 0) {
+      EXPECT_NE(own, long_one);
       ++done;
       return;
     }
+    long_one = own;
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (done + 1 < kCount && std::chrono::steady_clock::now() < end) std::this_thread::yield();
     all_done = done + 1 == kCount;
@@ -71,12 +76,12 @@ TEST(ThreadTeam, ThrowsOnWhatWorkThrows) {
   for (const std::size_t threads : {1, 3}) {
     ThreadTeam team(threads);
     EXPECT_THROW(team.run_own_first(100,
-                                    [](std::size_t k) {
+                                    [](std::size_t, std::size_t k) {
                                       if (k == 50) throw std::runtime_error("fifty");
                                     }),
                  std::runtime_error);
     std::atomic<int> times = 0;
-    team.run_own_first(100, [&](std::size_t) { ++times; });
+    team.run_own_first(100, [&](std::size_t, std::size_t) { ++times; });
     EXPECT_EQ(times, 100);
   }
 }

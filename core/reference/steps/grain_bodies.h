@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/state_archive.h"
@@ -100,15 +102,47 @@ struct GrainArrays {
   void for_each_lifted(F&& f) {
     for (auto* values : {&z, &vz, &dvz, &flies, &bounced}) f(*values);
   }
-  /// Those that steps change.
+  /// Those that steps change, as members.
+  template <class F>
+  static void for_each_changed_part(const GrainFeatures& has, F&& f) {
+    using G = GrainArrays;
+    for (const auto part : {&G::x, &G::y, &G::vx, &G::vy, &G::dvx, &G::dvy}) f(part);
+    if (has.rubs)
+      for (const auto part : {&G::wz, &G::dwz}) f(part);
+    if (has.on_plane)
+      for (const auto part : {&G::wx, &G::wy, &G::dwx, &G::dwy, &G::sticks}) f(part);
+    if (has.lifts)
+      for (const auto part : {&G::z, &G::vz, &G::dvz, &G::flies, &G::bounced}) f(part);
+  }
   template <class F>
   void for_each_changing(const GrainFeatures& has, F&& f) {
-    for (auto* values : {&x, &y, &vx, &vy, &dvx, &dvy}) f(*values);
-    if (has.rubs)
-      for (auto* values : {&wz, &dwz}) f(*values);
-    if (has.on_plane)
-      for (auto* values : {&wx, &wy, &dwx, &dwy, &sticks}) f(*values);
-    if (has.lifts) for_each_lifted(f);
+    for_each_changed_part(has, [&](auto part) { f(this->*part); });
+  }
+  /// What steps change of grains which[0], which[1], … of another becomes that of the first ones.
+  void gather(const GrainArrays& from, std::span<const std::uint32_t> which,
+              const GrainFeatures& has) {
+    for_each_changed_part(has, [&](auto part) {
+      double* const to = (this->*part).data();
+      const double* const values = (from.*part).data();
+      for (std::size_t k = 0; k < which.size(); ++k) to[k] = values[which[k]];
+    });
+  }
+  /// What steps change of grains first, first + 1, … of another becomes that of grains which[0],
+  /// which[1], ….
+  void scatter(std::span<const std::uint32_t> which, const GrainArrays& from, std::size_t first,
+               const GrainFeatures& has) {
+    for_each_changed_part(has, [&](auto part) {
+      double* const to = (this->*part).data();
+      const double* const values = (from.*part).data() + first;
+      for (std::size_t k = 0; k < which.size(); ++k) to[which[k]] = values[k];
+    });
+  }
+  /// What steps change of the first `count` of another becomes that of grains first, first + 1, ….
+  void take_first(std::size_t count, const GrainArrays& from, std::size_t first,
+                  const GrainFeatures& has) {
+    for_each_changed_part(has, [&](auto part) {
+      std::copy_n((from.*part).data(), count, (this->*part).data() + first);
+    });
   }
   /// What steps change of grain `i` of another becomes that of grain `k`.
   void take(std::size_t k, const GrainArrays& from, std::size_t i, const GrainFeatures& has) {

@@ -16,6 +16,21 @@ namespace slipcheck {
 /// The pairs of grains in contact, and what each remembers, between two blocks of steps.
 class GrainContacts {
  public:
+  /// A pair of the list in contact, by grain, and what it remembers of the last step.
+  struct Contact {
+    std::uint32_t listed = 0;
+    std::uint32_t a = 0, b = 0;
+    std::uint16_t wall = GrainPair::kNoWall;
+    double normal_force = 0;
+    GrainPair::Force force;
+  };
+  /// What pairs leave after a block: contacts, and of each two that parted in its last step a
+  /// grain.
+  struct Left {
+    std::vector<Contact> touching;
+    std::vector<std::uint32_t> parted;
+  };
+
   /// kernels: of the scene, which outlives this; materials: their number.
   GrainContacts(const GrainKernels& kernels, std::size_t materials)
       : kernels_(&kernels), materials_(materials) {}
@@ -28,27 +43,26 @@ class GrainContacts {
   /// next one.
   void find_hit(std::vector<std::uint32_t>& hit) const {
     hit = parted_;
-    for (const Contact& contact : touching_) hit.push_back(contact.pair.a);
+    for (const Contact& contact : touching_) hit.push_back(contact.a);
   }
 
   /// The list has sorted the grains.
   void reorder(const GrainNeighbours& list) {
     for (std::uint32_t& i : parted_) i = list.sorted(i);
     for (Contact& contact : touching_) {
-      GrainPair& pair = contact.pair;
-      pair.a = list.sorted(pair.a);
-      pair.b = list.sorted(pair.b);
-      if (pair.a <= pair.b) continue;
-      std::swap(pair.a, pair.b);
-      const GrainPair::Force& f = pair.force;
-      pair.force = {-f.x, -f.y, -f.z, -f.across_x, -f.across_y, -f.across_z};
+      contact.a = list.sorted(contact.a);
+      contact.b = list.sorted(contact.b);
+      if (contact.a <= contact.b) continue;
+      std::swap(contact.a, contact.b);
+      const GrainPair::Force& f = contact.force;
+      contact.force = {-f.x, -f.y, -f.z, -f.across_x, -f.across_y, -f.across_z};
     }
   }
 
   /// The list is new.
   void find(const GrainNeighbours& list) {
     for (Contact& contact : touching_)
-      contact.listed = list.place_of(contact.pair.a, contact.pair.b, contact.pair.wall);
+      contact.listed = list.place_of(contact.a, contact.b, contact.wall);
     remember(list);
   }
 
@@ -58,13 +72,66 @@ class GrainContacts {
     for (std::uint32_t c = 0; c < touching_.size(); ++c) contact_of_[touching_[c].listed] = c;
   }
 
-  /// A pair of the list, by grain, with what it remembers if in contact.
+  /// The batch becomes a group, with what its contacts remember. On several threads at once.
+  void take(const GrainIslandGroup& group, const GrainIslands& islands, const GrainNeighbours& list,
+            const GrainArrays& grains, GrainBatch& batch) const {
+    batch.hold(group.grains.size(), group.pairs.size(), kernels_->features());
+    batch.take(grains, group.grains, kernels_->kinds(), kernels_->features());
+    for (std::size_t p = 0; p < group.pairs.size(); ++p) {
+      GrainPair& pair = batch.pairs[p];
+      take(group.pairs[p], list, grains, pair);
+      pair.a = islands.place(pair.a) + group.shift;
+      pair.b = pair.wall == GrainPair::kNoWall ? islands.place(pair.b) + group.shift
+                                               : static_cast<std::uint32_t>(batch.count);
+    }
+  }
+
+  /// Forgets all and makes room for so many.
+  void renew(std::size_t count) {
+    for (const Contact& contact : touching_) contact_of_[contact.listed] = kNone;
+    touching_.clear();
+    touching_.resize(count);
+    parted_.clear();
+  }
+
+  /// Appends what a group's pairs leave after a block of so many steps.
+  static void leave(const GrainIslandGroup& group, const GrainBatch& batch, std::size_t length,
+                    const GrainNeighbours& list, Left& left) {
+    for (std::size_t p = 0; p < batch.pair_count; ++p) {
+      const GrainPair& pair = batch.pairs[p];
+      const std::uint32_t listed = group.pairs[p], i = list.first()[listed];
+      if (pair.parted_in == length) left.parted.push_back(i);
+      if (pair.touching)
+        left.touching.push_back(
+            {listed, i, list.second()[listed], pair.wall, pair.normal_force, pair.force});
+    }
+  }
+
+  /// Keeps those as its contacts from place `c` on. On several threads at once.
+  void keep(std::span<const Contact> touching, std::size_t c) {
+    for (const Contact& contact : touching) {
+      touching_[c] = contact;
+      contact_of_[contact.listed] = static_cast<std::uint32_t>(c++);
+    }
+  }
+
+  void add_parted(std::span<const std::uint32_t> parted) {
+    parted_.insert(parted_.end(), parted.begin(), parted.end());
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  /// A pair of the list, by grain.
   void take(std::uint32_t listed, const GrainNeighbours& list, const GrainArrays& grains,
             GrainPair& pair) const {
     const GrainPlane& plane = kernels_->plane();
     const std::uint32_t contact = contact_of_[listed];
-    pair.touching = false;
-    if (contact != kNone) pair = touching_[contact].pair;
+    pair.touching = contact != kNone;
+    if (pair.touching) {
+      pair.normal_force = touching_[contact].normal_force;
+      pair.force = touching_[contact].force;
+    }
     pair.parted_in = 0;
     const std::uint32_t i = list.first()[listed], j = list.second()[listed];
     pair.a = i;
@@ -79,40 +146,6 @@ class GrainContacts {
             ? material * materials_ + kinds[grains.kind[j]].material
             : materials_ * materials_ + material * plane.walls.size() + pair.wall);
   }
-
-  /// Forgets all and makes room for so many.
-  void renew(std::size_t count) {
-    for (const Contact& contact : touching_) contact_of_[contact.listed] = kNone;
-    touching_.resize(count);
-    parted_.clear();
-  }
-
-  /// Of a group's pairs after a block of so many steps those that touch, from place `c` on; appends
-  /// to `parted` a grain of each two that did so in the last step. On several threads at once.
-  void keep(const GrainIslandGroup& group, std::span<const GrainPair> pairs, std::size_t length,
-            std::size_t c, const GrainNeighbours& list, std::vector<std::uint32_t>& parted) {
-    for (std::size_t p = 0; p < pairs.size(); ++p) {
-      const std::uint32_t listed = group.pairs[p];
-      if (pairs[p].parted_in == length) parted.push_back(list.first()[listed]);
-      if (!pairs[p].touching) continue;
-      Contact& contact = touching_[c];
-      contact = {listed, pairs[p]};
-      contact.pair.a = list.first()[listed];
-      contact.pair.b = list.second()[listed];
-      contact_of_[listed] = static_cast<std::uint32_t>(c++);
-    }
-  }
-
-  void add_parted(std::span<const std::uint32_t> parted) {
-    parted_.insert(parted_.end(), parted.begin(), parted.end());
-  }
-
- private:
-  struct Contact {
-    std::uint32_t listed = 0;
-    GrainPair pair;  ///< by grain
-  };
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
   const GrainKernels* kernels_;
   std::size_t materials_;

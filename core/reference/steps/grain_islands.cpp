@@ -180,7 +180,7 @@ void GrainIslands::make_groups(std::size_t threads) {
   const std::size_t most =
       shared ? std::clamp(grain_count() / (kForThread * threads), kSmallGroup, kGroup) : kGroup;
   groups_.clear();
-  std::size_t grains = 0, pairs = 0;  // before a group
+  std::size_t before = 0;  // grains before a group
   for (Share& share : shares_) {
     share.groups.begin = static_cast<std::uint32_t>(groups_.size());
     const std::vector<std::uint32_t>& ends = share.grain_start;
@@ -188,13 +188,11 @@ void GrainIslands::make_groups(std::size_t threads) {
       const std::size_t own_grains = ends[last] - ends[first];
       if (own_grains < most && last + 1 < ends.size()) continue;
       const std::size_t own_pairs = share.pair_start[last] - share.pair_start[first];
-      if (shared) grains += -grains % kApart;
-      groups_.push_back({{grains, grains + own_grains, pairs, pairs + own_pairs},
-                         std::span(share.grains).subspan(ends[first], own_grains),
-                         std::span(share.pairs).subspan(share.pair_start[first], own_pairs),
-                         static_cast<std::uint32_t>(grains - ends[first])});
-      grains += own_grains + 1;
-      pairs += own_pairs;
+      if (shared) before += -before % kApart;
+      groups_.push_back({std::span(share.grains).subspan(ends[first], own_grains),
+                         std::span(share.pairs).subspan(share.pair_start[first], own_pairs), before,
+                         -ends[first]});
+      before += own_grains;
       first = last;
     }
     share.groups.end = static_cast<std::uint32_t>(groups_.size());

@@ -22,13 +22,12 @@ struct GrainNear {
   std::vector<std::uint32_t> hit;   ///< of each near pair that is to meet, its first grain
 };
 
-/// Islands whose steps are done at once; in the batch they are to lie as `batch` says. The place
-/// behind the last grain belongs to none: there is what stands for walls.
+/// Islands whose steps are done at once.
 struct GrainIslandGroup {
-  GrainGroup batch;
   std::span<const std::uint32_t> grains;
   std::span<const std::uint32_t> pairs;  ///< near ones, island by island
-  std::uint32_t shift = 0;               ///< from GrainIslands::place() to places in the batch
+  std::size_t first = 0;                 ///< among the grains of all groups
+  std::uint32_t shift = 0;               ///< from GrainIslands::place() to indices of `grains`
 };
 
 /// Sorts near pairs into islands, which share no grain, and those into groups of about so many
@@ -57,11 +56,10 @@ class GrainIslands {
   /// Of a grain of a group, to be shifted.
   std::uint32_t place(std::uint32_t grain) const { return place_[grain]; }
   std::size_t grain_count() const;
-  /// What a batch must hold for all groups.
+  /// Of all groups, and what lies between.
   std::size_t grain_places() const {
-    return groups_.empty() ? 0 : groups_.back().batch.last_grain + 1;
+    return groups_.empty() ? 0 : groups_.back().first + groups_.back().grains.size();
   }
-  std::size_t pair_count() const { return groups_.empty() ? 0 : groups_.back().batch.last_pair; }
 
  private:
   /// The islands of a stretch, or those between stretches.

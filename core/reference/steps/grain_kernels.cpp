@@ -30,27 +30,38 @@ HWY_EXPORT(Glide);
 HWY_EXPORT(Run);
 HWY_EXPORT(Target);
 
-void GrainBatch::hold(std::size_t count, std::size_t pair_count, const GrainFeatures& has) {
+void GrainBatch::hold(std::size_t grain_count, std::size_t count_of_pairs,
+                      const GrainFeatures& has) {
+  count = grain_count;
+  pair_count = count_of_pairs;
   if (pairs.size() < pair_count) pairs.resize(pair_count);
-  if (fx.size() >= count) return;
-  const auto each = [count](std::initializer_list<std::vector<double>*> all) {
-    for (std::vector<double>* values : all) values->resize(count);
+  const std::size_t places = count + 1;
+  if (fx.size() >= places) return;
+  const auto each = [places](std::initializer_list<std::vector<double>*> all) {
+    for (std::vector<double>* values : all) values->resize(places);
   };
-  grains.for_each_changing(has, [count](std::vector<double>& values) { values.resize(count); });
+  grains.for_each_changing(has, [places](std::vector<double>& values) { values.resize(places); });
   each({&fx, &fy, &fastest, &inverse_mass});
   if (has.rubs) each({&tz});
   if (has.rubs || has.on_plane) each({&inverse_inertia});
   if (has.on_plane) each({&fz, &tx, &ty, &load, &weight, &share, &turn, &mu_s, &mu_k});
   if (has.is_uneven()) each({&radius});
   if (has.rolls) each({&mu_r, &drilling});
-  if (has.lifts) kind.resize(count);
+  if (has.lifts) kind.resize(places);
 }
 
-void GrainBatch::take(std::size_t k, const GrainArrays& from, std::size_t i,
+void GrainBatch::take(const GrainArrays& from, std::span<const std::uint32_t> which,
                       const std::vector<GrainKind>& kinds, const GrainFeatures& has) {
-  grains.take(k, from, i, has);
-  const GrainKind& of = kinds[from.kind[i]];
-  fastest[k] = 0;
+  grains.gather(from, which, has);
+  std::fill_n(fastest.begin(), which.size(), 0.0);
+  if (kinds.size() > 1 || has.walls) {
+    for (std::size_t k = 0; k < which.size(); ++k) take_kind(k, kinds[from.kind[which[k]]], has);
+  } else {
+    for (; of_one_kind_ < which.size(); ++of_one_kind_) take_kind(of_one_kind_, kinds.front(), has);
+  }
+}
+
+void GrainBatch::take_kind(std::size_t k, const GrainKind& of, const GrainFeatures& has) {
   inverse_mass[k] = of.inverse_mass;
   if (has.rubs || has.on_plane) inverse_inertia[k] = of.inverse_inertia;
   if (!has.on_plane) return;
@@ -64,9 +75,9 @@ void GrainBatch::take(std::size_t k, const GrainArrays& from, std::size_t i,
   if (has.lifts) kind[k] = &of;
 }
 
-void GrainBatch::take_wall(std::size_t k, const GrainFeatures& has) {
-  grains.for_each_changing(has, [k](std::vector<double>& values) { values[k] = 0; });
-  for (auto* values : {&fx, &fy, &fz, &tx, &ty, &tz, &weight, &radius}) (*values)[k] = 0;
+void GrainBatch::take_wall(const GrainFeatures& has) {
+  grains.for_each_changing(has, [this](std::vector<double>& values) { values[count] = 0; });
+  for (auto* values : {&fx, &fy, &fz, &tx, &ty, &tz, &weight, &radius}) (*values)[count] = 0;
 }
 
 void land_grain(const GrainKind& kind, const GrainPlane& plane, const GrainPush& push,
@@ -110,13 +121,11 @@ GrainSpeeds GrainKernels::glide(GrainArrays& grains, std::size_t first, std::siz
   return HWY_DYNAMIC_DISPATCH(Glide)(features_, grains, first, last, kinds_, plane_, steps);
 }
 
-std::size_t GrainKernels::run(GrainBatch& batch, const GrainGroup& group,
-                              const GrainSteps& steps) const {
-  const bool walls = features_.walls && group.first_pair < group.last_pair;
-  if (walls) batch.take_wall(group.last_grain, features_);
-  const std::size_t begun =
-      HWY_DYNAMIC_DISPATCH(Run)(features_, batch, laws_, plane_, group, steps);
-  if (walls) batch.take_wall(group.last_grain, features_);  // no forces are left
+std::size_t GrainKernels::run(GrainBatch& batch, const GrainSteps& steps) const {
+  const bool walls = features_.walls && batch.pair_count > 0;
+  if (walls) batch.take_wall(features_);
+  const std::size_t begun = HWY_DYNAMIC_DISPATCH(Run)(features_, batch, laws_, plane_, steps);
+  if (walls) batch.take_wall(features_);  // no forces are left
   return begun;
 }
 

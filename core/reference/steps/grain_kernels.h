@@ -13,10 +13,10 @@
 
 namespace slipcheck {
 
-/// Grains that may meet within a few steps, in groups that do not meet each other: each group's
-/// steps can be done at once, while it lies in the nearest cache. What the features lack is in none
-/// of these arrays.
+/// Grains that may meet within a few steps, and none but each other: their steps are done at once,
+/// while they lie in the nearest cache. What the features lack is in none of these arrays.
 struct GrainBatch {
+  std::size_t count = 0, pair_count = 0;  ///< the arrays may have places for more
   GrainArrays grains;
   std::vector<GrainPair> pairs;  ///< by index into `grains`
   /// Forces [N] and torques [N m] by other grains, none between two runs; load |N| dt of the
@@ -29,19 +29,17 @@ struct GrainBatch {
 
   static constexpr std::size_t kAtOnce = 256;  ///< grains without others, in the nearest cache
 
-  /// Makes room for so many; what there is stays.
-  void hold(std::size_t count, std::size_t pair_count, const GrainFeatures& has);
-  /// Grain `k` stands for walls: a point at rest.
-  void take_wall(std::size_t k, const GrainFeatures& has);
-  /// Takes grain `i` of `from` as grain `k`.
-  void take(std::size_t k, const GrainArrays& from, std::size_t i,
+  /// Has so many from now on; behind these grains is a place for what stands for walls.
+  void hold(std::size_t grain_count, std::size_t count_of_pairs, const GrainFeatures& has);
+  /// What stands for walls is a point at rest.
+  void take_wall(const GrainFeatures& has);
+  /// Takes those of `from`; `kinds` are of the scene.
+  void take(const GrainArrays& from, std::span<const std::uint32_t> which,
             const std::vector<GrainKind>& kinds, const GrainFeatures& has);
-};
 
-/// The ranges of a batch that one group of islands takes.
-struct GrainGroup {
-  std::size_t first_grain = 0, last_grain = 0;
-  std::size_t first_pair = 0, last_pair = 0;
+ private:
+  void take_kind(std::size_t k, const GrainKind& of, const GrainFeatures& has);
+  std::size_t of_one_kind_ = 0;  ///< so many places have the constants of the only kind
 };
 
 /// What a tilted or moving plane does to grains in one step.
@@ -151,8 +149,8 @@ class GrainKernels {
   /// one go but for those that slide on a driven plane. Not where that has rolling friction.
   GrainSpeeds glide(GrainArrays& grains, std::size_t first, std::size_t last,
                     const GrainSteps& steps) const;
-  /// Steps of one group. Returns how many contacts began.
-  std::size_t run(GrainBatch& batch, const GrainGroup& group, const GrainSteps& steps) const;
+  /// Steps of a batch. Returns how many contacts began.
+  std::size_t run(GrainBatch& batch, const GrainSteps& steps) const;
 
  private:
   GrainFeatures features_;

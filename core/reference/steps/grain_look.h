@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -77,19 +76,9 @@ class GrainLook {
   }
 
   void show_group(const GrainIslandGroup& group, const GrainIslands& islands) {
-    const std::size_t count = group.grains.size();
-    batch_.hold(count + 1, group.pairs.size(), kernels_.features());
-    for (std::size_t k = 0; k < count; ++k) take(k, group.grains[k]);
-    const std::uint32_t shift = group.shift - static_cast<std::uint32_t>(group.batch.first_grain);
-    for (std::size_t p = 0; p < group.pairs.size(); ++p) {
-      GrainPair& pair = batch_.pairs[p];
-      contacts_.take(group.pairs[p], list_, grains_, pair);
-      pair.a = islands.place(pair.a) + shift;
-      pair.b = pair.wall == GrainPair::kNoWall ? islands.place(pair.b) + shift
-                                               : static_cast<std::uint32_t>(count);
-    }
-    kernels_.run(batch_, {0, count, 0, group.pairs.size()}, half_);
-    for (std::size_t k = 0; k < count; ++k) show_grain(k, group.grains[k]);
+    contacts_.take(group, islands, list_, grains_, batch_);
+    kernels_.run(batch_, half_);
+    for (std::size_t k = 0; k < group.grains.size(); ++k) show_grain(k, group.grains[k]);
     for (std::size_t p = 0; p < group.pairs.size(); ++p) {
       const GrainPair& pair = batch_.pairs[p];
       const double impulse = std::abs(pair.normal_force) * half_.step;
@@ -107,25 +96,20 @@ class GrainLook {
 
   /// Those that no group has, so many at once.
   void show_others() {
-    std::array<std::size_t, GrainBatch::kAtOnce> grain;
-    std::size_t count = 0;
-    batch_.hold(grain.size(), 0, kernels_.features());
+    std::vector<std::uint32_t> others;
     const auto show_all = [&] {
-      kernels_.run(batch_, {0, count, 0, 0}, half_);
-      for (std::size_t k = 0; k < count; ++k) show_grain(k, grain[k]);
-      count = 0;
+      batch_.hold(others.size(), 0, kernels_.features());
+      batch_.take(grains_, others, kernels_.kinds(), kernels_.features());
+      kernels_.run(batch_, half_);
+      for (std::size_t k = 0; k < others.size(); ++k) show_grain(k, others[k]);
+      others.clear();
     };
-    for (std::size_t i = 0; i < grains_.size(); ++i) {
+    for (std::uint32_t i = 0; i < grains_.size(); ++i) {
       if (impulses_[i] != kNotShown) continue;
-      take(count, i);
-      grain[count++] = i;
-      if (count == grain.size()) show_all();
+      others.push_back(i);
+      if (others.size() == GrainBatch::kAtOnce) show_all();
     }
     show_all();
-  }
-
-  void take(std::size_t k, std::size_t i) {
-    batch_.take(k, grains_, i, kernels_.kinds(), kernels_.features());
   }
 
   /// k of the batch, which is grain i. What steps do not change stays in the scene's order.

@@ -94,52 +94,48 @@ HWY_ATTR void FindNear(const GrainFeatures& features, const GrainArrays& grains,
 
 /// Velocities after a kick of dt, and positions after a drift of h; StepBody's kick.
 template <class Has>
-HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group,
-                                      const GrainPlane& plane, double dt, double h,
-                                      const GrainPush& push) {
+HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainPlane& plane, double dt,
+                                      double h, const GrainPush& push) {
   constexpr bool kRubs = Has::kRubs, kOnPlane = Has::kOnPlane, kDriven = Has::kDriven;
   constexpr bool kUneven = Has::kUneven, kLifts = Has::kLifts, kRolls = Has::kRolls;
-  const std::size_t n = group.last_grain - group.first_grain, o = group.first_grain;
+  const std::size_t n = batch.count;
   GrainArrays& g = batch.grains;
-  const auto begin = [o](std::vector<double>& values) {
-    return values.empty() ? nullptr : values.data() + o;
-  };
-  double* HWY_RESTRICT x = begin(g.x);
-  double* HWY_RESTRICT y = begin(g.y);
-  double* HWY_RESTRICT vx = begin(g.vx);
-  double* HWY_RESTRICT vy = begin(g.vy);
-  double* HWY_RESTRICT wx = begin(g.wx);
-  double* HWY_RESTRICT wy = begin(g.wy);
-  double* HWY_RESTRICT wz = begin(g.wz);
-  double* HWY_RESTRICT dvx = begin(g.dvx);
-  double* HWY_RESTRICT dvy = begin(g.dvy);
-  double* HWY_RESTRICT dwx = begin(g.dwx);
-  double* HWY_RESTRICT dwy = begin(g.dwy);
-  double* HWY_RESTRICT dwz = begin(g.dwz);
-  double* HWY_RESTRICT sticks = begin(g.sticks);
-  double* HWY_RESTRICT fx = begin(batch.fx);
-  double* HWY_RESTRICT fy = begin(batch.fy);
-  double* HWY_RESTRICT fz = begin(batch.fz);
-  double* HWY_RESTRICT tx = begin(batch.tx);
-  double* HWY_RESTRICT ty = begin(batch.ty);
-  double* HWY_RESTRICT tz = begin(batch.tz);
-  double* HWY_RESTRICT load_of = begin(batch.load);
-  double* HWY_RESTRICT fastest = begin(batch.fastest);
-  const double* HWY_RESTRICT inverse_mass = begin(batch.inverse_mass);
-  const double* HWY_RESTRICT inverse_inertia = begin(batch.inverse_inertia);
-  const double* HWY_RESTRICT weight = begin(batch.weight);
-  const double* HWY_RESTRICT share = begin(batch.share);
-  const double* HWY_RESTRICT turn = begin(batch.turn);
-  const double* HWY_RESTRICT mu_s = begin(batch.mu_s);
-  const double* HWY_RESTRICT mu_k = begin(batch.mu_k);
-  const double* HWY_RESTRICT mu_r = begin(batch.mu_r);
-  const double* HWY_RESTRICT drilling = begin(batch.drilling);
-  const double* HWY_RESTRICT radius_of = begin(batch.radius);
-  double* HWY_RESTRICT z = begin(g.z);
-  double* HWY_RESTRICT vz = begin(g.vz);
-  double* HWY_RESTRICT dvz = begin(g.dvz);
-  double* HWY_RESTRICT flies = begin(g.flies);
-  double* HWY_RESTRICT bounced = begin(g.bounced);
+  double* HWY_RESTRICT x = g.x.data();
+  double* HWY_RESTRICT y = g.y.data();
+  double* HWY_RESTRICT vx = g.vx.data();
+  double* HWY_RESTRICT vy = g.vy.data();
+  double* HWY_RESTRICT wx = g.wx.data();
+  double* HWY_RESTRICT wy = g.wy.data();
+  double* HWY_RESTRICT wz = g.wz.data();
+  double* HWY_RESTRICT dvx = g.dvx.data();
+  double* HWY_RESTRICT dvy = g.dvy.data();
+  double* HWY_RESTRICT dwx = g.dwx.data();
+  double* HWY_RESTRICT dwy = g.dwy.data();
+  double* HWY_RESTRICT dwz = g.dwz.data();
+  double* HWY_RESTRICT sticks = g.sticks.data();
+  double* HWY_RESTRICT fx = batch.fx.data();
+  double* HWY_RESTRICT fy = batch.fy.data();
+  double* HWY_RESTRICT fz = batch.fz.data();
+  double* HWY_RESTRICT tx = batch.tx.data();
+  double* HWY_RESTRICT ty = batch.ty.data();
+  double* HWY_RESTRICT tz = batch.tz.data();
+  double* HWY_RESTRICT load_of = batch.load.data();
+  double* HWY_RESTRICT fastest = batch.fastest.data();
+  const double* HWY_RESTRICT inverse_mass = batch.inverse_mass.data();
+  const double* HWY_RESTRICT inverse_inertia = batch.inverse_inertia.data();
+  const double* HWY_RESTRICT weight = batch.weight.data();
+  const double* HWY_RESTRICT share = batch.share.data();
+  const double* HWY_RESTRICT turn = batch.turn.data();
+  const double* HWY_RESTRICT mu_s = batch.mu_s.data();
+  const double* HWY_RESTRICT mu_k = batch.mu_k.data();
+  const double* HWY_RESTRICT mu_r = batch.mu_r.data();
+  const double* HWY_RESTRICT drilling = batch.drilling.data();
+  const double* HWY_RESTRICT radius_of = batch.radius.data();
+  double* HWY_RESTRICT z = g.z.data();
+  double* HWY_RESTRICT vz = g.vz.data();
+  double* HWY_RESTRICT dvz = g.dvz.data();
+  double* HWY_RESTRICT flies = g.flies.data();
+  double* HWY_RESTRICT bounced = g.bounced.data();
   const double radius = plane.radius, per_radius = 1 / radius, fall = dt * plane.gravity;
   SLIPCHECK_EACH_ALONE
   for (std::size_t i = 0; i < n; ++i) {
@@ -241,30 +237,28 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainGroup& group
 }
 
 /// Those that have come down on the substrate within the step.
-HWY_ATTR HWY_INLINE void Land(GrainBatch& batch, const GrainGroup& group, const GrainPlane& plane,
-                              const GrainPush& push) {
+HWY_ATTR HWY_INLINE void Land(GrainBatch& batch, const GrainPlane& plane, const GrainPush& push) {
   GrainArrays& g = batch.grains;
   const hn::ScalableTag<double> d;
   const std::size_t lanes = hn::Lanes(d);
-  std::size_t i = group.first_grain;
-  for (; i + lanes <= group.last_grain; i += lanes) {
+  std::size_t i = 0;
+  for (; i + lanes <= batch.count; i += lanes) {
     const auto below = hn::Lt(hn::LoadU(d, g.z.data() + i), hn::LoadU(d, batch.radius.data() + i));
     const auto falls = hn::Lt(hn::LoadU(d, g.vz.data() + i), hn::Zero(d));
     if (hn::AllFalse(d, hn::And(below, falls))) continue;
     for (std::size_t k = i; k < i + lanes; ++k) land_grain(*batch.kind[k], plane, push, g, k);
   }
-  for (; i < group.last_grain; ++i) land_grain(*batch.kind[i], plane, push, g, i);
+  for (; i < batch.count; ++i) land_grain(*batch.kind[i], plane, push, g, i);
 }
 
 template <class Has>
 HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws,
-                           const GrainPlane& plane, const GrainGroup& group,
-                           const GrainSteps& steps) {
+                           const GrainPlane& plane, const GrainSteps& steps) {
   using Contact = GrainContact<Has>;
   const Contact contact(batch, laws, plane, steps.step);
   std::size_t begun = 0;
   for (std::size_t s = 0; s < steps.count; ++s) {
-    for (std::size_t k = group.first_pair; k < group.last_pair; ++k) {
+    for (std::size_t k = 0; k < batch.pair_count; ++k) {
       GrainPair& pair = batch.pairs[k];
       const typename Contact::Between between = contact.between(pair);
       const double distance2 = between.distance2();
@@ -275,15 +269,15 @@ HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws,
         contact.part(pair, between, std::sqrt(distance2), s);
     }
     const GrainPush& push = Has::kDriven ? steps.driving->steps[s] : kNoPush;
-    KickAndDrift<Has>(batch, group, plane, s == 0 ? steps.first_kick : steps.step,
+    KickAndDrift<Has>(batch, plane, s == 0 ? steps.first_kick : steps.step,
                       steps.drift ? steps.step : 0, push);
-    if (Has::kLifts && steps.drift) Land(batch, group, plane, push);
+    if (Has::kLifts && steps.drift) Land(batch, plane, push);
   }
   return begun;
 }
 
 using RunLoop = std::size_t (*)(GrainBatch&, const std::vector<GrainLaw>&, const GrainPlane&,
-                                const GrainGroup&, const GrainSteps&);
+                                const GrainSteps&);
 
 template <bool kRubs, bool kOnPlane, bool kDriven>
 RunLoop LoopWith(const GrainFeatures& has) {
@@ -316,13 +310,13 @@ RunLoop LoopBetweenWalls(const GrainFeatures& has) {
 
 HWY_ATTR std::size_t Run(const GrainFeatures& has, GrainBatch& batch,
                          const std::vector<GrainLaw>& laws, const GrainPlane& plane,
-                         const GrainGroup& group, const GrainSteps& steps) {
+                         const GrainSteps& steps) {
   const RunLoop loop = has.walls                       ? LoopBetweenWalls(has)
                        : has.is_uneven() && has.driven ? UnevenLoopOn<true>(has)
                        : has.is_uneven()               ? UnevenLoopOn<false>(has)
                        : has.rubs                      ? LoopOn<true>(has)
                                                        : LoopOn<false>(has);
-  return loop(batch, laws, plane, group, steps);
+  return loop(batch, laws, plane, steps);
 }
 
 std::int64_t Target() { return HWY_TARGET; }

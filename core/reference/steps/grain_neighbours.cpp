@@ -118,9 +118,13 @@ void GrainNeighbours::find(const GrainArrays& grains, const GrainPlane& plane, d
     found.before = all;
     all += found.count;
   }
-  first_.resize(static_cast<std::size_t>(all));
-  second_.resize(static_cast<std::size_t>(all));
-  wall_.resize(plane.walls.empty() ? 0 : static_cast<std::size_t>(all));
+  const auto hold = [&](auto& values, bool any = true) {
+    if (values.capacity() < static_cast<std::size_t>(all)) values.clear();  // no more than needed
+    values.resize(any ? static_cast<std::size_t>(all) : 0);
+  };
+  hold(first_);
+  hold(second_);
+  hold(wall_, !plane.walls.empty());
   team.run(found_.size(), [&](std::size_t own) {
     const Found& found = found_[own];
     std::copy_n(found.first.begin(), found.count, first_.begin() + found.before);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -131,19 +133,28 @@ class GrainSolver::Impl {
   void show(Frame& frame) {
     if (!blocks_.cover(1)) find_neighbours(1);
     if (features().driven) drive_.find_half(n_, driving_);
-    batch_ = {};  // of many grains as large as what is shown of them
+    // Of many grains as large as what is shown of them.
+    after_ = {};
+    workers_.clear();
     const GrainSteps half{step_, n_ > 0 ? 0.5 * step_ : 0, 1, false, n_ > 0, &driving_};
     GrainLook(kernels_, grains_, places_, neighbours_, contacts_, half)
         .show(blocks_.margin(1), islands_, team_, frame);
+    islands_ = {};
   }
 
  private:
+  /// What a thread does groups' steps with, and what they leave.
+  struct alignas(64) Worker {
+    GrainBatch batch;
+    GrainContacts::Left left;
+  };
   /// What a group's steps came to.
   struct Ended {
-    std::size_t begun = 0, touching = 0;
-    std::size_t touching_before = 0;  ///< of the groups before it
+    std::size_t begun = 0;
     GrainSpeeds fastest;
-    std::vector<std::uint32_t> parted;  ///< a grain of each two that did in the last step
+    const GrainContacts::Left* left = nullptr;
+    GrainStretch touching, parted;    ///< of that
+    std::size_t touching_before = 0;  ///< of the groups before it
   };
 
   double radius() const { return kernels_.plane().radius; }
@@ -215,6 +226,7 @@ class GrainSolver::Impl {
 
   void find_neighbours(std::size_t length) {
     blocks_.renew(length, 2 * kernels_.plane().mean, density());
+    after_ = {};  // what the search needs meanwhile can lie there
     GrainArrays& g = grains_;
     team_.run_shares(g.size(), [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
@@ -257,18 +269,22 @@ class GrainSolver::Impl {
           meetings.find(first, last, found);
         },
         team_);
-    batch_.hold(islands_.grain_places(), islands_.pair_count(), features());
+    hold_after(islands_.grain_places());
     if (features().driven) drive_.find(n_, length, kernels_.kinds(), driving_);
     // Groups share no grain: whoever takes them, each does the same.
     const std::vector<GrainIslandGroup>& groups = islands_.groups();
     ended_.resize(groups.size());
-    team_.run_own_first(groups.size(),
-                        [&](std::size_t k) { ended_[k] = run_group(groups[k], length); });
+    workers_.resize(team_.size());
+    for (Worker& worker : workers_) worker.left.touching.clear(), worker.left.parted.clear();
+    team_.run_own_first(groups.size(), [&](std::size_t own, std::size_t k) {
+      ended_[k] = run_group(groups[k], length, workers_[own]);
+    });
     Ended all;
+    std::size_t touching = 0;
     for (Ended& each : ended_) {
-      each.touching_before = all.touching;
+      each.touching_before = touching;
       all.begun += each.begun;
-      all.touching += each.touching;
+      touching += each.touching.size();
       all.fastest.add(each.fastest);
     }
     if (std::sqrt(all.fastest.along2) > blocks_.bound(length)) {
@@ -276,10 +292,10 @@ class GrainSolver::Impl {
       blocks_.set_fastest(all.fastest);
       return false;
     }
-    all.fastest.add(end_block(length, all.touching));
+    all.fastest.add(end_block(length, touching));
     require_below_walls(all.fastest.height);
     collisions_ += all.begun;
-    blocks_.took(length, islands_.grain_count(), all.touching, all.fastest);
+    blocks_.took(length, islands_.grain_count(), touching, all.fastest);
     return true;
   }
 
@@ -288,28 +304,36 @@ class GrainSolver::Impl {
     return {step_, n_ == 0 ? 0.5 * step_ : step_, length, true, n_ > 0, &driving_};
   }
 
-  /// Takes a group's grains and pairs and does its steps.
-  Ended run_group(const GrainIslandGroup& islands, std::size_t length) {
-    const GrainGroup& group = islands.batch;
-    for (std::size_t k = 0; k < islands.grains.size(); ++k)
-      batch_.take(group.first_grain + k, grains_, islands.grains[k], kernels_.kinds(), features());
-    for (std::size_t p = 0; p < islands.pairs.size(); ++p) {
-      GrainPair& pair = batch_.pairs[group.first_pair + p];
-      contacts_.take(islands.pairs[p], neighbours_, grains_, pair);
-      pair.a = islands_.place(pair.a) + islands.shift;
-      pair.b = pair.wall == GrainPair::kNoWall ? islands_.place(pair.b) + islands.shift
-                                               : static_cast<std::uint32_t>(group.last_grain);
-    }
+  void hold_after(std::size_t grains) {
+    if (after_.x.size() >= grains) return;
+    after_.for_each_changing(features(), [=](std::vector<double>& values) {
+      values.clear();  // nothing of it is copied
+      values.resize(grains + grains / 8);
+    });
+  }
+
+  /// Does a group's steps. What comes of its grains is put aside, as a block may have to be done
+  /// again.
+  Ended run_group(const GrainIslandGroup& group, std::size_t length, Worker& worker) {
+    GrainBatch& batch = worker.batch;
+    GrainContacts::Left& left = worker.left;
+    contacts_.take(group, islands_, neighbours_, grains_, batch);
     Ended ended;
-    ended.begun = kernels_.run(batch_, group, steps_of(length));
-    for (std::size_t k = group.first_grain; k < group.last_grain; ++k)
-      ended.fastest.add(speeds_of(batch_, k));
-    for (std::size_t p = group.first_pair; p < group.last_pair; ++p)
-      ended.touching += batch_.pairs[p].touching ? 1 : 0;
+    ended.begun = kernels_.run(batch, steps_of(length));
+    for (std::size_t k = 0; k < batch.count; ++k) ended.fastest.add(speeds_of(batch, k));
+    after_.take_first(batch.count, batch.grains, group.first, features());
+    const auto left_until_now = [&] {
+      return std::pair(static_cast<std::uint32_t>(left.touching.size()),
+                       static_cast<std::uint32_t>(left.parted.size()));
+    };
+    ended.left = &left;
+    std::tie(ended.touching.begin, ended.parted.begin) = left_until_now();
+    GrainContacts::leave(group, batch, length, neighbours_, left);
+    std::tie(ended.touching.end, ended.parted.end) = left_until_now();
     return ended;
   }
 
-  /// Grains that met none glide; the others, and contacts, are taken back from the batch. Returns
+  /// Grains that met none glide; the others, and contacts, are taken back from the batches. Returns
   /// the speeds of those that glided.
   GrainSpeeds end_block(std::size_t length, std::size_t touching) {
     contacts_.renew(touching);
@@ -320,44 +344,43 @@ class GrainSolver::Impl {
     team_.run_shares(grains_.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
       gliding[own] = alone ? step_alone(first, last, length)
                            : kernels_.glide(grains_, first, last, steps_of(length));
-      const auto take_back = [&](const GrainIslandGroup& group, bool is_between) {
+      for (const GrainIslandGroup& group : islands_.groups_of(own))
+        grains_.scatter(group.grains, after_, group.first, features());
+      for (const GrainIslandGroup& group : islands_.groups_of(team_.size()))
         for (std::size_t k = 0; k < group.grains.size(); ++k) {
           const std::uint32_t i = group.grains[k];
-          if (!is_between || (first <= i && i < last))
-            grains_.take(i, batch_.grains, group.batch.first_grain + k, features());
+          if (first <= i && i < last) grains_.take(i, after_, group.first + k, features());
         }
-      };
-      for (const GrainIslandGroup& group : islands_.groups_of(own)) take_back(group, false);
-      for (const GrainIslandGroup& group : islands_.groups_of(team_.size())) take_back(group, true);
       const auto [group, end] = team_.share_of(ended_.size(), own);
-      for (std::size_t k = group; k < end; ++k) keep_contacts(k, length);
+      for (std::size_t k = group; k < end; ++k) keep_contacts(ended_[k]);
     });
-    for (const Ended& each : ended_) contacts_.add_parted(each.parted);
+    for (const Ended& each : ended_)
+      contacts_.add_parted(
+          std::span(each.left->parted).subspan(each.parted.begin, each.parted.size()));
     GrainSpeeds fastest;
     for (const GrainSpeeds& each : gliding) fastest.add(each);
     return fastest;
   }
 
-  void keep_contacts(std::size_t k, std::size_t length) {
-    const GrainIslandGroup& group = islands_.groups()[k];
-    const std::span pairs(batch_.pairs.data() + group.batch.first_pair, group.pairs.size());
-    contacts_.keep(group, pairs, length, ended_[k].touching_before, neighbours_, ended_[k].parted);
+  void keep_contacts(const Ended& ended) {
+    const auto [begin, end] = ended.touching;
+    contacts_.keep(std::span(ended.left->touching).subspan(begin, end - begin),
+                   ended.touching_before);
   }
 
   /// Of grains that meet none, one by one.
   GrainSpeeds step_alone(std::size_t begin, std::size_t end, std::size_t length) {
     GrainBatch batch;
-    batch.hold(GrainBatch::kAtOnce, 0, features());
+    std::vector<std::uint32_t> these;
     GrainSpeeds fastest;
-    for (std::size_t first = begin; first < end; first += GrainBatch::kAtOnce) {
-      const std::size_t count = std::min(GrainBatch::kAtOnce, end - first);
-      for (std::size_t k = 0; k < count; ++k)
-        batch.take(k, grains_, first + k, kernels_.kinds(), features());
-      kernels_.run(batch, {0, count, 0, 0}, steps_of(length));
-      for (std::size_t k = 0; k < count; ++k) {
-        grains_.take(first + k, batch.grains, k, features());
-        fastest.add(speeds_of(batch, k));
-      }
+    for (std::size_t first = begin; first < end; first += these.size()) {
+      these.resize(std::min(GrainBatch::kAtOnce, end - first));
+      std::iota(these.begin(), these.end(), static_cast<std::uint32_t>(first));
+      batch.hold(these.size(), 0, features());
+      batch.take(grains_, these, kernels_.kinds(), features());
+      kernels_.run(batch, steps_of(length));
+      grains_.scatter(these, batch.grains, 0, features());
+      for (std::size_t k = 0; k < batch.count; ++k) fastest.add(speeds_of(batch, k));
     }
     return fastest;
   }
@@ -377,7 +400,8 @@ class GrainSolver::Impl {
   std::vector<std::uint32_t> hit_;
   std::vector<Ended> ended_;
   ThreadTeam team_;
-  GrainBatch batch_;
+  std::vector<Worker> workers_;  ///< by thread
+  GrainArrays after_;            ///< grains of all groups after the block
 };
 
 GrainSolver::GrainSolver(const ContactScene& scene, std::span<const BodyState> initial, double step,
