@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "base/state_archive.h"
+#include "base/thread_team.h"
 #include "reference/steps/grain_islands.h"
 #include "reference/steps/grain_kernels.h"
 #include "reference/steps/grain_neighbours.h"
@@ -47,28 +49,33 @@ class GrainContacts {
   }
 
   /// The list has sorted the grains.
-  void reorder(const GrainNeighbours& list) {
+  void reorder(const GrainNeighbours& list, ThreadTeam& team) {
     for (std::uint32_t& i : parted_) i = list.sorted(i);
-    for (Contact& contact : touching_) {
+    for_each(team, [&](Contact& contact) {
       contact.a = list.sorted(contact.a);
       contact.b = list.sorted(contact.b);
-      if (contact.a <= contact.b) continue;
+      if (contact.a <= contact.b) return;
       std::swap(contact.a, contact.b);
       const GrainPair::Force& f = contact.force;
       contact.force = {-f.x, -f.y, -f.z, -f.across_x, -f.across_y, -f.across_z};
-    }
+    });
   }
 
   /// The list is new.
-  void find(const GrainNeighbours& list) {
-    for (Contact& contact : touching_)
+  void find(const GrainNeighbours& list, ThreadTeam& team) {
+    for_each(team, [&](Contact& contact) {
       contact.listed = list.place_of(contact.a, contact.b, contact.wall);
-    remember(list);
+    });
+    remember(list, team);
   }
 
   /// Where the contact of a pair of the list is found; after exchange() with the list.
-  void remember(const GrainNeighbours& list) {
-    contact_of_.assign(list.first().size(), kNone);
+  void remember(const GrainNeighbours& list, ThreadTeam& team) {
+    contact_of_.resize(list.first().size());
+    team.run_shares(contact_of_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+      std::fill(contact_of_.begin() + static_cast<std::ptrdiff_t>(first),
+                contact_of_.begin() + static_cast<std::ptrdiff_t>(last), kNone);
+    });
     for (std::uint32_t c = 0; c < touching_.size(); ++c) contact_of_[touching_[c].listed] = c;
   }
 
@@ -121,6 +128,13 @@ class GrainContacts {
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  template <class Work>
+  void for_each(ThreadTeam& team, Work&& work) {
+    team.run_shares(touching_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t c = first; c < last; ++c) work(touching_[c]);
+    });
+  }
 
   /// A pair of the list, by grain.
   void take(std::uint32_t listed, const GrainNeighbours& list, const GrainArrays& grains,

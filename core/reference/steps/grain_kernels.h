@@ -127,6 +127,18 @@ struct GrainSpeeds {
   }
 };
 
+/// Of the grains of a batch after its steps.
+inline GrainSpeeds fastest_of(const GrainBatch& batch, const GrainFeatures& has) {
+  GrainSpeeds fastest;
+  for (std::size_t k = 0; k < batch.count; ++k) {
+    fastest.along2 = std::max(fastest.along2, batch.fastest[k]);
+    if (!has.lifts) continue;
+    const double vz = batch.grains.vz[k];
+    fastest.add({0, vz * vz, batch.grains.z[k]});
+  }
+  return fastest;
+}
+
 /// Calls for the loop of these features on the best instruction set that the machine has. All give
 /// the same bits.
 class GrainKernels {

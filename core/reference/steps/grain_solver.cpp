@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,6 +20,7 @@
 #include "reference/steps/grain_meetings.h"
 #include "reference/steps/grain_neighbours.h"
 #include "reference/steps/grain_order.h"
+#include "reference/steps/grain_runs.h"
 #include "reference/steps/grain_scene.h"
 #include "reference/steps/step_solver.h"
 
@@ -104,7 +104,7 @@ class GrainSolver::Impl {
   void exchange(StateArchive& archive) {
     archive(grains_, places_.cell_x, places_.cell_y, places_.body, n_, collisions_, blocks_,
             neighbours_, contacts_);
-    contacts_.remember(neighbours_);
+    contacts_.remember(neighbours_, team_);
   }
 
   double now() const { return static_cast<double>(n_) * step_; }
@@ -133,9 +133,7 @@ class GrainSolver::Impl {
   void show(Frame& frame) {
     if (!blocks_.cover(1)) find_neighbours(1);
     if (features().driven) drive_.find_half(n_, driving_);
-    // Of many grains as large as what is shown of them.
-    after_ = {};
-    workers_.clear();
+    runs_.forget();
     const GrainSteps half{step_, n_ > 0 ? 0.5 * step_ : 0, 1, false, n_ > 0, &driving_};
     GrainLook(kernels_, grains_, places_, neighbours_, contacts_, half)
         .show(blocks_.margin(1), islands_, team_, frame);
@@ -143,27 +141,7 @@ class GrainSolver::Impl {
   }
 
  private:
-  /// What a thread does groups' steps with, and what they leave.
-  struct alignas(64) Worker {
-    GrainBatch batch;
-    GrainContacts::Left left;
-  };
-  /// What a group's steps came to.
-  struct Ended {
-    std::size_t begun = 0;
-    GrainSpeeds fastest;
-    const GrainContacts::Left* left = nullptr;
-    GrainStretch touching, parted;    ///< of that
-    std::size_t touching_before = 0;  ///< of the groups before it
-  };
-
   double radius() const { return kernels_.plane().radius; }
-
-  GrainSpeeds speeds_of(const GrainBatch& batch, std::size_t k) const {
-    if (!features().lifts) return {batch.fastest[k]};
-    const double vz = batch.grains.vz[k];
-    return {batch.fastest[k], vz * vz, batch.grains.z[k]};
-  }
 
   /// Walls are taken for planes up to their top.
   void require_below_walls(double height) const {
@@ -226,7 +204,7 @@ class GrainSolver::Impl {
 
   void find_neighbours(std::size_t length) {
     blocks_.renew(length, 2 * kernels_.plane().mean, density());
-    after_ = {};  // what the search needs meanwhile can lie there
+    if (grains_.size() > kMany) runs_.forget();
     GrainArrays& g = grains_;
     team_.run_shares(g.size(), [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
@@ -236,7 +214,7 @@ class GrainSolver::Impl {
     });
     reorder(neighbours_.sort(g, kernels_.plane(), 2 * radius() + blocks_.skin(), team_));
     neighbours_.find(g, kernels_.plane(), blocks_.skin(), team_);
-    contacts_.find(neighbours_);
+    contacts_.find(neighbours_, team_);
   }
 
   /// ρ [1/m²] of a periodic plane, else that of grains side by side.
@@ -254,7 +232,7 @@ class GrainSolver::Impl {
     if (features().is_uneven()) all.push_back(&grains_.radius);
     if (kernels_.kinds().size() > 1) all.push_back(&grains_.kind);
     order_.apply(order, all, team_);
-    contacts_.reorder(neighbours_);
+    contacts_.reorder(neighbours_, team_);
   }
 
   /// So many steps, or none where a grain got faster than foreseen.
@@ -269,33 +247,17 @@ class GrainSolver::Impl {
           meetings.find(first, last, found);
         },
         team_);
-    hold_after(islands_.grain_places());
     if (features().driven) drive_.find(n_, length, kernels_.kinds(), driving_);
-    // Groups share no grain: whoever takes them, each does the same.
-    const std::vector<GrainIslandGroup>& groups = islands_.groups();
-    ended_.resize(groups.size());
-    workers_.resize(team_.size());
-    for (Worker& worker : workers_) worker.left.touching.clear(), worker.left.parted.clear();
-    team_.run_own_first(groups.size(), [&](std::size_t own, std::size_t k) {
-      ended_[k] = run_group(groups[k], length, workers_[own]);
-    });
-    Ended all;
-    std::size_t touching = 0;
-    for (Ended& each : ended_) {
-      each.touching_before = touching;
-      all.begun += each.begun;
-      touching += each.touching.size();
-      all.fastest.add(each.fastest);
-    }
+    GrainRuns::Total all = runs_.run(grains_, contacts_, steps_of(length), team_);
     if (std::sqrt(all.fastest.along2) > blocks_.bound(length)) {
       all.fastest.add(blocks_.speeds());
       blocks_.set_fastest(all.fastest);
       return false;
     }
-    all.fastest.add(end_block(length, touching));
+    all.fastest.add(end_block(length, all.touching));
     require_below_walls(all.fastest.height);
     collisions_ += all.begun;
-    blocks_.took(length, islands_.grain_count(), touching, all.fastest);
+    blocks_.took(length, islands_.grain_count(), all.touching, all.fastest);
     return true;
   }
 
@@ -304,36 +266,7 @@ class GrainSolver::Impl {
     return {step_, n_ == 0 ? 0.5 * step_ : step_, length, true, n_ > 0, &driving_};
   }
 
-  void hold_after(std::size_t grains) {
-    if (after_.x.size() >= grains) return;
-    after_.for_each_changing(features(), [=](std::vector<double>& values) {
-      values.clear();  // nothing of it is copied
-      values.resize(grains + grains / 8);
-    });
-  }
-
-  /// Does a group's steps. What comes of its grains is put aside, as a block may have to be done
-  /// again.
-  Ended run_group(const GrainIslandGroup& group, std::size_t length, Worker& worker) {
-    GrainBatch& batch = worker.batch;
-    GrainContacts::Left& left = worker.left;
-    contacts_.take(group, islands_, neighbours_, grains_, batch);
-    Ended ended;
-    ended.begun = kernels_.run(batch, steps_of(length));
-    for (std::size_t k = 0; k < batch.count; ++k) ended.fastest.add(speeds_of(batch, k));
-    after_.take_first(batch.count, batch.grains, group.first, features());
-    const auto left_until_now = [&] {
-      return std::pair(static_cast<std::uint32_t>(left.touching.size()),
-                       static_cast<std::uint32_t>(left.parted.size()));
-    };
-    ended.left = &left;
-    std::tie(ended.touching.begin, ended.parted.begin) = left_until_now();
-    GrainContacts::leave(group, batch, length, neighbours_, left);
-    std::tie(ended.touching.end, ended.parted.end) = left_until_now();
-    return ended;
-  }
-
-  /// Grains that met none glide; the others, and contacts, are taken back from the batches. Returns
+  /// Grains that met none glide; the others, and contacts, get what came of them. Returns
   /// the speeds of those that glided.
   GrainSpeeds end_block(std::size_t length, std::size_t touching) {
     contacts_.renew(touching);
@@ -344,28 +277,12 @@ class GrainSolver::Impl {
     team_.run_shares(grains_.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
       gliding[own] = alone ? step_alone(first, last, length)
                            : kernels_.glide(grains_, first, last, steps_of(length));
-      for (const GrainIslandGroup& group : islands_.groups_of(own))
-        grains_.scatter(group.grains, after_, group.first, features());
-      for (const GrainIslandGroup& group : islands_.groups_of(team_.size()))
-        for (std::size_t k = 0; k < group.grains.size(); ++k) {
-          const std::uint32_t i = group.grains[k];
-          if (first <= i && i < last) grains_.take(i, after_, group.first + k, features());
-        }
-      const auto [group, end] = team_.share_of(ended_.size(), own);
-      for (std::size_t k = group; k < end; ++k) keep_contacts(ended_[k]);
+      runs_.give_back(own, first, last, team_, grains_, contacts_);
     });
-    for (const Ended& each : ended_)
-      contacts_.add_parted(
-          std::span(each.left->parted).subspan(each.parted.begin, each.parted.size()));
+    runs_.give_back_parted(contacts_);
     GrainSpeeds fastest;
     for (const GrainSpeeds& each : gliding) fastest.add(each);
     return fastest;
-  }
-
-  void keep_contacts(const Ended& ended) {
-    const auto [begin, end] = ended.touching;
-    contacts_.keep(std::span(ended.left->touching).subspan(begin, end - begin),
-                   ended.touching_before);
   }
 
   /// Of grains that meet none, one by one.
@@ -380,10 +297,13 @@ class GrainSolver::Impl {
       batch.take(grains_, these, kernels_.kinds(), features());
       kernels_.run(batch, steps_of(length));
       grains_.scatter(these, batch.grains, 0, features());
-      for (std::size_t k = 0; k < batch.count; ++k) fastest.add(speeds_of(batch, k));
+      fastest.add(fastest_of(batch, features()));
     }
     return fastest;
   }
+
+  /// So many give their memory back before a search, which needs some too.
+  static constexpr std::size_t kMany = 100'000;
 
   double step_;
   GrainArrays grains_;
@@ -398,10 +318,8 @@ class GrainSolver::Impl {
   GrainNeighbours neighbours_;
   GrainIslands islands_;
   std::vector<std::uint32_t> hit_;
-  std::vector<Ended> ended_;
+  GrainRuns runs_{kernels_, islands_, neighbours_};
   ThreadTeam team_;
-  std::vector<Worker> workers_;  ///< by thread
-  GrainArrays after_;            ///< grains of all groups after the block
 };
 
 GrainSolver::GrainSolver(const ContactScene& scene, std::span<const BodyState> initial, double step,
