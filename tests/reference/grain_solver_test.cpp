@@ -469,6 +469,13 @@ INSTANTIATE_TEST_SUITE_P(
                SubstrateMotion::table({{0.05, {0, 0}}, {0.1, {0.05, 0}}, {0.31, {0.05, 0.4}}})}),
     [](const auto& each) { return each.param.name; });
 
+/// Contacts of several groups of islands are open from one block to the next.
+TEST(GrainSolver, ContactsOfManyIslandsGoOn) {
+  const ContactScene scene = periodic_gas(1000, 0.65, true, 0.9);
+  constexpr std::size_t kCounts[] = {1, 400, 20, 20, 20, 20};
+  EXPECT_GT(expect_steps_of_step_solver(scene, scene.hard.periodic.x(), 2e-4, kCounts), 100u);
+}
+
 /// What happens does not depend on where the cell's edges lie. Shifting all positions changes their
 /// rounding, and each of the one or two collisions of a grain multiplies that by about 10.
 TEST(GrainSolver, EdgesOfThePeriodicCellAreNowhere) {
