@@ -73,7 +73,7 @@ std::size_t expect_islands(const GrainIslands& islands, const Pairs& pairs,
       EXPECT_EQ(group_of.try_emplace(least[grain], group).first->second, group);
       ++told;
     }
-    before = each.first + each.grains.size();
+    before = each.first + each.grains.size() + 1;  // a place is left for walls
     for (const std::uint32_t k : each.pairs) {
       found[least[pairs.first[k]]].push_back(k);
       EXPECT_EQ(group_of.at(least[pairs.first[k]]), group);

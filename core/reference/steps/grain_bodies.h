@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -118,11 +117,20 @@ struct GrainArrays {
   void for_each_changing(const GrainFeatures& has, F&& f) {
     for_each_changed_part(has, [&](auto part) { f(this->*part); });
   }
-  /// What steps change of grains which[0], which[1], … of another becomes that of the first ones.
-  void gather(const GrainArrays& from, std::span<const std::uint32_t> which,
+  /// Has places for so many, of what steps change; what was in them may be lost.
+  void hold(std::size_t places, const GrainFeatures& has) {
+    if (x.size() >= places) return;
+    for_each_changing(has, [=](std::vector<double>& values) {
+      values.clear();  // nothing is copied, and no more than that is held
+      values.resize(places);
+    });
+  }
+  /// What steps change of grains which[0], which[1], … of another becomes that of grains first,
+  /// first + 1, ….
+  void gather(std::size_t first, const GrainArrays& from, std::span<const std::uint32_t> which,
               const GrainFeatures& has) {
     for_each_changed_part(has, [&](auto part) {
-      double* const to = (this->*part).data();
+      double* const to = (this->*part).data() + first;
       const double* const values = (from.*part).data();
       for (std::size_t k = 0; k < which.size(); ++k) to[k] = values[which[k]];
     });
@@ -135,13 +143,6 @@ struct GrainArrays {
       double* const to = (this->*part).data();
       const double* const values = (from.*part).data() + first;
       for (std::size_t k = 0; k < which.size(); ++k) to[which[k]] = values[k];
-    });
-  }
-  /// What steps change of the first `count` of another becomes that of grains first, first + 1, ….
-  void take_first(std::size_t count, const GrainArrays& from, std::size_t first,
-                  const GrainFeatures& has) {
-    for_each_changed_part(has, [&](auto part) {
-      std::copy_n((from.*part).data(), count, (this->*part).data() + first);
     });
   }
   /// What steps change of grain `i` of another becomes that of grain `k`.
@@ -157,6 +158,26 @@ struct GrainArrays {
     z[k] = from.z[i], vz[k] = from.vz[i], dvz[k] = from.dvz[i];
     flies[k] = from.flies[i], bounced[k] = from.bounced[i];
   }
+};
+
+/// Where what steps change of grains `first`, first + 1, … lies; null where a scene lacks it.
+struct GrainView {
+  GrainView() = default;
+  GrainView(GrainArrays& of, std::size_t first) {
+    const auto at = [=](std::vector<double>& values) {
+      return values.empty() ? nullptr : values.data() + first;
+    };
+    x = at(of.x), y = at(of.y), vx = at(of.vx), vy = at(of.vy);
+    wx = at(of.wx), wy = at(of.wy), wz = at(of.wz);
+    dvx = at(of.dvx), dvy = at(of.dvy), dwx = at(of.dwx), dwy = at(of.dwy), dwz = at(of.dwz);
+    sticks = at(of.sticks);
+    z = at(of.z), vz = at(of.vz), dvz = at(of.dvz), flies = at(of.flies), bounced = at(of.bounced);
+  }
+  double *x = nullptr, *y = nullptr, *vx = nullptr, *vy = nullptr;
+  double *wx = nullptr, *wy = nullptr, *wz = nullptr;
+  double *dvx = nullptr, *dvy = nullptr, *dwx = nullptr, *dwy = nullptr, *dwz = nullptr;
+  double* sticks = nullptr;
+  double *z = nullptr, *vz = nullptr, *dvz = nullptr, *flies = nullptr, *bounced = nullptr;
 };
 
 /// Two grains that are close enough to meet soon, or touch; or a grain and a wall.

@@ -253,7 +253,7 @@ class GrainContact {
   }
 
   GrainBatch& s_;
-  const GrainArrays& g_;
+  const GrainView g_;
   const GrainLaw* laws_;
   const GrainWall* walls_;
   double radius_, h_;

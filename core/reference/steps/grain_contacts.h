@@ -79,10 +79,12 @@ class GrainContacts {
     for (std::uint32_t c = 0; c < touching_.size(); ++c) contact_of_[touching_[c].listed] = c;
   }
 
-  /// The batch becomes a group, with what its contacts remember. On several threads at once.
+  /// The batch becomes a group, with what its contacts remember; `in`, first: as in its hold(). On
+  /// several threads at once.
   void take(const GrainIslandGroup& group, const GrainIslands& islands, const GrainNeighbours& list,
-            const GrainArrays& grains, GrainBatch& batch) const {
-    batch.hold(group.grains.size(), group.pairs.size(), kernels_->features());
+            const GrainArrays& grains, GrainArrays& in, std::size_t first,
+            GrainBatch& batch) const {
+    batch.hold(in, first, group.grains.size(), group.pairs.size(), kernels_->features());
     batch.take(grains, group.grains, kernels_->kinds(), kernels_->features());
     for (std::size_t p = 0; p < group.pairs.size(); ++p) {
       GrainPair& pair = batch.pairs[p];

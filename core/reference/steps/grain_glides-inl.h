@@ -270,7 +270,7 @@ HWY_ATTR void GlideFlying(const GrainFeatures& has, GrainArrays& g, std::size_t 
     };
     while (left > 0 && g.flies[i] > 0) {
       left -= Fly(g, i, kind.radius, plane.gravity, push_after(1), steps.step, left);
-      land_grain(kind, plane, push_after(steps.count - left), g, i);
+      land_grain(kind, plane, push_after(steps.count - left), {g, 0}, i);
     }
     if (left == 0) continue;
     if constexpr (kDriven)

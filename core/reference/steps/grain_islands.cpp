@@ -192,7 +192,7 @@ void GrainIslands::make_groups(std::size_t threads) {
       groups_.push_back({std::span(share.grains).subspan(ends[first], own_grains),
                          std::span(share.pairs).subspan(share.pair_start[first], own_pairs), before,
                          -ends[first]});
-      before += own_grains;
+      before += own_grains + 1;
       first = last;
     }
     share.groups.end = static_cast<std::uint32_t>(groups_.size());

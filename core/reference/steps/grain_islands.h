@@ -26,8 +26,8 @@ struct GrainNear {
 struct GrainIslandGroup {
   std::span<const std::uint32_t> grains;
   std::span<const std::uint32_t> pairs;  ///< near ones, island by island
-  std::size_t first = 0;                 ///< among the grains of all groups
-  std::uint32_t shift = 0;               ///< from GrainIslands::place() to indices of `grains`
+  std::size_t first = 0;  ///< place among all groups; behind each is one for what stands for walls
+  std::uint32_t shift = 0;  ///< from GrainIslands::place() to indices of `grains`
 };
 
 /// Sorts near pairs into islands, which share no grain, and those into groups of about so many
@@ -56,9 +56,9 @@ class GrainIslands {
   /// Of a grain of a group, to be shifted.
   std::uint32_t place(std::uint32_t grain) const { return place_[grain]; }
   std::size_t grain_count() const;
-  /// Of all groups, and what lies between.
+  /// Of all groups, and what lies between and behind them.
   std::size_t grain_places() const {
-    return groups_.empty() ? 0 : groups_.back().first + groups_.back().grains.size();
+    return groups_.empty() ? 0 : groups_.back().first + groups_.back().grains.size() + 1;
   }
 
  private:

@@ -30,17 +30,20 @@ HWY_EXPORT(Glide);
 HWY_EXPORT(Run);
 HWY_EXPORT(Target);
 
-void GrainBatch::hold(std::size_t grain_count, std::size_t count_of_pairs,
-                      const GrainFeatures& has) {
+void GrainBatch::hold(GrainArrays& in, std::size_t first, std::size_t grain_count,
+                      std::size_t count_of_pairs, const GrainFeatures& has) {
   count = grain_count;
   pair_count = count_of_pairs;
   if (pairs.size() < pair_count) pairs.resize(pair_count);
   const std::size_t places = count + 1;
+  in.hold(first + places, has);
+  in_ = &in;
+  first_ = first;
+  grains = {in, first};
   if (fx.size() >= places) return;
   const auto each = [places](std::initializer_list<std::vector<double>*> all) {
     for (std::vector<double>* values : all) values->resize(places);
   };
-  grains.for_each_changing(has, [places](std::vector<double>& values) { values.resize(places); });
   each({&fx, &fy, &fastest, &inverse_mass});
   if (has.rubs) each({&tz});
   if (has.rubs || has.on_plane) each({&inverse_inertia});
@@ -52,7 +55,7 @@ void GrainBatch::hold(std::size_t grain_count, std::size_t count_of_pairs,
 
 void GrainBatch::take(const GrainArrays& from, std::span<const std::uint32_t> which,
                       const std::vector<GrainKind>& kinds, const GrainFeatures& has) {
-  grains.gather(from, which, has);
+  in_->gather(first_, from, which, has);
   std::fill_n(fastest.begin(), which.size(), 0.0);
   if (kinds.size() > 1 || has.walls) {
     for (std::size_t k = 0; k < which.size(); ++k) take_kind(k, kinds[from.kind[which[k]]], has);
@@ -76,13 +79,13 @@ void GrainBatch::take_kind(std::size_t k, const GrainKind& of, const GrainFeatur
 }
 
 void GrainBatch::take_wall(const GrainFeatures& has) {
-  grains.for_each_changing(has, [this](std::vector<double>& values) { values[count] = 0; });
+  in_->for_each_changing(has, [this](auto& values) { values[first_ + count] = 0; });
   for (auto* values : {&fx, &fy, &fz, &tx, &ty, &tz, &weight, &radius}) (*values)[count] = 0;
 }
 
 void land_grain(const GrainKind& kind, const GrainPlane& plane, const GrainPush& push,
-                GrainArrays& grains, std::size_t i) {
-  GrainArrays& g = grains;
+                const GrainView& grains, std::size_t i) {
+  const GrainView& g = grains;
   if (!(g.z[i] < kind.radius && g.vz[i] < 0)) return;
   StepKind of;
   of.inverse_mass = kind.inverse_mass;

@@ -17,7 +17,7 @@ namespace slipcheck {
 /// while they lie in the nearest cache. What the features lack is in none of these arrays.
 struct GrainBatch {
   std::size_t count = 0, pair_count = 0;  ///< the arrays may have places for more
-  GrainArrays grains;
+  GrainView grains;
   std::vector<GrainPair> pairs;  ///< by index into `grains`
   /// Forces [N] and torques [N m] by other grains, none between two runs; load |N| dt of the
   /// substrate [N s], squares of the largest speeds [m²/s²], and the constants of GrainKind, for
@@ -29,8 +29,10 @@ struct GrainBatch {
 
   static constexpr std::size_t kAtOnce = 256;  ///< grains without others, in the nearest cache
 
-  /// Has so many from now on; behind these grains is a place for what stands for walls.
-  void hold(std::size_t grain_count, std::size_t count_of_pairs, const GrainFeatures& has);
+  /// Has so many from now on; what steps change of its grains lies in `in` from `first` on, and
+  /// behind it a place for what stands for walls.
+  void hold(GrainArrays& in, std::size_t first, std::size_t grain_count, std::size_t count_of_pairs,
+            const GrainFeatures& has);
   /// What stands for walls is a point at rest.
   void take_wall(const GrainFeatures& has);
   /// Takes those of `from`; `kinds` are of the scene.
@@ -39,6 +41,8 @@ struct GrainBatch {
 
  private:
   void take_kind(std::size_t k, const GrainKind& of, const GrainFeatures& has);
+  GrainArrays* in_ = nullptr;
+  std::size_t first_ = 0;
   std::size_t of_one_kind_ = 0;  ///< so many places have the constants of the only kind
 };
 
@@ -106,7 +110,7 @@ inline double level_reach(const GrainArrays& grains, std::size_t i, std::size_t 
 /// A grain that has come down on the substrate within a step with that push lands; see
 /// land_after_drift() of StepBody. Others stay as they are.
 void land_grain(const GrainKind& kind, const GrainPlane& plane, const GrainPush& push,
-                GrainArrays& grains, std::size_t i);
+                const GrainView& grains, std::size_t i);
 
 /// What a distance is shortened by to the nearest image of `length` [m]; 0: there are none.
 inline double shift_to_nearest_image(double distance, double length) {

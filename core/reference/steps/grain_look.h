@@ -76,7 +76,7 @@ class GrainLook {
   }
 
   void show_group(const GrainIslandGroup& group, const GrainIslands& islands) {
-    contacts_.take(group, islands, list_, grains_, batch_);
+    contacts_.take(group, islands, list_, grains_, after_, 0, batch_);
     kernels_.run(batch_, half_);
     for (std::size_t k = 0; k < group.grains.size(); ++k) show_grain(k, group.grains[k]);
     for (std::size_t p = 0; p < group.pairs.size(); ++p) {
@@ -98,7 +98,7 @@ class GrainLook {
   void show_others() {
     std::vector<std::uint32_t> others;
     const auto show_all = [&] {
-      batch_.hold(others.size(), 0, kernels_.features());
+      batch_.hold(after_, 0, others.size(), 0, kernels_.features());
       batch_.take(grains_, others, kernels_.kinds(), kernels_.features());
       kernels_.run(batch_, half_);
       for (std::size_t k = 0; k < others.size(); ++k) show_grain(k, others[k]);
@@ -116,7 +116,7 @@ class GrainLook {
   void show_grain(std::size_t k, std::size_t i) {
     const GrainFeatures& has = kernels_.features();
     const GrainPlane& plane = kernels_.plane();
-    const GrainArrays& g = batch_.grains;
+    const GrainView& g = batch_.grains;
     const std::uint32_t body = places_.body[i];
     const double x = grains_.x[i] + places_.cell_x[i] * plane.length_x;
     const double y = grains_.y[i] + places_.cell_y[i] * plane.length_y;
@@ -136,6 +136,7 @@ class GrainLook {
   const GrainNeighbours& list_;
   const GrainContacts& contacts_;
   GrainSteps half_;
+  GrainArrays after_;  ///< of the batch
   GrainBatch batch_;
   std::vector<BodyState>* shown_ = nullptr;
   std::vector<double> impulses_;                          ///< of the substrate on each grain [N s]

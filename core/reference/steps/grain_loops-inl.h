@@ -99,20 +99,20 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainPlane& plane
   constexpr bool kRubs = Has::kRubs, kOnPlane = Has::kOnPlane, kDriven = Has::kDriven;
   constexpr bool kUneven = Has::kUneven, kLifts = Has::kLifts, kRolls = Has::kRolls;
   const std::size_t n = batch.count;
-  GrainArrays& g = batch.grains;
-  double* HWY_RESTRICT x = g.x.data();
-  double* HWY_RESTRICT y = g.y.data();
-  double* HWY_RESTRICT vx = g.vx.data();
-  double* HWY_RESTRICT vy = g.vy.data();
-  double* HWY_RESTRICT wx = g.wx.data();
-  double* HWY_RESTRICT wy = g.wy.data();
-  double* HWY_RESTRICT wz = g.wz.data();
-  double* HWY_RESTRICT dvx = g.dvx.data();
-  double* HWY_RESTRICT dvy = g.dvy.data();
-  double* HWY_RESTRICT dwx = g.dwx.data();
-  double* HWY_RESTRICT dwy = g.dwy.data();
-  double* HWY_RESTRICT dwz = g.dwz.data();
-  double* HWY_RESTRICT sticks = g.sticks.data();
+  const GrainView& g = batch.grains;
+  double* HWY_RESTRICT x = g.x;
+  double* HWY_RESTRICT y = g.y;
+  double* HWY_RESTRICT vx = g.vx;
+  double* HWY_RESTRICT vy = g.vy;
+  double* HWY_RESTRICT wx = g.wx;
+  double* HWY_RESTRICT wy = g.wy;
+  double* HWY_RESTRICT wz = g.wz;
+  double* HWY_RESTRICT dvx = g.dvx;
+  double* HWY_RESTRICT dvy = g.dvy;
+  double* HWY_RESTRICT dwx = g.dwx;
+  double* HWY_RESTRICT dwy = g.dwy;
+  double* HWY_RESTRICT dwz = g.dwz;
+  double* HWY_RESTRICT sticks = g.sticks;
   double* HWY_RESTRICT fx = batch.fx.data();
   double* HWY_RESTRICT fy = batch.fy.data();
   double* HWY_RESTRICT fz = batch.fz.data();
@@ -131,11 +131,11 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainPlane& plane
   const double* HWY_RESTRICT mu_r = batch.mu_r.data();
   const double* HWY_RESTRICT drilling = batch.drilling.data();
   const double* HWY_RESTRICT radius_of = batch.radius.data();
-  double* HWY_RESTRICT z = g.z.data();
-  double* HWY_RESTRICT vz = g.vz.data();
-  double* HWY_RESTRICT dvz = g.dvz.data();
-  double* HWY_RESTRICT flies = g.flies.data();
-  double* HWY_RESTRICT bounced = g.bounced.data();
+  double* HWY_RESTRICT z = g.z;
+  double* HWY_RESTRICT vz = g.vz;
+  double* HWY_RESTRICT dvz = g.dvz;
+  double* HWY_RESTRICT flies = g.flies;
+  double* HWY_RESTRICT bounced = g.bounced;
   const double radius = plane.radius, per_radius = 1 / radius, fall = dt * plane.gravity;
   SLIPCHECK_EACH_ALONE
   for (std::size_t i = 0; i < n; ++i) {
@@ -238,13 +238,13 @@ HWY_ATTR HWY_INLINE void KickAndDrift(GrainBatch& batch, const GrainPlane& plane
 
 /// Those that have come down on the substrate within the step.
 HWY_ATTR HWY_INLINE void Land(GrainBatch& batch, const GrainPlane& plane, const GrainPush& push) {
-  GrainArrays& g = batch.grains;
+  const GrainView& g = batch.grains;
   const hn::ScalableTag<double> d;
   const std::size_t lanes = hn::Lanes(d);
   std::size_t i = 0;
   for (; i + lanes <= batch.count; i += lanes) {
-    const auto below = hn::Lt(hn::LoadU(d, g.z.data() + i), hn::LoadU(d, batch.radius.data() + i));
-    const auto falls = hn::Lt(hn::LoadU(d, g.vz.data() + i), hn::Zero(d));
+    const auto below = hn::Lt(hn::LoadU(d, g.z + i), hn::LoadU(d, batch.radius.data() + i));
+    const auto falls = hn::Lt(hn::LoadU(d, g.vz + i), hn::Zero(d));
     if (hn::AllFalse(d, hn::And(below, falls))) continue;
     for (std::size_t k = i; k < i + lanes; ++k) land_grain(*batch.kind[k], plane, push, g, k);
   }

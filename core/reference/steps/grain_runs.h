@@ -31,7 +31,7 @@ class GrainRuns {
   Total run(const GrainArrays& grains, const GrainContacts& contacts, const GrainSteps& steps,
             ThreadTeam& team) {
     const std::vector<GrainIslandGroup>& groups = islands_->groups();
-    hold(islands_->grain_places());
+    after_.hold(islands_->grain_places(), kernels_->features());
     workers_.resize(team.size());
     for (Worker& worker : workers_) worker.left.touching.clear(), worker.left.parted.clear();
     ended_.resize(groups.size());
@@ -95,22 +95,13 @@ class GrainRuns {
     return std::span(all).subspan(stretch.begin, stretch.size());
   }
 
-  void hold(std::size_t grains) {
-    if (after_.x.size() >= grains) return;
-    after_.for_each_changing(kernels_->features(), [=](std::vector<double>& values) {
-      values.clear();  // nothing of it is copied
-      values.resize(grains);
-    });
-  }
-
   Ended run_group(const GrainIslandGroup& group, const GrainArrays& grains,
                   const GrainContacts& contacts, const GrainSteps& steps, Worker& worker) {
     GrainBatch& batch = worker.batch;
-    contacts.take(group, *islands_, *list_, grains, batch);
+    contacts.take(group, *islands_, *list_, grains, after_, group.first, batch);
     Ended ended;
     ended.begun = kernels_->run(batch, steps);
     ended.fastest = fastest_of(batch, kernels_->features());
-    after_.take_first(batch.count, batch.grains, group.first, kernels_->features());
     GrainContacts::Left& left = worker.left;
     const auto count = [](const auto& all) { return static_cast<std::uint32_t>(all.size()); };
     ended.left = &left;

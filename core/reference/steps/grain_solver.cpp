@@ -287,16 +287,17 @@ class GrainSolver::Impl {
 
   /// Of grains that meet none, one by one.
   GrainSpeeds step_alone(std::size_t begin, std::size_t end, std::size_t length) {
+    GrainArrays after;
     GrainBatch batch;
     std::vector<std::uint32_t> these;
     GrainSpeeds fastest;
     for (std::size_t first = begin; first < end; first += these.size()) {
       these.resize(std::min(GrainBatch::kAtOnce, end - first));
       std::iota(these.begin(), these.end(), static_cast<std::uint32_t>(first));
-      batch.hold(these.size(), 0, features());
+      batch.hold(after, 0, these.size(), 0, features());
       batch.take(grains_, these, kernels_.kinds(), features());
       kernels_.run(batch, steps_of(length));
-      grains_.scatter(these, batch.grains, 0, features());
+      grains_.scatter(these, after, 0, features());
       fastest.add(fastest_of(batch, features()));
     }
     return fastest;
