@@ -34,7 +34,7 @@ void GrainBatch::hold(GrainArrays& in, std::size_t first, std::size_t grain_coun
                       std::size_t count_of_pairs, const GrainFeatures& has) {
   count = grain_count;
   pair_count = count_of_pairs;
-  if (pairs.size() < pair_count) pairs.resize(pair_count);
+  if (pairs.size() < pair_count) pairs.resize(pair_count), acting.resize(pair_count);
   const std::size_t places = count + 1;
   in.hold(first + places, has);
   in_ = &in;

@@ -18,7 +18,8 @@ namespace slipcheck {
 struct GrainBatch {
   std::size_t count = 0, pair_count = 0;  ///< the arrays may have places for more
   GrainView grains;
-  std::vector<GrainPair> pairs;  ///< by index into `grains`
+  std::vector<GrainPair> pairs;       ///< by index into `grains`
+  std::vector<std::uint32_t> acting;  ///< for those of the pairs that do in a step
   /// Forces [N] and torques [N m] by other grains, none between two runs; load |N| dt of the
   /// substrate [N s], squares of the largest speeds [m²/s²], and the constants of GrainKind, for
   /// each grain.

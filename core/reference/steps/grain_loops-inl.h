@@ -256,16 +256,27 @@ HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws,
                            const GrainPlane& plane, const GrainSteps& steps) {
   using Contact = GrainContact<Has>;
   const Contact contact(batch, laws, plane, steps.step);
+  GrainPair* const pairs = batch.pairs.data();
+  std::uint32_t* const acts = batch.acting.data();
   std::size_t begun = 0;
   for (std::size_t s = 0; s < steps.count; ++s) {
+    // Which pairs act is written down without a branch; they follow each other then.
+    std::size_t acting = 0;
     for (std::size_t k = 0; k < batch.pair_count; ++k) {
-      GrainPair& pair = batch.pairs[k];
+      const GrainPair& pair = pairs[k];
+      const typename Contact::Between between = contact.between(pair);
+      const bool overlaps = between.distance2() <= between.reach * between.reach;
+      acts[acting] = static_cast<std::uint32_t>(k);
+      acting += (overlaps | pair.touching) ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < acting; ++k) {
+      GrainPair& pair = pairs[acts[k]];
       const typename Contact::Between between = contact.between(pair);
       const double distance2 = between.distance2();
       if (distance2 <= between.reach * between.reach)
         begun += contact.meet(pair, between, std::sqrt(distance2), s, steps.begun || s > 0) &&
                  (!Has::kWalls || pair.wall == GrainPair::kNoWall);
-      else if (pair.touching)
+      else
         contact.part(pair, between, std::sqrt(distance2), s);
     }
     const GrainPush& push = Has::kDriven ? steps.driving->steps[s] : kNoPush;

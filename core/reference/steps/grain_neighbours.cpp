@@ -106,34 +106,6 @@ std::uint32_t GrainNeighbours::sorted(std::uint32_t i) const {
   return k;
 }
 
-void GrainNeighbours::find(const GrainArrays& grains, const GrainPlane& plane, double skin,
-                           ThreadTeam& team) {
-  found_.resize(team.size());
-  team.run_shares(rows_, [&](std::size_t own, std::size_t first, std::size_t last) {
-    find_in(grains, plane, skin, static_cast<std::uint32_t>(first),
-            static_cast<std::uint32_t>(last), found_[own]);
-  });
-  std::ptrdiff_t all = 0;
-  for (Found& found : found_) {
-    found.before = all;
-    all += found.count;
-  }
-  const auto hold = [&](auto& values, bool any = true) {
-    if (values.capacity() < static_cast<std::size_t>(all)) values.clear();  // no more than needed
-    values.resize(any ? static_cast<std::size_t>(all) : 0);
-  };
-  hold(first_);
-  hold(second_);
-  hold(wall_, !plane.walls.empty());
-  team.run(found_.size(), [&](std::size_t own) {
-    const Found& found = found_[own];
-    std::copy_n(found.first.begin(), found.count, first_.begin() + found.before);
-    std::copy_n(found.second.begin(), found.count, second_.begin() + found.before);
-    if (!wall_.empty()) std::copy_n(found.wall.begin(), found.count, wall_.begin() + found.before);
-  });
-  found_.clear();
-}
-
 std::uint32_t GrainNeighbours::place_of(std::uint32_t i, std::uint32_t j,
                                         std::uint16_t wall) const {
   const auto [begin, end] = std::equal_range(first_.begin(), first_.end(), i);
@@ -187,10 +159,10 @@ class GrainNeighbours::Beside {
   std::size_t count_ = 0;
 };
 
+template <class Reach>
 void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane, double skin,
-                              std::uint32_t first_row, std::uint32_t last_row, Found& found) const {
-  const bool radii = !grains.radius.empty();
-  double reach = 2 * plane.radius + skin;
+                              const Reach& reach, std::uint32_t first_row, std::uint32_t last_row,
+                              Found& found) const {
   const double* x = grains.x.data();
   const double* y = grains.y.data();
   Beside cells(*this, plane);
@@ -221,14 +193,56 @@ void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane
             double dx = x[i] - x[j], dy = y[i] - y[j];
             dx -= shift_to_nearest_image(dx, plane.length_x);
             dy -= shift_to_nearest_image(dy, plane.length_y);
-            if (radii) reach = level_reach(grains, i, j) + skin;
+            const double within = reach(i, j);
             found.first[count] = i;
             found.second[count] = j;
-            count += dx * dx + dy * dy <= reach * reach ? 1 : 0;
+            count += dx * dx + dy * dy <= within * within ? 1 : 0;
           }
       }
     }
   found.count = static_cast<std::ptrdiff_t>(count);
+}
+
+void GrainNeighbours::find(const GrainArrays& grains, const GrainPlane& plane, double skin,
+                           ThreadTeam& team) {
+  found_.resize(team.size());
+  const auto find_within = [&](auto reach) {
+    team.run_shares(rows_, [&](std::size_t own, std::size_t first, std::size_t last) {
+      find_in(grains, plane, skin, reach, static_cast<std::uint32_t>(first),
+              static_cast<std::uint32_t>(last), found_[own]);
+    });
+  };
+  const double* const R = grains.radius.data();
+  if (grains.radius.empty()) {
+    find_within([all = 2 * plane.radius + skin](auto, auto) { return all; });
+  } else if (!grains.z.empty()) {
+    find_within([=](std::size_t i, std::size_t j) { return R[i] + R[j] + skin; });
+  } else {  // as level_reach(), with a root of each grain for one of each pair
+    std::vector<double> roots(grains.radius);
+    for (double& each : roots) each = std::sqrt(2 * each);
+    find_within([root = roots.data(), skin](std::size_t i, std::size_t j) {
+      return root[i] * root[j] + skin;
+    });
+  }
+  std::ptrdiff_t all = 0;
+  for (Found& found : found_) {
+    found.before = all;
+    all += found.count;
+  }
+  const auto hold = [&](auto& values, bool any = true) {
+    if (values.capacity() < static_cast<std::size_t>(all)) values.clear();  // no more than needed
+    values.resize(any ? static_cast<std::size_t>(all) : 0);
+  };
+  hold(first_);
+  hold(second_);
+  hold(wall_, !plane.walls.empty());
+  team.run(found_.size(), [&](std::size_t own) {
+    const Found& found = found_[own];
+    std::copy_n(found.first.begin(), found.count, first_.begin() + found.before);
+    std::copy_n(found.second.begin(), found.count, second_.begin() + found.before);
+    if (!wall_.empty()) std::copy_n(found.wall.begin(), found.count, wall_.begin() + found.before);
+  });
+  found_.clear();
 }
 
 }  // namespace slipcheck

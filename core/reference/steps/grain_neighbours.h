@@ -54,7 +54,9 @@ class GrainNeighbours {
   };
   void count(Sorted& own);
   void place(std::size_t k);
-  void find_in(const GrainArrays& grains, const GrainPlane& plane, double skin,
+  /// reach: from centre to centre of two grains, by their numbers [m].
+  template <class Reach>
+  void find_in(const GrainArrays& grains, const GrainPlane& plane, double skin, const Reach& reach,
                std::uint32_t first_row, std::uint32_t last_row, Found& found) const;
 
   std::uint32_t columns_ = 1, rows_ = 1;
