@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 namespace slipcheck {
@@ -127,6 +128,11 @@ class GrainNeighbours::Beside {
         is_round_x_(plane.length_x > 0 && columns_ > 2),
         is_round_y_(plane.length_y > 0 && rows_ > 2) {}
 
+  /// Whether find() tells none beside the cell around the plane: what is near is so as it lies.
+  bool is_inside(std::uint32_t row, std::uint32_t column) const {
+    return row > 0 && column > 0 && column + 1 < columns_;
+  }
+
   /// The cell itself and those beside it that come later in the order: each pair is found once.
   std::span<GrainStretch> find(std::uint32_t row, std::uint32_t column) {
     count_ = 0;
@@ -167,6 +173,22 @@ void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane
   const double* y = grains.y.data();
   Beside cells(*this, plane);
   std::size_t count = 0;
+  // Each is written down, and stays where it is near: no branch that nobody foresees.
+  const auto look = [&](std::uint32_t i, const GrainStretch& others, auto around) {
+    std::uint32_t* const first = found.first.data();
+    std::uint32_t* const second = found.second.data();
+    for (std::uint32_t j = others.begin; j < others.end; ++j) {
+      double dx = x[i] - x[j], dy = y[i] - y[j];
+      if constexpr (around) {
+        dx -= shift_to_nearest_image(dx, plane.length_x);
+        dy -= shift_to_nearest_image(dy, plane.length_y);
+      }
+      const double within = reach(i, j);
+      first[count] = i;
+      second[count] = j;
+      count += dx * dx + dy * dy <= within * within ? 1 : 0;
+    }
+  };
   for (std::uint32_t row = first_row; row < last_row; ++row)
     for (std::uint32_t column = 0; column < columns_; ++column) {
       const std::size_t cell = std::size_t{row} * columns_ + column;
@@ -180,6 +202,7 @@ void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane
         found.second.resize(2 * most);
         if (!plane.walls.empty()) found.wall.resize(2 * most, GrainPair::kNoWall);
       }
+      const bool inside = cells.is_inside(row, column);
       for (std::uint32_t i = begin; i < end; ++i) {
         beside.front().begin = i + 1;
         for (std::size_t w = 0; w < plane.walls.size(); ++w) {
@@ -187,17 +210,8 @@ void GrainNeighbours::find_in(const GrainArrays& grains, const GrainPlane& plane
           found.first[count] = found.second[count] = i;
           found.wall[count++] = static_cast<std::uint16_t>(w);
         }
-        // Each is written down, and stays where it is near: no branch that nobody foresees.
-        for (const GrainStretch& s : beside)
-          for (std::uint32_t j = s.begin; j < s.end; ++j) {
-            double dx = x[i] - x[j], dy = y[i] - y[j];
-            dx -= shift_to_nearest_image(dx, plane.length_x);
-            dy -= shift_to_nearest_image(dy, plane.length_y);
-            const double within = reach(i, j);
-            found.first[count] = i;
-            found.second[count] = j;
-            count += dx * dx + dy * dy <= within * within ? 1 : 0;
-          }
+        for (const GrainStretch& others : beside)
+          inside ? look(i, others, std::false_type()) : look(i, others, std::true_type());
       }
     }
   found.count = static_cast<std::ptrdiff_t>(count);
