@@ -190,7 +190,7 @@ std::size_t expect_steps_of_step_solver(const ContactScene& scene, double extent
 
 TEST_P(GrainLaws, StepsAsStepSolverDoes) {
   constexpr std::size_t kCounts[] = {2, 7, 100, 400, 400};
-  EXPECT_GT(expect_steps_of_step_solver(cluster(GetParam(), 4), 10 * kRadius, kStep, kCounts), 20u);
+  EXPECT_GT(expect_steps_of_step_solver(cluster(GetParam(), 6), 14 * kRadius, kStep, kCounts), 40u);
 }
 
 const double kMass = 7850 * 4 * M_PI / 3 * kRadius * kRadius * kRadius;

@@ -8,6 +8,8 @@
 
 #include <hwy/highway.h>
 
+#include <numeric>
+
 #include "reference/steps/grain_contact-inl.h"
 #include "reference/steps/grain_glides-inl.h"
 #include "reference/steps/grain_kernels.h"
@@ -251,6 +253,9 @@ HWY_ATTR HWY_INLINE void Land(GrainBatch& batch, const GrainPlane& plane, const 
   for (; i < batch.count; ++i) land_grain(*batch.kind[i], plane, push, g, i);
 }
 
+/// Of so many pairs a processor foresees from the step before which act.
+inline constexpr std::size_t kForeseen = 32;
+
 template <class Has>
 HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws,
                            const GrainPlane& plane, const GrainSteps& steps) {
@@ -258,16 +263,18 @@ HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws,
   const Contact contact(batch, laws, plane, steps.step);
   GrainPair* const pairs = batch.pairs.data();
   std::uint32_t* const acts = batch.acting.data();
+  const bool foreseen = batch.pair_count <= kForeseen;
+  std::size_t acting = batch.pair_count;
+  if (foreseen) std::iota(acts, acts + acting, 0u);
   std::size_t begun = 0;
   for (std::size_t s = 0; s < steps.count; ++s) {
     // Which pairs act is written down without a branch; they follow each other then.
-    std::size_t acting = 0;
-    for (std::size_t k = 0; k < batch.pair_count; ++k) {
-      const GrainPair& pair = pairs[k];
-      const typename Contact::Between between = contact.between(pair);
+    if (!foreseen) acting = 0;
+    for (std::size_t k = 0; !foreseen && k < batch.pair_count; ++k) {
+      const typename Contact::Between between = contact.between(pairs[k]);
       const bool overlaps = between.distance2() <= between.reach * between.reach;
       acts[acting] = static_cast<std::uint32_t>(k);
-      acting += (overlaps | pair.touching) ? 1 : 0;
+      acting += (overlaps | pairs[k].touching) ? 1 : 0;
     }
     for (std::size_t k = 0; k < acting; ++k) {
       GrainPair& pair = pairs[acts[k]];
@@ -276,7 +283,7 @@ HWY_ATTR std::size_t RunAs(GrainBatch& batch, const std::vector<GrainLaw>& laws,
       if (distance2 <= between.reach * between.reach)
         begun += contact.meet(pair, between, std::sqrt(distance2), s, steps.begun || s > 0) &&
                  (!Has::kWalls || pair.wall == GrainPair::kNoWall);
-      else
+      else if (pair.touching)
         contact.part(pair, between, std::sqrt(distance2), s);
     }
     const GrainPush& push = Has::kDriven ? steps.driving->steps[s] : kNoPush;
