@@ -8,9 +8,10 @@ namespace {
 
 /// Grains of a group: with their pairs some 30 kB.
 constexpr std::size_t kGroup = 128;
-/// Where threads share them: groups for each thread, of at least so many grains; each begins at a
-/// multiple of kApart, so that no line of the cache has numbers of two.
-constexpr std::size_t kForThread = 4, kSmallGroup = 16, kApart = 16;
+/// Where threads share them each begins at a multiple of kApart, so that no line of the cache has
+/// numbers of two. Up to kForThread for each thread are of equal size, as many for each, and
+/// kFewApart, in another page of memory: what the processor asks for ahead goes no further.
+constexpr std::size_t kForThread = 4, kApart = 16, kFewApart = 512;
 
 }  // namespace
 
@@ -175,10 +176,33 @@ void GrainIslands::place(const GrainPairs& pairs, Share& share) {
   }
 }
 
+/// Those of the stretches become as those between these.
+void GrainIslands::take_from_stretches() {
+  Share& between = shares_.back();
+  for (Share& share : std::span(shares_).first(shares_.size() - 1)) {
+    const auto grains = static_cast<std::uint32_t>(between.grains.size());
+    const auto pairs = static_cast<std::uint32_t>(between.pairs.size());
+    for (const std::uint32_t grain : share.grains) place_[grain] += grains;
+    between.grains.insert(between.grains.end(), share.grains.begin(), share.grains.end());
+    between.pairs.insert(between.pairs.end(), share.pairs.begin(), share.pairs.end());
+    for (std::size_t k = 1; k < share.grain_start.size(); ++k) {
+      between.grain_start.push_back(grains + share.grain_start[k]);
+      between.pair_start.push_back(pairs + share.pair_start[k]);
+    }
+    share.grain_start.resize(1);
+    share.pair_start.resize(1);
+  }
+}
+
 void GrainIslands::make_groups(std::size_t threads) {
-  const bool shared = threads > 1;
-  const std::size_t most =
-      shared ? std::clamp(grain_count() / (kForThread * threads), kSmallGroup, kGroup) : kGroup;
+  std::size_t most = kGroup, apart = threads > 1 ? kApart : 1;
+  if (const std::size_t grains = grain_count();
+      threads > 1 && grains <= kForThread * threads * kGroup) {
+    take_from_stretches();
+    const std::size_t groups = threads * (grains / (threads * kGroup) + 1);
+    most = (grains + groups - 1) / groups;
+    apart = kFewApart;
+  }
   groups_.clear();
   std::size_t before = 0;  // grains before a group
   for (Share& share : shares_) {
@@ -188,7 +212,7 @@ void GrainIslands::make_groups(std::size_t threads) {
       const std::size_t own_grains = ends[last] - ends[first];
       if (own_grains < most && last + 1 < ends.size()) continue;
       const std::size_t own_pairs = share.pair_start[last] - share.pair_start[first];
-      if (shared) before += -before % kApart;
+      before += -before % apart;
       groups_.push_back({std::span(share.grains).subspan(ends[first], own_grains),
                          std::span(share.pairs).subspan(share.pair_start[first], own_pairs), before,
                          -ends[first]});

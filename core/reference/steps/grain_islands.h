@@ -31,7 +31,7 @@ struct GrainIslandGroup {
 };
 
 /// Sorts near pairs into islands, which share no grain, and those into groups of about so many
-/// grains as the nearest cache holds, or fewer where threads share them. Islands of which no grain
+/// grains as the nearest cache holds, or fewer where threads share few. Islands of which no grain
 /// is hit are left out: all of them go on as if alone.
 ///
 /// Each thread looks at the pairs and sorts the islands of a stretch of grains; those that reach
@@ -48,7 +48,8 @@ class GrainIslands {
 
   /// Valid until the next find().
   const std::vector<GrainIslandGroup>& groups() const { return groups_; }
-  /// Those of the stretch of thread k; for k = the number of threads those between stretches.
+  /// Those of the stretch of thread k; for k = the number of threads those between stretches, or
+  /// all where they are few.
   std::span<const GrainIslandGroup> groups_of(std::size_t k) const {
     const auto [begin, end] = shares_[k].groups;
     return std::span(groups_).subspan(begin, end - begin);
@@ -63,7 +64,7 @@ class GrainIslands {
 
  private:
   /// The islands of a stretch, or those between stretches.
-  struct Share {
+  struct alignas(64) Share {
     GrainNear found;
     std::vector<std::uint32_t> across;        ///< pairs with a grain of another stretch
     std::vector<std::uint32_t> reached, hit;  ///< pairs and hit grains of islands that have such
@@ -83,6 +84,7 @@ class GrainIslands {
   void sort_between(const GrainPairs& pairs);
   void count(const GrainPairs& pairs, Share& share);
   void place(const GrainPairs& pairs, Share& share);
+  void take_from_stretches();
   void make_groups(std::size_t threads);
 
   static constexpr std::uint32_t kNone = ~std::uint32_t{0}, kHit = kNone - 1, kReached = kNone - 2;

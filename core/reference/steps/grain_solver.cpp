@@ -232,6 +232,7 @@ class GrainSolver::Impl {
     if (features().is_uneven()) all.push_back(&grains_.radius);
     if (kernels_.kinds().size() > 1) all.push_back(&grains_.kind);
     order_.apply(order, all, team_);
+    if (grains_.size() > kMany) order_.forget();
     contacts_.reorder(neighbours_, team_);
   }
 

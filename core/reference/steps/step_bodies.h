@@ -19,14 +19,32 @@ namespace slipcheck {
 template <class Substrate>
 class StepBodies {
  public:
-  /// A step of them all, each with the forces of now, which stay.
-  SLIPCHECK_FLATTEN static void move(StepWorld& world) {
-    const Advance advance = advance_of(world);
-    for (StepBody& b : world.bodies) advance(b);
+  /// For so many, before the others.
+  void resize(std::size_t bodies) { expected_.resize(bodies); }
+
+  /// What the next step of a few bodies takes that does not depend on its forces, before these are
+  /// found: its roots and divisions would else stand in the processor's queue behind those of the
+  /// forces, and begin when they are done.
+  void look_ahead(StepWorld& world) {
+    if constexpr (std::is_same_v<Substrate, BareSubstrate>) return;
+    if constexpr (std::is_same_v<Substrate, FullSubstrate>) ahead_ = ahead_of(world);
+    const std::span<StepBody> bodies = world.bodies;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (bodies[i].supported) expected_[i].set(expected_slip<Substrate>(bodies[i], ahead_));
   }
 
-  /// The same by shares; leaves no forces.
+  /// A step of those, each with the forces of now, which stay.
+  void move(StepWorld& world) {
+    if constexpr (std::is_same_v<Substrate, FullSubstrate>) world.around = ahead_;
+    const Advance advance = advance_of(world);
+    const std::span<StepBody> bodies = world.bodies;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      advance(bodies[i], [&]() -> const ExpectedSlip& { return expected_[i]; });
+  }
+
+  /// A step of bodies that have neighbours, by shares; leaves no forces.
   static void move(StepWorld& world, StepNeighbours& neighbours, StepShares& shares) {
+    world.around = ahead_of(world);
     const Advance advance = advance_of(world);
     shares.run(neighbours.team(), [&](StepShare& share, std::size_t begin, std::size_t end) {
       share.longest2 = move_all(advance, std::span(world.bodies).subspan(begin, end - begin));
@@ -55,9 +73,10 @@ class StepBodies {
     StepSurroundings around;  // a copy, of which the compiler knows that no body changes it
     double step, dt, slowest_rebound;
 
-    void operator()(StepBody& b) const {
+    template <class Expected>
+    void operator()(StepBody& b, const Expected& expected) const {
       const StepKind& kind = *b.kind;
-      kick<Substrate>(b, kind, around, dt);
+      kick<Substrate>(b, kind, around, dt, expected);
       b.position += step * b.velocity;
       if constexpr (std::is_same_v<Substrate, BareSubstrate>) return;
       if (!b.supported && b.position.z() < b.radius && b.velocity.z() < 0) [[unlikely]]
@@ -72,14 +91,18 @@ class StepBodies {
       return Vector2::Zero();
   }
 
-  /// For the step from now on, with the substrate's velocity in it.
-  static Advance advance_of(StepWorld& world) {
-    StepSurroundings& s = world.around;
+  /// What is around in the step from now on.
+  static StepSurroundings ahead_of(const StepWorld& world) {
+    StepSurroundings s = world.around;
     if constexpr (std::is_same_v<Substrate, FullSubstrate>) {
       s.velocity_before = s.velocity;
       s.velocity = velocity_of_substrate(world, world.time() + 0.5 * world.step);
     }
-    return {s, world.step, world.kick_length(), world.slowest_rebound};
+    return s;
+  }
+
+  static Advance advance_of(const StepWorld& world) {
+    return {world.around, world.step, world.kick_length(), world.slowest_rebound};
   }
 
   /// Returns the longest way of one, squared [m²], or kNever.
@@ -88,7 +111,7 @@ class StepBodies {
     double longest2 = 0;
     for (StepBody& b : bodies) {
       const Vector3 before = b.position;
-      advance(b);
+      advance(b, [&] { return ExpectedSlip::along(expected_slip<Substrate>(b, advance.around)); });
       b.forget_forces();  // here, where they lie in the nearest cache
       const double way2 = (b.position - before).squaredNorm();
       longest2 = way2 <= longest2 ? longest2 : std::isnan(way2) ? kNever : way2;
@@ -109,6 +132,9 @@ class StepBodies {
       if (!impulses.empty()) impulses[i] = 2 * half + (now.supported ? 0 : double{now.bounced});
     }
   }
+
+  StepSurroundings ahead_;
+  std::vector<ExpectedSlip> expected_;  ///< of a few bodies, in the step ahead
 };
 
 }  // namespace slipcheck

@@ -25,22 +25,24 @@ struct StepKind {
 };
 
 /// One sphere in the fixed-step solver. Velocities lie half a step before the positions. What says
-/// which bodies touch lies in one line of the cache.
+/// which bodies touch lies in one line of the cache. A step waits for what the one before wrote,
+/// and the processor hands that on only to a load of what was written at once: x and y of a vector
+/// lie in one line, and those that are set to zero together not side by side, where they would be
+/// written across each other's ends.
 struct alignas(64) StepBody {
-  Vector3 position = Vector3::Zero();          ///< x_n [m]
-  double radius = 0;                           ///< R [m]
-  Vector3 velocity = Vector3::Zero();          ///< v_{n−1/2} [m/s]
-  Vector3 angular_velocity = Vector3::Zero();  ///< Ω_{n−1/2} [rad/s]
+  Vector3 position = Vector3::Zero();  ///< x_n [m]
+  double radius = 0;                   ///< R [m]
+  Vector3 velocity = Vector3::Zero();  ///< v_{n−1/2} [m/s]
+  const StepKind* kind = nullptr;
   /// What the last step changed: half of it more is the velocity predicted for the positions' time.
   Vector3 velocity_change = Vector3::Zero();
+  Vector3 force = Vector3::Zero();             ///< by other bodies [N]
+  Vector3 angular_velocity = Vector3::Zero();  ///< Ω_{n−1/2} [rad/s]
   Vector3 angular_velocity_change = Vector3::Zero();
-  Vector3 force = Vector3::Zero();   ///< by other bodies [N]
   Vector3 torque = Vector3::Zero();  ///< by other bodies [N m]
-
-  const StepKind* kind = nullptr;
-  bool supported = false;  ///< on the substrate
-  bool sticks = false;     ///< to it: no slip
-  float bounced = 0;       ///< while it flies: impulse by the substrate in the last step [N s]
+  bool supported = false;            ///< on the substrate
+  bool sticks = false;               ///< to it: no slip
+  float bounced = 0;  ///< while it flies: impulse by the substrate in the last step [N s]
 
   void forget_forces() {
     force.setZero();
@@ -82,6 +84,37 @@ inline Vector2 rolling_change(const StepKind& kind, const Vector2& relative, dou
   return (-lost / speed) * relative;
 }
 
+/// The slip that the last step lets expect in the middle of this one, with the substrate velocities
+/// in it. It does not wait for the forces of now.
+struct ExpectedSlip {
+  Vector2 slip = Vector2::Zero();  ///< [m/s]
+  double size = 0, inverse = 0;    ///< |slip| [m/s] and 1/|slip|
+
+  void set(const Vector2& expected) {
+    slip = expected;
+    size = slip.norm();
+    inverse = 1 / size;
+  }
+  static ExpectedSlip along(const Vector2& slip) {
+    ExpectedSlip expected;
+    expected.set(slip);
+    return expected;
+  }
+};
+
+template <class Substrate>
+[[gnu::always_inline]] inline Vector2 expected_slip(const StepBody& b, const StepSurroundings& s) {
+  const Vector3 velocity = b.velocity + 0.5 * b.velocity_change;
+  const Vector3 spin = b.angular_velocity + 0.5 * b.angular_velocity_change;
+  Vector2 slip(velocity.x() - b.radius * spin.y(), velocity.y() + b.radius * spin.x());
+  if constexpr (std::is_same_v<Substrate, FullSubstrate>) {
+    // component by component: of sums of vectors the compiler leaves calls
+    slip.x() -= 0.5 * (s.velocity_before.x() + s.velocity.x());
+    slip.y() -= 0.5 * (s.velocity_before.y() + s.velocity.y());
+  }
+  return slip;
+}
+
 /// Takes |lost| from a rate at most down to zero.
 inline double towards_zero(double rate, double lost) {
   return std::copysign(std::max(0.0, std::abs(rate) - lost), rate);
@@ -103,11 +136,11 @@ inline double towards_zero(double rate, double lost) {
 /// μ_s |N| dt (μ_k for a body that slides), else μ_k |N| dt acts against the slip: friction may
 /// stop the slip within a step but not reverse it.
 ///
-/// This is what Coulomb's friction does alone.
-template <class Substrate>
+/// This is what Coulomb's friction does alone. expected: gives the ExpectedSlip.
+template <class Substrate, class Expected>
 [[gnu::always_inline]] inline void rub_alone(StepBody& b, const StepKind& kind,
-                                             const StepSurroundings& s, double load, Vector3& v,
-                                             Vector3& w) {
+                                             const StepSurroundings& s, double load,
+                                             const Expected& expected, Vector3& v, Vector3& w) {
   constexpr bool kMoves = std::is_same_v<Substrate, FullSubstrate>;
   const SubstrateContact& c = *kind.contact;
   Vector2 u(v.x() - b.radius * w.y(), v.y() + b.radius * w.x());
@@ -127,30 +160,25 @@ template <class Substrate>
     w.head<2>() = Vector2(-relative.y(), relative.x()) * kind.inverse_radius;
     return;
   }
-  // Friction acts against the slip that the last step lets expect in the middle of this one, so
-  // that a turning slip is followed to second order; where that says nothing, against the one at
-  // hand. (It does not wait for the forces of now, and the square root is off the critical path.)
-  const Vector3 velocity = b.velocity + 0.5 * b.velocity_change;
-  const Vector3 spin = b.angular_velocity + 0.5 * b.angular_velocity_change;
-  Vector2 direction(velocity.x() - b.radius * spin.y(), velocity.y() + b.radius * spin.x());
-  if constexpr (kMoves) {  // component by component: of sums of vectors the compiler leaves calls
-    direction.x() -= 0.5 * (s.velocity_before.x() + s.velocity.x());
-    direction.y() -= 0.5 * (s.velocity_before.y() + s.velocity.y());
-  }
+  // Friction acts against the slip that is expected, so that a turning slip is followed to second
+  // order; where that says nothing, against the one at hand.
+  const ExpectedSlip& hoped_for = expected();
+  double x = hoped_for.slip.x(), y = hoped_for.slip.y(), inverse = hoped_for.inverse;
   const double friction = c.kinetic_friction * per_slip;
-  if (!follows(kind, direction, u, friction)) [[unlikely]]
-    direction = u;
-  const double change = friction * (1 / direction.norm());
+  if (!follows(kind, hoped_for.slip, u, friction)) [[unlikely]]
+    x = u.x(), y = u.y(), inverse = 1 / u.norm();
+  const double change = friction * inverse;
   const double turn = change * kind.turn;
-  v.x() -= change * direction.x();
-  v.y() -= change * direction.y();
-  w.x() -= turn * direction.y();
-  w.y() += turn * direction.x();
+  v.x() -= change * x;
+  v.y() -= change * y;
+  w.x() -= turn * y;
+  w.y() += turn * x;
 }
 
 /// The same with all else that a substrate does to a body.
+template <class Expected>
 inline void rub_and_roll(StepBody& b, const StepKind& kind, const StepSurroundings& s, double load,
-                         Vector3& v, Vector3& w) {
+                         const Expected& expected, Vector3& v, Vector3& w) {
   const SubstrateContact& c = *kind.contact;
   const double R = b.radius;
   const auto slip = [R](const Vector3& velocity, const Vector3& spin,
@@ -187,43 +215,41 @@ inline void rub_and_roll(StepBody& b, const StepKind& kind, const StepSurroundin
         u = slip(v, w, s.velocity);
       }
     }
-    Vector2 direction = slip(b.velocity + 0.5 * b.velocity_change,
-                             b.angular_velocity + 0.5 * b.angular_velocity_change,
-                             0.5 * (s.velocity_before + s.velocity));
+    ExpectedSlip against = expected();
     double friction = c.kinetic_friction * per_slip;
-    if (!follows(kind, direction, u, friction)) direction = u;
-    const double size = direction.norm();
+    if (!follows(kind, against.slip, u, friction)) against = ExpectedSlip::along(u);
     if (shares_friction) {
       const CoupledFriction shared =
           coupled_friction(c.hertzian_pressure ? DiscPressure::hertzian : DiscPressure::uniform,
-                           size, c.coupled_radius * spin);
+                           against.size, c.coupled_radius * spin);
       friction *= shared.force;
       drilling = c.kinetic_friction * load * c.coupled_radius * shared.torque;
     }
-    // As much along `direction` as rub_alone() takes, with the same roundings.
+    // As much along it as rub_alone() takes, with the same roundings.
     double change = 0;
     if (friction * friction >= (kind.share * u).squaredNorm()) {
-      direction = u;
+      against.slip = u;
       change = kind.share;
       b.sticks = !shares_friction;
-    } else if (size > 0) {
-      change = friction * (1 / size);
+    } else if (against.size > 0) {
+      change = friction * against.inverse;
     }
     const double turn = change * kind.turn;
-    v.head<2>() -= change * direction;
-    w.x() -= turn * direction.y();
-    w.y() += turn * direction.x();
+    v.head<2>() -= change * against.slip;
+    w.x() -= turn * against.slip.y();
+    w.y() += turn * against.slip.x();
   }
   w.z() = towards_zero(w.z(), drilling * kind.inverse_inertia);
 }
 
-template <class Substrate>
+template <class Substrate, class Expected>
 [[gnu::always_inline]] inline void rub(StepBody& b, const StepKind& kind, const StepSurroundings& s,
-                                       double load, Vector3& v, Vector3& w) {
+                                       double load, const Expected& expected, Vector3& v,
+                                       Vector3& w) {
   if (std::is_same_v<Substrate, PlainSubstrate> || kind.coulomb_alone) {
-    rub_alone<Substrate>(b, kind, s, load, v, w);
+    rub_alone<Substrate>(b, kind, s, load, expected, v, w);
   } else {
-    rub_and_roll(b, kind, s, load, v, w);
+    rub_and_roll(b, kind, s, load, expected, v, w);
   }
 }
 
@@ -240,9 +266,10 @@ template <class Substrate>
   return impulse;
 }
 
-template <class Substrate>
+template <class Substrate, class Expected>
 [[gnu::always_inline]] inline double kick_and_rub(StepBody& b, const StepKind& kind,
-                                                  const StepSurroundings& s, double dt) {
+                                                  const StepSurroundings& s, double dt,
+                                                  const Expected& expected) {
   Vector3 v = b.velocity + (dt * kind.inverse_mass) * b.force;
   Vector3 w = b.angular_velocity + (dt * kind.inverse_inertia) * b.torque;
   if constexpr (std::is_same_v<Substrate, FullSubstrate>) {
@@ -255,7 +282,7 @@ template <class Substrate>
     if (normal >= 0 || s.confined) {
       v.z() = 0;
       impulse = std::abs(normal) * dt;
-      rub<Substrate>(b, kind, s, impulse, v, w);
+      rub<Substrate>(b, kind, s, impulse, expected, v, w);
     } else {
       b.supported = b.sticks = false;
       b.bounced = 0;
@@ -273,14 +300,22 @@ template <class Substrate>
 }
 
 /// The velocities of a body dt later, under the forces of now. Returns what the substrate presses
-/// it with meanwhile [N s].
-template <class Substrate>
+/// it with meanwhile [N s]. expected: gives the ExpectedSlip.
+template <class Substrate, class Expected>
 [[gnu::always_inline]] inline double kick(StepBody& b, const StepKind& kind,
-                                          const StepSurroundings& s, double dt) {
+                                          const StepSurroundings& s, double dt,
+                                          const Expected& expected) {
   if constexpr (std::is_same_v<Substrate, BareSubstrate>)
     return kick_freely(b, kind, dt);
   else
-    return kick_and_rub<Substrate>(b, kind, s, dt);
+    return kick_and_rub<Substrate>(b, kind, s, dt, expected);
+}
+
+template <class Substrate>
+[[gnu::always_inline]] inline double kick(StepBody& b, const StepKind& kind,
+                                          const StepSurroundings& s, double dt) {
+  return kick<Substrate>(b, kind, s, dt,
+                         [&] { return ExpectedSlip::along(expected_slip<Substrate>(b, s)); });
 }
 
 /// A body that came down on the substrate within the last step lands, in the substrate's frame.

@@ -89,7 +89,7 @@ class StepContact {
     if (distance2 <= reach * reach)
       meet(world, a, b, law(), between, reach, std::sqrt(distance2), tally, push);
     else if (touching_)
-      push(part(world, a, b, law(), between, reach, std::sqrt(distance2)));
+      push(part(world, a, b, law(), Vector3(between), reach, std::sqrt(distance2)));
   }
 
  private:
@@ -122,7 +122,7 @@ class StepContact {
     if ((law.clamped && normal <= 0) || (overlap <= 0 && closing <= 0)) [[unlikely]] {
       if (touching_) {
         const double left = normal < 0 ? normal_force_ / (normal_force_ - normal) : 1;
-        push(end(left, {}, n));
+        push(end(left, {}, Vector3(n)));
       }
       return;
     }
@@ -135,12 +135,21 @@ class StepContact {
     ++tally.touching;
     if (!touching_) [[unlikely]] {
       ++tally.collisions;
-      push(begin(world, a, b, law, overlap, normal, slip_now, n));
+      push(begin(world, a, b, law, overlap, normal, Vector3(slip_now), Vector3(n)));
     } else {
       if constexpr (Tangential::kRubs)
         law.tangential.advance(history_, 0.5 * world.step, normal, slip_now, n);
-      force_ = force_of(law, normal, slip_now, n);
-      push(Push::of(force_, n));
+      if constexpr (Tangential::kRubs) {
+        // Not by way of force_, which would be waited for.
+        const Vector3 across = law.tangential.force(history_, normal, slip_now);
+        const Vector3 all = normal * n + across;
+        push(Push{all, across.cross(n), false});
+        force_.all = all;
+        force_.across = across;
+      } else {
+        force_.all = normal * n;
+        push(Push::of(force_, n));
+      }
     }
     normal_force_ = normal;
   }

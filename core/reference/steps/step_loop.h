@@ -34,23 +34,18 @@ class StepLoop final : public StepKernel {
 
   void find_forces(StepWorld& world) override {
     if (world.forces_known) return;
-    neighbours_ ? pairs_.meet(world, *neighbours_, shares_) : pairs_.meet(world);
-    if (surfaces_) surfaces_->meet(world);
-    world.forces_known = true;
+    if (neighbours_)
+      find_forces_of_many(world);
+    else
+      step_few(world, 0, StepStop::never);
   }
 
   void advance(StepWorld& world, std::size_t steps, StepStop stop) override {
     const std::size_t batch = 1 + kBodySteps / world.bodies.size();
     for (std::size_t begin = 0; begin < steps; begin += batch) {
       heed_stop();
-      const std::size_t end = std::min(steps, begin + batch);
-      for (std::size_t k = begin; k < end; ++k) {
-        find_forces(world);
-        if (stop != StepStop::never && world.is_met(stop)) return;
-        neighbours_ ? Bodies::move(world, *neighbours_, shares_) : Bodies::move(world);
-        ++world.n;
-        world.forces_known = false;
-      }
+      const std::size_t some = std::min(steps - begin, batch);
+      if (neighbours_ ? step_many(world, some, stop) : step_few(world, some, stop)) return;
     }
   }
 
@@ -87,10 +82,46 @@ class StepLoop final : public StepKernel {
   /// Steps, times the bodies, between two looks at whether to stop.
   static constexpr std::size_t kBodySteps = 4096;
 
+  /// So many steps, and the forces after them. Whether `stop` was met before. A few bodies are done
+  /// sooner than functions are called.
+  [[gnu::noinline]] SLIPCHECK_FLATTEN_WIDE bool step_few(StepWorld& world, std::size_t steps,
+                                                         StepStop stop) {
+    bodies_.resize(world.bodies.size());
+    for (std::size_t k = 0;; ++k) {
+      if (k < steps) bodies_.look_ahead(world);
+      if (!world.forces_known) pairs_.meet(world);
+      if (!world.forces_known && surfaces_) surfaces_->meet(world);
+      world.forces_known = true;
+      if (k == steps) return false;
+      if (stop != StepStop::never && world.is_met(stop)) return true;
+      bodies_.move(world);
+      ++world.n;
+      world.forces_known = false;
+    }
+  }
+
+  bool step_many(StepWorld& world, std::size_t steps, StepStop stop) {
+    for (std::size_t k = 0; k < steps; ++k) {
+      if (!world.forces_known) find_forces_of_many(world);
+      if (stop != StepStop::never && world.is_met(stop)) return true;
+      Bodies::move(world, *neighbours_, shares_);
+      ++world.n;
+      world.forces_known = false;
+    }
+    return false;
+  }
+
+  void find_forces_of_many(StepWorld& world) {
+    pairs_.meet(world, *neighbours_, shares_);
+    if (surfaces_) surfaces_->meet(world);
+    world.forces_known = true;
+  }
+
   std::vector<std::string> features_;
   std::unique_ptr<StepNeighbours> neighbours_;  ///< null: a few bodies, all pairs
   Pairs pairs_;
   std::unique_ptr<StepSurfaces> surfaces_;
+  Bodies bodies_;
   StepShares shares_;             ///< of neighbours
   std::vector<double> impulses_;  ///< of the substrate, for show() [N s]
 };

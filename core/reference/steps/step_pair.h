@@ -33,8 +33,9 @@ struct ViscousPair {
   Vector3 force(const History&, double normal, const Vector3& slip) const {
     const double cap = law.cap(normal);
     const double slip2 = slip.squaredNorm();
-    if (law.damping * law.damping * slip2 <= cap * cap) return -law.damping * slip;
-    return (-cap * (1 / std::sqrt(slip2))) * slip;
+    double for_slip = -law.damping;  // F_T for u_t [N s/m]
+    if (law.damping * law.damping * slip2 > cap * cap) for_slip = -cap * (1 / std::sqrt(slip2));
+    return for_slip * slip;
   }
 };
 

@@ -42,26 +42,22 @@ class StepPairs {
   void take(StepNeighbours& neighbours, const StepWorld& world) { laws_.find(neighbours, world); }
 
   /// What all pairs do to their bodies now, and nothing else does.
-  ///
-  /// Flat, but for what begins and ends, as StepBodies is: in a large unit the compiler leaves
-  /// calls for sums of vectors, which pass them through memory.
-  SLIPCHECK_FLATTEN void meet(StepWorld& world) {
-    for (StepBody& b : world.bodies) b.forget_forces();
+  void meet(StepWorld& world) {
+    const std::span<StepBody> bodies = world.bodies;
+    for (StepBody& b : bodies) b.forget_forces();
     world.touching = 0;
     StepTally tally;
-    std::size_t k = 0;
-    for (std::size_t j = 1; j < world.bodies.size(); ++j) {
-      StepBody& b = world.bodies[j];
-      for (std::size_t i = 0; i < j; ++i, ++k) {
-        StepBody& a = world.bodies[i];
-        pairs_[k].step(
-            world, a, b, a.position - b.position, [&]() -> const Law& { return laws_[k]; }, tally,
+    auto pair = pairs_.begin();
+    for (auto b = bodies.begin(); b != bodies.end(); ++b)
+      for (auto a = bodies.begin(); a != b; ++a, ++pair)
+        pair->step(
+            world, *a, *b, a->position - b->position,
+            [&]() -> const Law& { return laws_[static_cast<std::size_t>(pair - pairs_.begin())]; },
+            tally,
             [&](const Push& push) {
-              push.on(a, false);
-              push.on(b, true);
+              push.on(*a, false);
+              push.on(*b, true);
             });
-      }
-    }
     count(tally, world);
   }
 
@@ -125,6 +121,9 @@ class StepPairs {
   }
 
   /// The share's bodies are those from `begin` to before `end`.
+  ///
+  /// Flat, but for what begins and ends, as StepBodies is: in a large unit the compiler leaves
+  /// calls for sums of vectors, which pass them through memory.
   [[gnu::noinline]] SLIPCHECK_FLATTEN void meet_share(StepWorld& world,
                                                       const std::vector<StepNeighbour>& all,
                                                       StepShare& share, std::size_t begin,

@@ -24,7 +24,7 @@ class StepSurfaces {
   void exchange(StateArchive& archive) { archive(contacts_); }
 
   /// What they do to bodies now, beside what else does.
-  void meet(StepWorld& world) {
+  [[gnu::noinline]] void meet(StepWorld& world) {
     StepBody surface;  // where it is touched
     for (std::size_t k = 0; k < world.bodies.size(); ++k) {
       StepBody& body = world.bodies[k];
