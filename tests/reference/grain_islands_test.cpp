@@ -62,6 +62,7 @@ std::size_t expect_islands(const GrainIslands& islands, const Pairs& pairs,
   EXPECT_EQ(islands.grain_count(), grains.size());
   std::map<std::uint32_t, std::vector<std::uint32_t>> found;
   std::map<std::uint32_t, std::size_t> group_of;
+  std::map<std::uint32_t, std::size_t> place_of;  // of grains among all groups
   std::size_t told = 0, group = 0;
   std::size_t before = 0;
   // Few are in groups of equal size, as many for each thread as have a place in its nearest cache.
@@ -79,6 +80,7 @@ std::size_t expect_islands(const GrainIslands& islands, const Pairs& pairs,
     std::uint32_t index = 0;
     for (const std::uint32_t grain : each.grains) {
       EXPECT_TRUE(grains.contains(grain));
+      place_of[grain] = each.first + index;
       EXPECT_EQ(islands.place(grain) + each.shift, index++);
       EXPECT_EQ(group_of.try_emplace(least[grain], group).first->second, group);
       ++told;
@@ -91,6 +93,16 @@ std::size_t expect_islands(const GrainIslands& islands, const Pairs& pairs,
     ++group;
   }
   EXPECT_EQ(told, grains.size());
+  for (const GrainIslandPart& part : islands.parts()) {
+    const std::size_t begin = pairs.grains * part.stretch / threads;
+    const std::size_t end = pairs.grains * (part.stretch + 1) / threads;
+    for (std::size_t k = 0; k < part.grains.size(); ++k, --told) {
+      const std::uint32_t grain = part.grains[k];
+      EXPECT_EQ(place_of.at(grain), part.first + k);
+      EXPECT_TRUE(part.stretch == threads || (begin <= grain && grain < end));
+    }
+  }
+  EXPECT_EQ(told, 0u);
   EXPECT_EQ(islands.grain_places(), before);
   EXPECT_EQ(found, expected);  // of each island in the order of the list
   return expected.size();

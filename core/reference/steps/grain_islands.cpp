@@ -176,51 +176,85 @@ void GrainIslands::place(const GrainPairs& pairs, Share& share) {
   }
 }
 
-/// Those of the stretches become as those between these.
-void GrainIslands::take_from_stretches() {
-  Share& between = shares_.back();
-  for (Share& share : std::span(shares_).first(shares_.size() - 1)) {
-    const auto grains = static_cast<std::uint32_t>(between.grains.size());
-    const auto pairs = static_cast<std::uint32_t>(between.pairs.size());
-    for (const std::uint32_t grain : share.grains) place_[grain] += grains;
-    between.grains.insert(between.grains.end(), share.grains.begin(), share.grains.end());
-    between.pairs.insert(between.pairs.end(), share.pairs.begin(), share.pairs.end());
-    for (std::size_t k = 1; k < share.grain_start.size(); ++k) {
-      between.grain_start.push_back(grains + share.grain_start[k]);
-      between.pair_start.push_back(pairs + share.pair_start[k]);
-    }
-    share.grain_start.resize(1);
-    share.pair_start.resize(1);
-  }
-}
-
 void GrainIslands::make_groups(std::size_t threads) {
+  const std::size_t grains = grain_count();
+  const bool are_few = threads > 1 && grains <= kForThread * threads * kGroup;
   std::size_t most = kGroup, apart = threads > 1 ? kApart : 1;
-  if (const std::size_t grains = grain_count();
-      threads > 1 && grains <= kForThread * threads * kGroup) {
-    take_from_stretches();
+  if (are_few) {
     const std::size_t groups = threads * (grains / (threads * kGroup) + 1);
     most = (grains + groups - 1) / groups;
     apart = kFewApart;
+    reserve_joined(grains);
   }
   groups_.clear();
-  std::size_t before = 0;  // grains before a group
-  for (Share& share : shares_) {
-    share.groups.begin = static_cast<std::uint32_t>(groups_.size());
-    const std::vector<std::uint32_t>& ends = share.grain_start;
+  parts_.clear();
+  std::size_t before = 0, held = 0;  // grains before the next group, and of its pieces
+  const auto close = [&] {
+    if (held == 0) return;
+    before += -before % apart;
+    pieces_.size() == 1 ? take(pieces_.front(), before) : join(pieces_, before);
+    before += held + 1;
+    held = 0;
+    pieces_.clear();
+  };
+  for (std::size_t k = 0; k <= threads; ++k) {
+    const std::size_t stretch = (k + threads) % (threads + 1);  // first those between
+    const std::vector<std::uint32_t>& ends = shares_[stretch].grain_start;
     for (std::size_t first = 0, last = 1; last < ends.size(); ++last) {
-      const std::size_t own_grains = ends[last] - ends[first];
-      if (own_grains < most && last + 1 < ends.size()) continue;
-      const std::size_t own_pairs = share.pair_start[last] - share.pair_start[first];
-      before += -before % apart;
-      groups_.push_back({std::span(share.grains).subspan(ends[first], own_grains),
-                         std::span(share.pairs).subspan(share.pair_start[first], own_pairs), before,
-                         -ends[first]});
-      before += own_grains + 1;
+      const std::size_t own = ends[last] - ends[first];
+      if (held + own < most && last + 1 < ends.size()) continue;
+      pieces_.push_back({stretch, first, last});
+      held += own;
       first = last;
+      if (held >= most) close();
     }
-    share.groups.end = static_cast<std::uint32_t>(groups_.size());
+    if (!are_few) close();
   }
+  close();
+}
+
+/// A group of islands of one share, where they lie.
+void GrainIslands::take(const Piece& piece, std::size_t before) {
+  const Share& share = shares_[piece.stretch];
+  groups_.push_back({grains_of(piece), pairs_of(piece), before, -share.grain_start[piece.first]});
+  parts_.push_back({groups_.back().grains, before, piece.stretch});
+}
+
+/// For so many grains; groups point to them.
+void GrainIslands::reserve_joined(std::size_t grains) {
+  std::size_t pairs = 0;
+  for (const Share& share : shares_) pairs += share.pairs.size();
+  joined_grains_.clear();
+  joined_grains_.reserve(grains);
+  joined_pairs_.clear();
+  joined_pairs_.reserve(pairs);
+}
+
+/// A group of islands of several shares, which are brought together.
+void GrainIslands::join(std::span<const Piece> pieces, std::size_t before) {
+  const std::size_t grains_before = joined_grains_.size(), pairs_before = joined_pairs_.size();
+  std::uint32_t count = 0;
+  for (const Piece& piece : pieces) {
+    const std::span<const std::uint32_t> grains = grains_of(piece), pairs = pairs_of(piece);
+    parts_.push_back({grains, before + count, piece.stretch});
+    for (const std::uint32_t grain : grains) place_[grain] = count++;
+    joined_grains_.insert(joined_grains_.end(), grains.begin(), grains.end());
+    joined_pairs_.insert(joined_pairs_.end(), pairs.begin(), pairs.end());
+  }
+  groups_.push_back({std::span(joined_grains_).subspan(grains_before),
+                     std::span(joined_pairs_).subspan(pairs_before), before, 0});
+}
+
+std::span<const std::uint32_t> GrainIslands::grains_of(const Piece& piece) const {
+  const Share& share = shares_[piece.stretch];
+  const std::uint32_t begin = share.grain_start[piece.first];
+  return std::span(share.grains).subspan(begin, share.grain_start[piece.last] - begin);
+}
+
+std::span<const std::uint32_t> GrainIslands::pairs_of(const Piece& piece) const {
+  const Share& share = shares_[piece.stretch];
+  const std::uint32_t begin = share.pair_start[piece.first];
+  return std::span(share.pairs).subspan(begin, share.pair_start[piece.last] - begin);
 }
 
 }  // namespace slipcheck

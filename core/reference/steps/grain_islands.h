@@ -30,6 +30,13 @@ struct GrainIslandGroup {
   std::uint32_t shift = 0;  ///< from GrainIslands::place() to indices of `grains`
 };
 
+/// Grains of a group that are of one stretch, or of islands between stretches.
+struct GrainIslandPart {
+  std::span<const std::uint32_t> grains;
+  std::size_t first = 0;    ///< place among all groups
+  std::size_t stretch = 0;  ///< that of the thread of this number; the number of threads: between
+};
+
 /// Sorts near pairs into islands, which share no grain, and those into groups of about so many
 /// grains as the nearest cache holds, or fewer where threads share few. Islands of which no grain
 /// is hit are left out: all of them go on as if alone.
@@ -48,12 +55,8 @@ class GrainIslands {
 
   /// Valid until the next find().
   const std::vector<GrainIslandGroup>& groups() const { return groups_; }
-  /// Those of the stretch of thread k; for k = the number of threads those between stretches, or
-  /// all where they are few.
-  std::span<const GrainIslandGroup> groups_of(std::size_t k) const {
-    const auto [begin, end] = shares_[k].groups;
-    return std::span(groups_).subspan(begin, end - begin);
-  }
+  /// Of the groups, one by one.
+  const std::vector<GrainIslandPart>& parts() const { return parts_; }
   /// Of a grain of a group, to be shifted.
   std::uint32_t place(std::uint32_t grain) const { return place_[grain]; }
   std::size_t grain_count() const;
@@ -71,7 +74,10 @@ class GrainIslands {
     std::vector<std::uint32_t> met, kept;     ///< its grains and pairs, in the order of the pairs
     std::vector<std::uint32_t> grain_start, pair_start, next;  ///< by island
     std::vector<std::uint32_t> grains, pairs;                  ///< island by island
-    GrainStretch groups;
+  };
+  /// Islands first … last − 1 of a share.
+  struct Piece {
+    std::size_t stretch, first, last;
   };
 
   std::uint32_t root(std::uint32_t grain);
@@ -84,16 +90,23 @@ class GrainIslands {
   void sort_between(const GrainPairs& pairs);
   void count(const GrainPairs& pairs, Share& share);
   void place(const GrainPairs& pairs, Share& share);
-  void take_from_stretches();
   void make_groups(std::size_t threads);
+  void reserve_joined(std::size_t grains);
+  void take(const Piece& piece, std::size_t before);
+  void join(std::span<const Piece> pieces, std::size_t before);
+  std::span<const std::uint32_t> grains_of(const Piece& piece) const;
+  std::span<const std::uint32_t> pairs_of(const Piece& piece) const;
 
   static constexpr std::uint32_t kNone = ~std::uint32_t{0}, kHit = kNone - 1, kReached = kNone - 2;
   // Of each grain of the scene; between two calls it is its own parent, in no island.
   std::vector<std::uint32_t> parent_;
   std::vector<std::uint32_t> island_;  ///< of a root; kHit or kReached before it has a number
-  std::vector<std::uint32_t> place_;   ///< in Share::grains; while these are counted its island
+  std::vector<std::uint32_t> place_;   ///< in Share::grains or its group; while counted its island
   std::vector<Share> shares_;          ///< by thread; the last: between these
   std::vector<GrainIslandGroup> groups_;
+  std::vector<GrainIslandPart> parts_;
+  std::vector<Piece> pieces_;                                ///< of the group that is made
+  std::vector<std::uint32_t> joined_grains_, joined_pairs_;  ///< of groups of several shares
 };
 
 }  // namespace slipcheck

@@ -53,13 +53,14 @@ class GrainRuns {
   void give_back(std::size_t own, std::size_t first, std::size_t last, const ThreadTeam& team,
                  GrainArrays& grains, GrainContacts& contacts) const {
     const GrainFeatures& has = kernels_->features();
-    for (const GrainIslandGroup& group : islands_->groups_of(own))
-      grains.scatter(group.grains, after_, group.first, has);
-    for (const GrainIslandGroup& group : islands_->groups_of(team.size()))
-      for (std::size_t k = 0; k < group.grains.size(); ++k) {
-        const std::uint32_t i = group.grains[k];
-        if (first <= i && i < last) grains.take(i, after_, group.first + k, has);
+    for (const GrainIslandPart& part : islands_->parts()) {
+      if (part.stretch == own) grains.scatter(part.grains, after_, part.first, has);
+      if (part.stretch != team.size()) continue;
+      for (std::size_t k = 0; k < part.grains.size(); ++k) {
+        const std::uint32_t i = part.grains[k];
+        if (first <= i && i < last) grains.take(i, after_, part.first + k, has);
       }
+    }
     const auto [begin, end] = team.share_of(ended_.size(), own);
     for (std::size_t k = begin; k < end; ++k)
       contacts.keep(of(ended_[k].touching, ended_[k].left->touching), ended_[k].touching_before);
