@@ -211,6 +211,7 @@ void GrainIslands::make_groups(std::size_t threads) {
     if (!are_few) close();
   }
   close();
+  grain_places_ = before + -before % apart;  // what lies behind belongs to another thread
 }
 
 /// A group of islands of one share, where they lie.

@@ -61,9 +61,7 @@ class GrainIslands {
   std::uint32_t place(std::uint32_t grain) const { return place_[grain]; }
   std::size_t grain_count() const;
   /// Of all groups, and what lies between and behind them.
-  std::size_t grain_places() const {
-    return groups_.empty() ? 0 : groups_.back().first + groups_.back().grains.size() + 1;
-  }
+  std::size_t grain_places() const { return grain_places_; }
 
  private:
   /// The islands of a stretch, or those between stretches.
@@ -104,6 +102,7 @@ class GrainIslands {
   std::vector<std::uint32_t> place_;   ///< in Share::grains or its group; while counted its island
   std::vector<Share> shares_;          ///< by thread; the last: between these
   std::vector<GrainIslandGroup> groups_;
+  std::size_t grain_places_ = 0;
   std::vector<GrainIslandPart> parts_;
   std::vector<Piece> pieces_;                                ///< of the group that is made
   std::vector<std::uint32_t> joined_grains_, joined_pairs_;  ///< of groups of several shares
