@@ -108,7 +108,8 @@ class StepContact {
     }
   }
 
-  /// Two bodies that overlap. push: takes a Push.
+  /// Two bodies that overlap. push: takes a Push. What is called now and then gets copies of
+  /// vectors: one whose address is told is written to memory in every step.
   template <class ToPush>
   [[gnu::always_inline]] void meet(const StepWorld& world, const StepBody& a, const StepBody& b,
                                    const Law& law, const Vector3& between, double reach,
@@ -136,20 +137,17 @@ class StepContact {
     if (!touching_) [[unlikely]] {
       ++tally.collisions;
       push(begin(world, a, b, law, overlap, normal, Vector3(slip_now), Vector3(n)));
+    } else if constexpr (Tangential::kRubs) {
+      law.tangential.advance(history_, 0.5 * world.step, normal, slip_now, n);
+      // Not by way of force_, which would be waited for.
+      const Vector3 across = law.tangential.force(history_, normal, slip_now);
+      const Vector3 all = normal * n + across;
+      push(Push{all, across.cross(n), false});
+      force_.all = all;
+      force_.across = across;
     } else {
-      if constexpr (Tangential::kRubs)
-        law.tangential.advance(history_, 0.5 * world.step, normal, slip_now, n);
-      if constexpr (Tangential::kRubs) {
-        // Not by way of force_, which would be waited for.
-        const Vector3 across = law.tangential.force(history_, normal, slip_now);
-        const Vector3 all = normal * n + across;
-        push(Push{all, across.cross(n), false});
-        force_.all = all;
-        force_.across = across;
-      } else {
-        force_.all = normal * n;
-        push(Push::of(force_, n));
-      }
+      force_.all = normal * n;
+      push(Push::of(force_, n));
     }
     normal_force_ = normal;
   }
