@@ -92,7 +92,11 @@ class GrainDrive {
     roll.holds = 1;
     roll.radius = kind.radius;
     roll.per_radius = 1 / kind.radius;
-    const double most = kind.static_friction * kind.weight * kind.inverse_mass * step_;
+    const double load = kind.weight * kind.inverse_mass * step_;
+    const double most = kind.static_friction * load;
+    roll.share = kind.share;
+    roll.slides_by = kind.kinetic_friction * load / kind.share;
+    roll.holds_by = most / kind.share;
     double pushed = 0, jumps = 0;  // the most in a step, and beside what the last two let expect
     Vector2 last(0, 0), change(0, 0);
     for (const GrainPush& push : steps) {
@@ -115,8 +119,7 @@ class GrainDrive {
     }
     // A step changes the slip by so much at most; twenty are left in the end. 1/|u| is then less
     // than 1e-3 off what its last three values let expect.
-    const double each =
-        kind.kinetic_friction * kind.weight * kind.inverse_mass * step_ / kind.share + pushed;
+    const double each = roll.slides_by + pushed;
     roll.slides_from = std::max(static_cast<double>(steps.size() + 20) * each, 1e5 * jumps);
     return roll;
   }

@@ -168,27 +168,27 @@ HWY_ATTR void GlideDriven(GrainArrays& grains, std::size_t first, std::size_t la
                           const std::vector<GrainKind>& kinds, const GrainSteps& steps) {
   const GrainDriving& driving = *steps.driving;
   const double time = steps.step * static_cast<double>(steps.count);
-  SlidingList through{SlideThrough}, other{SlideEach};
-  const auto slide = [&](SlidingList& list) {
-    GlideSliding(grains, list, kinds, steps.step, driving.steps);
-    list.count = 0;
+  SlidingList through, other;
+  const auto slide_through = [&](std::size_t count) {
+    GlideSliding(grains, SlideThrough, through.take(count), kinds, driving.rolls, steps.step,
+                 driving.steps);
+  };
+  const auto slide_each = [&](std::size_t count) {
+    GlideSliding(grains, SlideEach, other.take(count), kinds, driving.rolls, steps.step,
+                 driving.steps);
   };
   SlidingRow slides;
   for (std::size_t begin = first; begin < last; begin += kSliding) {
     const std::size_t end = std::min(last, begin + kSliding);
     GlideRolling<kOneKind>(grains, begin, end, time, driving);
     FindSliding<kOneKind, kLifts>(grains, begin, end, driving, slides);
-    for (std::size_t i = begin; i < end; ++i) {
-      const double how = slides.of[i - begin];
-      through.of[through.count] = other.of[other.count] = i;
-      through.count += how == kSlidesThrough ? 1 : 0;
-      other.count += how == kSlides ? 1 : 0;
-      if (through.count == kSliding) slide(through);
-      if (other.count == kSliding) slide(other);
-    }
+    through.add(slides, kSlidesThrough, begin, end);
+    other.add(slides, kSlides, begin, end);
+    if (through.count >= kSliding) slide_through(kSliding);
+    if (other.count >= kSliding) slide_each(kSliding);
   }
-  slide(through);
-  slide(other);
+  slide_through(through.count);
+  slide_each(other.count);
 }
 
 /// The next `count` steps of one that flies, or as many as it takes to come down. Returns their
@@ -274,7 +274,7 @@ HWY_ATTR void GlideFlying(const GrainFeatures& has, GrainArrays& g, std::size_t 
     }
     if (left == 0) continue;
     if constexpr (kDriven)
-      GlideSliding(g, {SlideEach, 1, {i}}, kinds, steps.step,
+      GlideSliding(g, SlideEach, std::span(&i, 1), kinds, steps.driving->rolls, steps.step,
                    std::span(steps.driving->steps).last(left));
     else
       GlideOn(has, g, i, i + 1, kinds, steps.step, static_cast<double>(left));

@@ -56,13 +56,17 @@ struct GrainPush {
   double drift_x = 0, drift_y = 0;
 };
 
-/// Steps of a grain of one kind that rolls on it all the while, summed.
+/// Steps of a grain of one kind that rolls on it all the while, summed, and what friction does in
+/// one to a grain that slides.
 struct GrainRoll {
   double radius = 0, per_radius = 0;  ///< R [m], and 1/R [1/m]
   double holds = 0;                   ///< 1: static friction does in each of them; else 0
   double dvx = 0, dvy = 0;            ///< of the velocity [m/s]
   double x = 0, y = 0;                ///< beside v t [m]
   double last_dvx = 0, last_dvy = 0;  ///< in the last step [m/s]
+  double share = 0;  ///< 1/(1+A): of what the slip loses that the velocity does [-]
+  /// What friction takes of the slip in a step at most, sliding and at rest [m/s].
+  double slides_by = 0, holds_by = 0;
   /// The slip beyond which it would slide in each of them, and go on as it did [m/s].
   double slides_from = 0;
 };
