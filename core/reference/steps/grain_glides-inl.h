@@ -169,26 +169,34 @@ HWY_ATTR void GlideDriven(GrainArrays& grains, std::size_t first, std::size_t la
   const GrainDriving& driving = *steps.driving;
   const double time = steps.step * static_cast<double>(steps.count);
   SlidingList through, other;
-  const auto slide_through = [&](std::size_t count) {
-    GlideSliding(grains, SlideThrough, through.take(count), kinds, driving.rolls, steps.step,
-                 driving.steps);
+  const auto slide = [&](Slide& how, SlidingList& list, std::size_t count) HWY_ATTR {
+    GlideSliding(grains, how, list, count, kinds, driving.rolls, steps.step, driving.steps);
   };
-  const auto slide_each = [&](std::size_t count) {
-    GlideSliding(grains, SlideEach, other.take(count), kinds, driving.rolls, steps.step,
-                 driving.steps);
-  };
-  SlidingRow slides;
+  SlipRows slips;
   for (std::size_t begin = first; begin < last; begin += kSliding) {
     const std::size_t end = std::min(last, begin + kSliding);
     GlideRolling<kOneKind>(grains, begin, end, time, driving);
-    FindSliding<kOneKind, kLifts>(grains, begin, end, driving, slides);
-    through.add(slides, kSlidesThrough, begin, end);
-    other.add(slides, kSlides, begin, end);
-    if (through.count >= kSliding) slide_through(kSliding);
-    if (other.count >= kSliding) slide_each(kSliding);
+    FindSliding<kOneKind, kLifts>(grains, begin, end, driving.rolls, driving.steps.front(), slips);
+    through.add(slips, slips.through, begin, end);
+    other.add(slips, slips.maybe, begin, end);
+    if (through.count() >= kSliding) slide(SlideThrough, through, kSliding);
+    if (other.count() >= kSliding) slide(SlideEach, other, kSliding);
   }
-  slide_through(through.count);
-  slide_each(other.count);
+  slide(SlideThrough, through, through.count());
+  slide(SlideEach, other, other.count());
+}
+
+/// The last `left` of the steps of one that has come down.
+HWY_ATTR inline void GlideLanded(GrainArrays& g, std::size_t i, const std::vector<GrainKind>& kinds,
+                                 const GrainSteps& steps, std::size_t left) {
+  const std::vector<GrainRoll>& rolls = steps.driving->rolls;
+  const auto pushes = std::span(steps.driving->steps).last(left);
+  SlipRows slip;
+  SlidingList alone;
+  FindSliding<false, false>(g, i, i + 1, rolls, pushes.front(), slip);
+  slip.maybe[0] = 1;
+  alone.add(slip, slip.maybe, i, i + 1);
+  GlideSliding(g, SlideEach, alone, 1, kinds, rolls, steps.step, pushes);
 }
 
 /// The next `count` steps of one that flies, or as many as it takes to come down. Returns their
@@ -274,8 +282,7 @@ HWY_ATTR void GlideFlying(const GrainFeatures& has, GrainArrays& g, std::size_t 
     }
     if (left == 0) continue;
     if constexpr (kDriven)
-      GlideSliding(g, SlideEach, std::span(&i, 1), kinds, steps.driving->rolls, steps.step,
-                   std::span(steps.driving->steps).last(left));
+      GlideLanded(g, i, kinds, steps, left);
     else
       GlideOn(has, g, i, i + 1, kinds, steps.step, static_cast<double>(left));
   }

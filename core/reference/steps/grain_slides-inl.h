@@ -18,6 +18,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/fused-inl.h"
 #include "reference/steps/grain_kernels.h"
 
 /// Before a loop each turn of which reads and writes what no other does: compilers do not see it of
@@ -43,6 +44,53 @@ struct alignas(64) SlidingRow {
   double of[kSliding + 8];
 };
 
+/// Of grains in a row, at most kSliding.
+struct SlipRows {
+  SlidingRow ux, uy;  ///< slip u [m/s]
+  SlidingRow dx,
+      dy;  ///< what the last step changed of it beside the plane's motion in the next [m/s]
+  /// 1: it slides in all of the steps, and friction against the slip that the last one lets expect;
+  /// it slides, but maybe not so. Else it rolls or flies.
+  std::array<std::uint64_t, kSliding> through, maybe;
+};
+
+/// Of the grains first … last − 1 before steps of which `push` is the first.
+template <bool kOneKind, bool kLifts>
+HWY_ATTR inline void FindSliding(const GrainArrays& grains, std::size_t first, std::size_t last,
+                                 const std::vector<GrainRoll>& rolls, const GrainPush& push,
+                                 SlipRows& slips) {
+  const double* HWY_RESTRICT vx = grains.vx.data() + first;
+  const double* HWY_RESTRICT vy = grains.vy.data() + first;
+  const double* HWY_RESTRICT wx = grains.wx.data() + first;
+  const double* HWY_RESTRICT wy = grains.wy.data() + first;
+  const double* HWY_RESTRICT dvx = grains.dvx.data() + first;
+  const double* HWY_RESTRICT dvy = grains.dvy.data() + first;
+  const double* HWY_RESTRICT dwx = grains.dwx.data() + first;
+  const double* HWY_RESTRICT dwy = grains.dwy.data() + first;
+  const double* HWY_RESTRICT sticks = grains.sticks.data() + first;
+  const double* HWY_RESTRICT flies = kLifts ? grains.flies.data() + first : nullptr;
+  const std::uint32_t* HWY_RESTRICT kind = grains.kind.data() + first;
+  const GrainRoll* HWY_RESTRICT table = rolls.data();
+  const double moved_x = push.plane_x - push.before_x, moved_y = push.plane_y - push.before_y;
+  SLIPCHECK_EACH_ALONE
+  for (std::size_t k = 0; k < last - first; ++k) {
+    const GrainRoll& roll = table[kOneKind ? 0 : kind[k]];
+    const double R = roll.radius, least = roll.slides_from;
+    const double ux = vx[k] - R * wy[k] - push.before_x, uy = vy[k] + R * wx[k] - push.before_y;
+    const double dx = dvx[k] - R * dwy[k] - moved_x, dy = dvy[k] + R * dwx[k] - moved_y;
+    const double slip2 = ux * ux + uy * uy;
+    const bool through =
+        (sticks[k] <= 0) & (slip2 > least * least) & (4 * (dx * dx + dy * dy) <= slip2);
+    const bool slides = !(sticks[k] * roll.holds > 0) & !(kLifts && flies[k] > 0);
+    slips.ux.of[k] = ux;
+    slips.uy.of[k] = uy;
+    slips.dx.of[k] = dx;
+    slips.dy.of[k] = dy;
+    slips.through[k] = (slides & through) ? 1 : 0;
+    slips.maybe[k] = (slides & !through) ? 1 : 0;
+  }
+}
+
 /// Those that slide, or come to roll, and what is known of them from step to step. Of the slip u
 /// only what friction takes is kept for each: what pushes give is the same for all.
 struct SlidingGrains {
@@ -56,54 +104,88 @@ struct SlidingGrains {
   SlidingRow sticks;
 };
 
-HWY_ATTR inline void TakeSliding(const GrainArrays& g, std::span<const std::size_t> grains,
-                                 const std::vector<GrainRoll>& rolls, const GrainPush& first,
-                                 SlidingGrains& s) {
-  const std::size_t n = grains.size();
-  s.padded = (n + 7) / 8 * 8;
-  for (SlidingRow* row :
-       {&s.uy, &s.left_x[1], &s.left_y[1], &s.slides_by, &s.holds2, &s.share, &s.sticks})
-    std::fill(row->of + n, row->of + s.padded, 0.0);
-  std::fill(s.ux.of + n, s.ux.of + s.padded, 1.0);  // a slip that has a direction
-  const double moved_x = first.plane_x - first.before_x, moved_y = first.plane_y - first.before_y;
-  const double* HWY_RESTRICT vx = g.vx.data();
-  const double* HWY_RESTRICT vy = g.vy.data();
-  const double* HWY_RESTRICT wx = g.wx.data();
-  const double* HWY_RESTRICT wy = g.wy.data();
-  const double* HWY_RESTRICT dvx = g.dvx.data();
-  const double* HWY_RESTRICT dvy = g.dvy.data();
-  const double* HWY_RESTRICT dwx = g.dwx.data();
-  const double* HWY_RESTRICT dwy = g.dwy.data();
-  const double* HWY_RESTRICT sticks = g.sticks.data();
-  const std::uint32_t* HWY_RESTRICT kind = g.kind.data();
-  const GrainRoll* HWY_RESTRICT table = rolls.data();
-  const std::size_t* HWY_RESTRICT grain = grains.data();
-  SLIPCHECK_EACH_ALONE
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = grain[k];
-    const GrainRoll& roll = table[kind[i]];
-    const double R = roll.radius;
-    s.ux.of[k] = vx[i] - R * wy[i] - first.before_x;
-    s.uy.of[k] = vy[i] + R * wx[i] - first.before_y;
-    s.left_x[1].of[k] = dvx[i] - R * dwy[i] - moved_x;
-    s.left_y[1].of[k] = dvy[i] + R * dwx[i] - moved_y;
-    s.sticks.of[k] = sticks[i];
-    s.slides_by.of[k] = roll.slides_by;
-    s.holds2.of[k] = roll.holds_by * roll.holds_by;
-    s.share.of[k] = roll.share;
-  }
-  SLIPCHECK_EACH_ALONE
-  for (std::size_t k = 0; k < s.padded; ++k) {
-    s.left_x[0].of[k] = s.ux.of[k];
-    s.left_y[0].of[k] = s.uy.of[k];
-    s.left_x[1].of[k] = s.ux.of[k] - s.left_x[1].of[k];
-    s.left_y[1].of[k] = s.uy.of[k] - s.left_y[1].of[k];
-    s.slides2.of[k] = s.slides_by.of[k] * s.slides_by.of[k];
-    s.sum_x.of[k] = s.sum_y.of[k] = 0;
-  }
-}
+/// Grains that slide the same way, until as many are found as slide at once.
+class SlidingList {
+ public:
+  std::size_t count() const { return count_; }
 
-HWY_ATTR inline void PutSliding(const SlidingGrains& s, std::span<const std::size_t> grains,
+  /// Those of grains first … last − 1 that are `among` them.
+  HWY_ATTR void add(const SlipRows& slips, const std::array<std::uint64_t, kSliding>& among,
+                    std::size_t first, std::size_t last) {
+    std::size_t all = count_;
+    for (std::size_t i = first; i < last; ++i) {
+      grain_[all] = i;
+      all += among[i - first];
+    }
+    const double* HWY_RESTRICT ux = slips.ux.of;
+    const double* HWY_RESTRICT uy = slips.uy.of;
+    const double* HWY_RESTRICT dx = slips.dx.of;
+    const double* HWY_RESTRICT dy = slips.dy.of;
+    for (std::size_t k = count_; k < all; ++k) {
+      const std::size_t at = grain_[k] - first;
+      ux_[k] = ux[at];
+      uy_[k] = uy[at];
+      dx_[k] = dx[at];
+      dy_[k] = dy[at];
+    }
+    count_ = all;
+  }
+  /// The last `some`, in no list any more then. Their indices stay until others are added.
+  HWY_ATTR std::span<const std::uint64_t> take(std::size_t some, const GrainArrays& g,
+                                               const std::vector<GrainRoll>& rolls,
+                                               SlidingGrains& s) {
+    count_ -= some;
+    const std::uint64_t* HWY_RESTRICT grain = grain_ + count_;
+    if (rolls.size() == 1) {
+      const GrainRoll& roll = rolls.front();
+      std::fill_n(s.slides_by.of, some, roll.slides_by);
+      std::fill_n(s.holds2.of, some, roll.holds_by * roll.holds_by);
+      std::fill_n(s.share.of, some, roll.share);
+    } else {
+      const std::uint32_t* HWY_RESTRICT kind = g.kind.data();
+      const GrainRoll* HWY_RESTRICT table = rolls.data();
+      SLIPCHECK_EACH_ALONE
+      for (std::size_t k = 0; k < some; ++k) {
+        const GrainRoll& roll = table[kind[grain[k]]];
+        s.slides_by.of[k] = roll.slides_by;
+        s.holds2.of[k] = roll.holds_by * roll.holds_by;
+        s.share.of[k] = roll.share;
+      }
+    }
+    const double* HWY_RESTRICT sticks = g.sticks.data();
+    SLIPCHECK_EACH_ALONE
+    for (std::size_t k = 0; k < some; ++k) s.sticks.of[k] = sticks[grain[k]];
+    s.padded = (some + 7) / 8 * 8;
+    for (SlidingRow* row : {&s.slides_by, &s.holds2, &s.share, &s.sticks})
+      std::fill(row->of + some, row->of + s.padded, 0.0);
+    for (std::size_t k = count_ + some; k < count_ + s.padded; ++k) {
+      ux_[k] = 1;  // a slip that has a direction
+      uy_[k] = dx_[k] = dy_[k] = 0;
+    }
+    const double* HWY_RESTRICT ux = ux_ + count_;
+    const double* HWY_RESTRICT uy = uy_ + count_;
+    const double* HWY_RESTRICT dx = dx_ + count_;
+    const double* HWY_RESTRICT dy = dy_ + count_;
+    SLIPCHECK_EACH_ALONE
+    for (std::size_t k = 0; k < s.padded; ++k) {
+      s.ux.of[k] = s.left_x[0].of[k] = ux[k];
+      s.uy.of[k] = s.left_y[0].of[k] = uy[k];
+      s.left_x[1].of[k] = ux[k] - dx[k];
+      s.left_y[1].of[k] = uy[k] - dy[k];
+      s.slides2.of[k] = s.slides_by.of[k] * s.slides_by.of[k];
+      s.sum_x.of[k] = s.sum_y.of[k] = 0;
+    }
+    return {grain, some};
+  }
+
+ private:
+  static constexpr std::size_t kRoom = 2 * kSliding + 8;
+  std::size_t count_ = 0;
+  std::uint64_t grain_[kRoom];
+  double ux_[kRoom], uy_[kRoom], dx_[kRoom], dy_[kRoom];  // [m/s]
+};
+
+HWY_ATTR inline void PutSliding(const SlidingGrains& s, std::span<const std::uint64_t> grains,
                                 const std::vector<GrainKind>& kinds, double h,
                                 std::span<const GrainPush> pushes, GrainArrays& g) {
   const GrainPush& last = pushes.back();
@@ -124,7 +206,7 @@ HWY_ATTR inline void PutSliding(const SlidingGrains& s, std::span<const std::siz
   double* HWY_RESTRICT sticks = g.sticks.data();
   const std::uint32_t* HWY_RESTRICT kind = g.kind.data();
   const GrainKind* HWY_RESTRICT table = kinds.data();
-  const std::size_t* HWY_RESTRICT grain = grains.data();
+  const std::uint64_t* HWY_RESTRICT grain = grains.data();
   SLIPCHECK_EACH_ALONE
   for (std::size_t k = 0; k < grains.size(); ++k) {
     const std::size_t i = grain[k];
@@ -154,10 +236,11 @@ HWY_ATTR inline void PutSliding(const SlidingGrains& s, std::span<const std::siz
   }
 }
 
-/// What pushes have given every slip [m/s]: until the end of a step, and until its middle as the
-/// change in the step before lets expect. In the first step that is known of each grain.
+/// What pushes have given every slip until the end of a step [m/s], and twice what they have until
+/// its middle, as the change in the step before lets expect. In the first step that is known of
+/// each grain.
 struct SlipPush {
-  double x = 0, y = 0, ahead_x = 0, ahead_y = 0;
+  double x = 0, y = 0, twice_x = 0, twice_y = 0;
 };
 
 /// Calls step(n, push) for one after the other.
@@ -169,8 +252,8 @@ HWY_ATTR HWY_INLINE void ForEachStep(std::span<const GrainPush> pushes, double h
     const GrainPush& push = pushes[n];
     const double moved_x = push.plane_x - push.before_x, moved_y = push.plane_y - push.before_y;
     if (n > 0) {
-      all.ahead_x = all.x + 0.5 * (h * pushes[n - 1].slope_x - moved_x);
-      all.ahead_y = all.y + 0.5 * (h * pushes[n - 1].slope_y - moved_y);
+      all.twice_x = 2 * all.x + (h * pushes[n - 1].slope_x - moved_x);
+      all.twice_y = 2 * all.y + (h * pushes[n - 1].slope_y - moved_y);
     }
     all.x += h * push.slope_x - moved_x;
     all.y += h * push.slope_y - moved_y;
@@ -189,11 +272,11 @@ HWY_ATTR HWY_NOINLINE void SlideEach(SlidingGrains& s, double h,
     SLIPCHECK_EACH_ALONE
     for (std::size_t k = 0; k < s.padded; ++k) {
       const double x = now_x[k] + push.x, y = now_y[k] + push.y;
-      const double px = (now_x[k] + push.ahead_x) + 0.5 * (now_x[k] - next_x[k]);
-      const double py = (now_y[k] + push.ahead_y) + 0.5 * (now_y[k] - next_y[k]);
+      const double px = (now_x[k] - next_x[k]) + (now_x[k] + (now_x[k] + push.twice_x));
+      const double py = (now_y[k] - next_y[k]) + (now_y[k] + (now_y[k] + push.twice_y));
       const double slip2 = x * x + y * y, expected2 = px * px + py * py;
       const bool held = slip2 <= (s.sticks.of[k] > 0 ? s.holds2.of[k] : s.slides2.of[k]);
-      const bool follows = (px * x + py * y > 0) & (expected2 > s.slides2.of[k]);
+      const bool follows = (px * x + py * y > 0) & (expected2 > 4 * s.slides2.of[k]);
       const double along_x = follows ? px : x, along_y = follows ? py : y;
       const double size2 = follows ? expected2 : slip2;
       const double lost = s.slides_by.of[k] * (1 / std::sqrt(size2 > 0 ? size2 : 1));
@@ -220,7 +303,7 @@ HWY_ATTR HWY_INLINE double PerRoot(double x) {
 /// 1/√x from a guess g that is less than 1e-3 of it off: 4.4 of the fourth power of that is left.
 HWY_ATTR HWY_INLINE double PerRootNear(double x, double g) {
   const double z = x * (g * g);  // nearly 1
-  return g * (((1.3125 - 0.3125 * z) * z - 2.1875) * z + 2.1875);
+  return g * Fused(Fused(Fused(-0.3125, z, 1.3125), z, -2.1875), z, 2.1875);
 }
 
 /// As SlideEach(), of those that FindSliding() tells: a step is little more than the direction of
@@ -239,16 +322,16 @@ HWY_ATTR HWY_NOINLINE void SlideThrough(SlidingGrains& s, double h,
     double* HWY_RESTRICT root = roots[n % 3].of;
     SLIPCHECK_EACH_ALONE
     for (std::size_t k = 0; k < s.padded; ++k) {
-      const double px = (now_x[k] + push.ahead_x) + 0.5 * (now_x[k] - next_x[k]);
-      const double py = (now_y[k] + push.ahead_y) + 0.5 * (now_y[k] - next_y[k]);
-      const double expected2 = px * px + py * py;
+      const double px = (now_x[k] - next_x[k]) + (now_x[k] + (now_x[k] + push.twice_x));
+      const double py = (now_y[k] - next_y[k]) + (now_y[k] + (now_y[k] + push.twice_y));
+      const double expected2 = Fused(px, px, py * py);
       double per_slip;
       if constexpr (goes_on)
-        per_slip = PerRootNear(expected2, 3 * (last[k] - before[k]) + root[k]);
+        per_slip = PerRootNear(expected2, Fused(3, last[k] - before[k], root[k]));
       else
         per_slip = PerRoot(expected2);
       const double lost = s.slides_by.of[k] * per_slip;
-      const double to_x = now_x[k] - lost * px, to_y = now_y[k] - lost * py;
+      const double to_x = Fused(-lost, px, now_x[k]), to_y = Fused(-lost, py, now_y[k]);
       next_x[k] = to_x;
       next_y[k] = to_y;
       s.sum_x.of[k] += to_x;
@@ -261,75 +344,18 @@ HWY_ATTR HWY_NOINLINE void SlideThrough(SlidingGrains& s, double h,
   });
 }
 
-/// How a grain's steps are done: it rolls or flies, slides in all of them, or maybe not.
-inline constexpr double kNoSlide = 0, kSlidesThrough = 1, kSlides = 2;
-
-/// Which of these it is for first … last − 1, at most kSliding: those are sure to slide in all the
-/// steps that do, and friction against the slip that the last step lets expect.
-template <bool kOneKind, bool kLifts>
-HWY_ATTR inline void FindSliding(const GrainArrays& grains, std::size_t first, std::size_t last,
-                                 const GrainDriving& driving, SlidingRow& slides) {
-  const double* HWY_RESTRICT vx = grains.vx.data() + first;
-  const double* HWY_RESTRICT vy = grains.vy.data() + first;
-  const double* HWY_RESTRICT wx = grains.wx.data() + first;
-  const double* HWY_RESTRICT wy = grains.wy.data() + first;
-  const double* HWY_RESTRICT dvx = grains.dvx.data() + first;
-  const double* HWY_RESTRICT dvy = grains.dvy.data() + first;
-  const double* HWY_RESTRICT dwx = grains.dwx.data() + first;
-  const double* HWY_RESTRICT dwy = grains.dwy.data() + first;
-  const double* HWY_RESTRICT sticks = grains.sticks.data() + first;
-  const double* HWY_RESTRICT flies = kLifts ? grains.flies.data() + first : nullptr;
-  const std::uint32_t* HWY_RESTRICT kind = grains.kind.data() + first;
-  const GrainRoll* HWY_RESTRICT table = driving.rolls.data();
-  const GrainPush& push = driving.steps.front();
-  SLIPCHECK_EACH_ALONE
-  for (std::size_t k = 0; k < last - first; ++k) {
-    const GrainRoll& roll = table[kOneKind ? 0 : kind[k]];
-    const double R = roll.radius, least = roll.slides_from;
-    const double ux = vx[k] - R * wy[k] - push.before_x, uy = vy[k] + R * wx[k] - push.before_y;
-    const double dx = dvx[k] - R * dwy[k] - (push.plane_x - push.before_x);
-    const double dy = dvy[k] + R * dwx[k] - (push.plane_y - push.before_y);
-    const double slip2 = ux * ux + uy * uy;
-    const bool through =
-        (sticks[k] <= 0) & (slip2 > least * least) & (4 * (dx * dx + dy * dy) <= slip2);
-    const bool rolls = sticks[k] * roll.holds > 0, glides = !(kLifts && flies[k] > 0);
-    slides.of[k] = (rolls | !glides) ? kNoSlide : through ? kSlidesThrough : kSlides;
-  }
-}
-
-/// On a plane that carries them along: no sum over the steps is known, so each is done. At most
-/// kSliding.
+/// On a plane that carries them along: no sum over the steps is known, so each is done. The last
+/// `count` of a list, at most kSliding.
 using Slide = void(SlidingGrains& s, double h, std::span<const GrainPush> pushes);
-HWY_ATTR inline void GlideSliding(GrainArrays& g, Slide& slide, std::span<const std::size_t> grains,
-                                  const std::vector<GrainKind>& kinds,
+HWY_ATTR inline void GlideSliding(GrainArrays& g, Slide& slide, SlidingList& list,
+                                  std::size_t count, const std::vector<GrainKind>& kinds,
                                   const std::vector<GrainRoll>& rolls, double h,
                                   std::span<const GrainPush> pushes) {
   SlidingGrains s;
-  TakeSliding(g, grains, rolls, pushes.front(), s);
+  const auto grains = list.take(count, g, rolls, s);
   slide(s, h, pushes);
   PutSliding(s, grains, kinds, h, pushes, g);
 }
-
-/// Grains that slide the same way, until as many are found as slide at once.
-struct SlidingList {
-  std::size_t count = 0;
-  std::array<std::size_t, 2 * kSliding> of;
-
-  /// Those of first … last − 1, at most kSliding, of which it says so.
-  HWY_ATTR void add(const SlidingRow& slides, double how, std::size_t first, std::size_t last) {
-    std::size_t all = count;
-    for (std::size_t i = first; i < last; ++i) {
-      of[all] = i;
-      all += slides.of[i - first] == how ? 1 : 0;
-    }
-    count = all;
-  }
-  /// The last ones, no longer in the list then.
-  std::span<const std::size_t> take(std::size_t some) {
-    count -= some;
-    return {of.data() + count, some};
-  }
-};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace slipcheck
