@@ -120,7 +120,8 @@ class GrainDrive {
     // A step changes the slip by so much at most; twenty are left in the end. 1/|u| is then less
     // than 1e-3 off what its last three values let expect.
     const double each = roll.slides_by + pushed;
-    roll.slides_from = std::max(static_cast<double>(steps.size() + 20) * each, 1e5 * jumps);
+    roll.slides_from =
+        std::max(static_cast<double>(steps.size() + kLastSlides) * each, 1e5 * jumps);
     return roll;
   }
 

@@ -169,8 +169,8 @@ HWY_ATTR void GlideDriven(GrainArrays& grains, std::size_t first, std::size_t la
   const GrainDriving& driving = *steps.driving;
   const double time = steps.step * static_cast<double>(steps.count);
   SlidingList through, other;
-  const auto slide = [&](Slide& how, SlidingList& list, std::size_t count) HWY_ATTR {
-    GlideSliding(grains, how, list, count, kinds, driving.rolls, steps.step, driving.steps);
+  const auto slide = [&](bool all_through, SlidingList& list, std::size_t count) HWY_ATTR {
+    GlideSliding(grains, all_through, list, count, kinds, driving.rolls, steps.step, driving.steps);
   };
   SlipRows slips;
   for (std::size_t begin = first; begin < last; begin += kSliding) {
@@ -179,11 +179,11 @@ HWY_ATTR void GlideDriven(GrainArrays& grains, std::size_t first, std::size_t la
     FindSliding<kOneKind, kLifts>(grains, begin, end, driving.rolls, driving.steps.front(), slips);
     through.add(slips, slips.through, begin, end);
     other.add(slips, slips.maybe, begin, end);
-    if (through.count() >= kSliding) slide(SlideThrough, through, kSliding);
-    if (other.count() >= kSliding) slide(SlideEach, other, kSliding);
+    if (through.count() >= kSliding) slide(true, through, kSliding);
+    if (other.count() >= kSliding) slide(false, other, kSliding);
   }
-  slide(SlideThrough, through, through.count());
-  slide(SlideEach, other, other.count());
+  slide(true, through, through.count());
+  slide(false, other, other.count());
 }
 
 /// The last `left` of the steps of one that has come down.
@@ -196,7 +196,7 @@ HWY_ATTR inline void GlideLanded(GrainArrays& g, std::size_t i, const std::vecto
   FindSliding<false, false>(g, i, i + 1, rolls, pushes.front(), slip);
   slip.maybe[0] = 1;
   alone.add(slip, slip.maybe, i, i + 1);
-  GlideSliding(g, SlideEach, alone, 1, kinds, rolls, steps.step, pushes);
+  GlideSliding(g, false, alone, 1, kinds, rolls, steps.step, pushes);
 }
 
 /// The next `count` steps of one that flies, or as many as it takes to come down. Returns their

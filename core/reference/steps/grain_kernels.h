@@ -47,6 +47,9 @@ struct GrainBatch {
   std::size_t of_one_kind_ = 0;  ///< so many places have the constants of the only kind
 };
 
+/// So many steps after a block those that slide through it still would, by friction alone.
+inline constexpr std::size_t kLastSlides = 20;
+
 /// What a tilted or moving plane does to grains in one step.
 struct GrainPush {
   double before_x = 0, before_y = 0;  ///< v_S where the velocities come from [m/s]

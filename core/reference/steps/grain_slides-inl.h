@@ -18,7 +18,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/fused-inl.h"
 #include "reference/steps/grain_kernels.h"
 
 /// Before a loop each turn of which reads and writes what no other does: compilers do not see it of
@@ -95,14 +94,20 @@ HWY_ATTR inline void FindSliding(const GrainArrays& grains, std::size_t first, s
 /// only what friction takes is kept for each: what pushes give is the same for all.
 struct SlidingGrains {
   std::size_t padded = 0;                    ///< so many, in vectors and nothing beside
-  SlidingRow ux, uy;                         ///< u before the first step [m/s]
-  std::array<SlidingRow, 2> left_x, left_y;  ///< what is left of it after step n, in n % 2 [m/s]
-  SlidingRow sum_x, sum_y;                   ///< of that over the steps [m/s]
-  SlidingRow slides_by;                      ///< what friction takes of u in a step at most [m/s]
-  SlidingRow slides2, holds2;                ///< squares of that, sliding and at rest [m²/s²]
+  double unit = 1;                           ///< of velocities here [m/s]
+  SlidingRow ux, uy;                         ///< u before the first step
+  std::array<SlidingRow, 2> left_x, left_y;  ///< what is left of it after step n, in n % 2
+  SlidingRow sum_x, sum_y;                   ///< of that over the steps
+  SlidingRow slides_by;                      ///< what friction takes of u in a step at most
+  SlidingRow slides2, holds2;                ///< squares of that, sliding and at rest
   SlidingRow share;                          ///< of what u loses that v does [-]
   SlidingRow sticks;
 };
+
+/// Whether friction takes as much of every slip, which is the unit of velocities then.
+inline bool slide_alike(const std::vector<GrainRoll>& rolls) {
+  return rolls.size() == 1 && rolls.front().slides_by > 0;
+}
 
 /// Grains that slide the same way, until as many are found as slide at once.
 class SlidingList {
@@ -136,10 +141,13 @@ class SlidingList {
                                                SlidingGrains& s) {
     count_ -= some;
     const std::uint64_t* HWY_RESTRICT grain = grain_ + count_;
+    s.unit = slide_alike(rolls) ? rolls.front().slides_by : 1;
+    const double per_unit = 1 / s.unit;
     if (rolls.size() == 1) {
       const GrainRoll& roll = rolls.front();
-      std::fill_n(s.slides_by.of, some, roll.slides_by);
-      std::fill_n(s.holds2.of, some, roll.holds_by * roll.holds_by);
+      std::fill_n(s.slides_by.of, some, roll.slides_by / s.unit);
+      const double holds = roll.holds_by / s.unit;
+      std::fill_n(s.holds2.of, some, holds * holds);
       std::fill_n(s.share.of, some, roll.share);
     } else {
       const std::uint32_t* HWY_RESTRICT kind = g.kind.data();
@@ -168,10 +176,10 @@ class SlidingList {
     const double* HWY_RESTRICT dy = dy_ + count_;
     SLIPCHECK_EACH_ALONE
     for (std::size_t k = 0; k < s.padded; ++k) {
-      s.ux.of[k] = s.left_x[0].of[k] = ux[k];
-      s.uy.of[k] = s.left_y[0].of[k] = uy[k];
-      s.left_x[1].of[k] = ux[k] - dx[k];
-      s.left_y[1].of[k] = uy[k] - dy[k];
+      s.ux.of[k] = s.left_x[0].of[k] = per_unit * ux[k];
+      s.uy.of[k] = s.left_y[0].of[k] = per_unit * uy[k];
+      s.left_x[1].of[k] = per_unit * (ux[k] - dx[k]);
+      s.left_y[1].of[k] = per_unit * (uy[k] - dy[k]);
       s.slides2.of[k] = s.slides_by.of[k] * s.slides_by.of[k];
       s.sum_x.of[k] = s.sum_y.of[k] = 0;
     }
@@ -211,7 +219,8 @@ HWY_ATTR inline void PutSliding(const SlidingGrains& s, std::span<const std::uin
   for (std::size_t k = 0; k < grains.size(); ++k) {
     const std::size_t i = grain[k];
     const bool rolls = s.sticks.of[k] > 0;
-    const double turn = table[kind[i]].turn, R = table[kind[i]].radius, share = s.share.of[k];
+    const double turn = table[kind[i]].turn, R = table[kind[i]].radius;
+    const double share = s.share.of[k] * s.unit;
     const double left_x = s.left_x[now].of[k], left_y = s.left_y[now].of[k];
     const double sx = share * (s.ux.of[k] - left_x);  // what v has lost
     const double sy = share * (s.uy.of[k] - left_y);
@@ -236,35 +245,46 @@ HWY_ATTR inline void PutSliding(const SlidingGrains& s, std::span<const std::uin
   }
 }
 
-/// What pushes have given every slip until the end of a step [m/s], and twice what they have until
-/// its middle, as the change in the step before lets expect. In the first step that is known of
-/// each grain.
+/// What pushes have given every slip until the end of a step, and until its middle as the change in
+/// the step before lets expect; in the first step that is known of each grain.
 struct SlipPush {
-  double x = 0, y = 0, twice_x = 0, twice_y = 0;
+  double x = 0, y = 0, ahead_x = 0, ahead_y = 0;
 };
 
 /// Calls step(n, push) for one after the other.
 template <class Step>
-HWY_ATTR HWY_INLINE void ForEachStep(std::span<const GrainPush> pushes, double h,
-                                     const Step& step) {
+HWY_ATTR HWY_INLINE void ForEachStep(const SlidingGrains& s, double h,
+                                     std::span<const GrainPush> pushes, const Step& step) {
+  const double per_unit = 1 / s.unit, per_slope = h * per_unit;
   SlipPush all;
   for (std::size_t n = 0; n < pushes.size(); ++n) {
     const GrainPush& push = pushes[n];
-    const double moved_x = push.plane_x - push.before_x, moved_y = push.plane_y - push.before_y;
+    const double moved_x = per_unit * (push.plane_x - push.before_x);
+    const double moved_y = per_unit * (push.plane_y - push.before_y);
     if (n > 0) {
-      all.twice_x = 2 * all.x + (h * pushes[n - 1].slope_x - moved_x);
-      all.twice_y = 2 * all.y + (h * pushes[n - 1].slope_y - moved_y);
+      all.ahead_x = all.x + 0.5 * (per_slope * pushes[n - 1].slope_x - moved_x);
+      all.ahead_y = all.y + 0.5 * (per_slope * pushes[n - 1].slope_y - moved_y);
     }
-    all.x += h * push.slope_x - moved_x;
-    all.y += h * push.slope_y - moved_y;
+    all.x += per_slope * push.slope_x - moved_x;
+    all.y += per_slope * push.slope_y - moved_y;
     step(n, all);
   }
 }
 
+/// A slip in the middle of a step, where it was what was left `before` the last one. Half of a
+/// change is exact, so that one rounding gives the bits of two.
+HWY_ATTR HWY_INLINE double Ahead(double now, double before, double push) {
+#if HWY_NATIVE_FMA
+  return std::fma(0.5, now - before, now + push);
+#else
+  return (now + push) + 0.5 * (now - before);
+#endif
+}
+
 /// One by one.
-HWY_ATTR HWY_NOINLINE void SlideEach(SlidingGrains& s, double h,
-                                     std::span<const GrainPush> pushes) {
-  ForEachStep(pushes, h, [&](std::size_t n, const SlipPush push) HWY_ATTR {
+template <bool kAlike>
+HWY_ATTR void SlideEach(SlidingGrains& s, double h, std::span<const GrainPush> pushes) {
+  ForEachStep(s, h, pushes, [&](std::size_t n, const SlipPush push) HWY_ATTR {
     const double* HWY_RESTRICT now_x = s.left_x[n % 2].of;
     const double* HWY_RESTRICT now_y = s.left_y[n % 2].of;
     double* HWY_RESTRICT next_x = s.left_x[(n + 1) % 2].of;
@@ -272,14 +292,16 @@ HWY_ATTR HWY_NOINLINE void SlideEach(SlidingGrains& s, double h,
     SLIPCHECK_EACH_ALONE
     for (std::size_t k = 0; k < s.padded; ++k) {
       const double x = now_x[k] + push.x, y = now_y[k] + push.y;
-      const double px = (now_x[k] - next_x[k]) + (now_x[k] + (now_x[k] + push.twice_x));
-      const double py = (now_y[k] - next_y[k]) + (now_y[k] + (now_y[k] + push.twice_y));
+      const double px = Ahead(now_x[k], next_x[k], push.ahead_x);
+      const double py = Ahead(now_y[k], next_y[k], push.ahead_y);
       const double slip2 = x * x + y * y, expected2 = px * px + py * py;
-      const bool held = slip2 <= (s.sticks.of[k] > 0 ? s.holds2.of[k] : s.slides2.of[k]);
-      const bool follows = (px * x + py * y > 0) & (expected2 > 4 * s.slides2.of[k]);
+      const double slides2 = kAlike ? 1 : s.slides2.of[k];
+      const bool held = slip2 <= (s.sticks.of[k] > 0 ? s.holds2.of[k] : slides2);
+      const bool follows = (px * x + py * y > 0) & (expected2 > slides2);
       const double along_x = follows ? px : x, along_y = follows ? py : y;
       const double size2 = follows ? expected2 : slip2;
-      const double lost = s.slides_by.of[k] * (1 / std::sqrt(size2 > 0 ? size2 : 1));
+      const double per_size = 1 / std::sqrt(size2 > 0 ? size2 : 1);
+      const double lost = kAlike ? per_size : s.slides_by.of[k] * per_size;
       const double to_x = held ? -push.x : now_x[k] - lost * along_x;
       const double to_y = held ? -push.y : now_y[k] - lost * along_y;
       next_x[k] = to_x;
@@ -300,19 +322,26 @@ HWY_ATTR HWY_INLINE double PerRoot(double x) {
   return root;
 }
 
-/// 1/√x from a guess g that is less than 1e-3 of it off: 4.4 of the fourth power of that is left.
+/// How 1/|u| of a step is found: by itself, or from what its last three values let expect, which is
+/// less than 1e-3 or, as long as friction takes no fortieth of u, 1e-4 off.
+enum class Root { by_itself, near, nearer };
+
+/// 1/√x from a guess g that is off by a part d: 4.4 d⁴ are left of it, where it is nearer 2.5 d³.
+template <Root kRoot>
 HWY_ATTR HWY_INLINE double PerRootNear(double x, double g) {
   const double z = x * (g * g);  // nearly 1
-  return g * Fused(Fused(Fused(-0.3125, z, 1.3125), z, -2.1875), z, 2.1875);
+  if constexpr (kRoot == Root::near) return g * (((1.3125 - 0.3125 * z) * z - 2.1875) * z + 2.1875);
+  return g * ((0.375 * z - 1.25) * z + 1.875);
 }
 
 /// As SlideEach(), of those that FindSliding() tells: a step is little more than the direction of
 /// the friction. From the fifth on 1/|u| is what its last three values let expect, or nearly: the
 /// one of the first step is not, as an impact may have been before it.
-HWY_ATTR HWY_NOINLINE void SlideThrough(SlidingGrains& s, double h,
-                                        std::span<const GrainPush> pushes) {
+template <bool kAlike>
+HWY_ATTR void SlideThrough(SlidingGrains& s, double h, std::span<const GrainPush> pushes) {
   std::array<SlidingRow, 3> roots;
-  const auto slide = [&](std::size_t n, const SlipPush push, auto goes_on) HWY_ATTR {
+  const auto slide = [&]<Root kRoot>(std::size_t n, const SlipPush push,
+                                     std::integral_constant<Root, kRoot>) HWY_ATTR {
     const double* HWY_RESTRICT now_x = s.left_x[n % 2].of;
     const double* HWY_RESTRICT now_y = s.left_y[n % 2].of;
     double* HWY_RESTRICT next_x = s.left_x[(n + 1) % 2].of;
@@ -322,16 +351,16 @@ HWY_ATTR HWY_NOINLINE void SlideThrough(SlidingGrains& s, double h,
     double* HWY_RESTRICT root = roots[n % 3].of;
     SLIPCHECK_EACH_ALONE
     for (std::size_t k = 0; k < s.padded; ++k) {
-      const double px = (now_x[k] - next_x[k]) + (now_x[k] + (now_x[k] + push.twice_x));
-      const double py = (now_y[k] - next_y[k]) + (now_y[k] + (now_y[k] + push.twice_y));
-      const double expected2 = Fused(px, px, py * py);
+      const double px = Ahead(now_x[k], next_x[k], push.ahead_x);
+      const double py = Ahead(now_y[k], next_y[k], push.ahead_y);
+      const double expected2 = px * px + py * py;
       double per_slip;
-      if constexpr (goes_on)
-        per_slip = PerRootNear(expected2, Fused(3, last[k] - before[k], root[k]));
-      else
+      if constexpr (kRoot == Root::by_itself)
         per_slip = PerRoot(expected2);
-      const double lost = s.slides_by.of[k] * per_slip;
-      const double to_x = Fused(-lost, px, now_x[k]), to_y = Fused(-lost, py, now_y[k]);
+      else
+        per_slip = PerRootNear<kRoot>(expected2, 3 * (last[k] - before[k]) + root[k]);
+      const double lost = kAlike ? per_slip : s.slides_by.of[k] * per_slip;
+      const double to_x = now_x[k] - lost * px, to_y = now_y[k] - lost * py;
       next_x[k] = to_x;
       next_y[k] = to_y;
       s.sum_x.of[k] += to_x;
@@ -339,20 +368,27 @@ HWY_ATTR HWY_NOINLINE void SlideThrough(SlidingGrains& s, double h,
       root[k] = per_slip;
     }
   };
-  ForEachStep(pushes, h, [&](std::size_t n, const SlipPush& push) HWY_ATTR {
-    n < 4 ? slide(n, push, std::false_type()) : slide(n, push, std::true_type());
+  ForEachStep(s, h, pushes, [&](std::size_t n, const SlipPush& push) HWY_ATTR {
+    if (n < 4)
+      slide(n, push, std::integral_constant<Root, Root::by_itself>());
+    else if (n + kLastSlides < pushes.size())
+      slide(n, push, std::integral_constant<Root, Root::nearer>());
+    else
+      slide(n, push, std::integral_constant<Root, Root::near>());
   });
 }
 
 /// On a plane that carries them along: no sum over the steps is known, so each is done. The last
 /// `count` of a list, at most kSliding.
-using Slide = void(SlidingGrains& s, double h, std::span<const GrainPush> pushes);
-HWY_ATTR inline void GlideSliding(GrainArrays& g, Slide& slide, SlidingList& list,
+HWY_ATTR inline void GlideSliding(GrainArrays& g, bool through, SlidingList& list,
                                   std::size_t count, const std::vector<GrainKind>& kinds,
                                   const std::vector<GrainRoll>& rolls, double h,
                                   std::span<const GrainPush> pushes) {
   SlidingGrains s;
   const auto grains = list.take(count, g, rolls, s);
+  const bool alike = slide_alike(rolls);
+  const auto slide = through ? (alike ? SlideThrough<true> : SlideThrough<false>)
+                             : (alike ? SlideEach<true> : SlideEach<false>);
   slide(s, h, pushes);
   PutSliding(s, grains, kinds, h, pushes, g);
 }
