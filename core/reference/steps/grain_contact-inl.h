@@ -91,20 +91,18 @@ class GrainContact {
     }
     const bool begins = !pair.touching;
     const Force force = force_of(law, normal, now, n);
+    Force pushed = force;
     if (begins && begun) {
       // The contact has lasted for `part` of the step before now, and gets part h ½ (F_begin + F).
       const Motion before = motion(pair, n, 0);
-      const bool within = before.closing * h_ >= overlap && before.closing > 0;
-      const double part = within ? overlap / (before.closing * h_) : 0;
-      const double first = normal_force_of(law, 0, before.closing);
-      const Force first_force = force_of(law, law.clamped ? std::max(0.0, first) : first, now, n);
-      if (within)
-        push(pair, mix(0.5 * (1 + part), force, 0.5 * part, first_force), n);
-      else
-        push(pair, force, n);
-    } else {
-      push(pair, force, n);
+      if (before.closing * h_ >= overlap && before.closing > 0) {
+        const double part = overlap / (before.closing * h_);
+        const double first = normal_force_of(law, 0, before.closing);
+        const Force first_force = force_of(law, law.clamped ? std::max(0.0, first) : first, now, n);
+        pushed = mix(0.5 * (1 + part), force, 0.5 * part, first_force);
+      }
     }
+    push(pair, pushed, n);
     pair.force = force;
     pair.normal_force = normal;
     pair.touching = true;
@@ -194,7 +192,7 @@ class GrainContact {
             kUneven ? p * f.across_z + q * g.across_z : 0};
   }
 
-  HWY_ATTR void push(const GrainPair& pair, const Force& f, const Direction& n) const {
+  HWY_ATTR HWY_INLINE void push(const GrainPair& pair, const Force& f, const Direction& n) const {
     const std::size_t a = pair.a, b = pair.b;
     s_.fx[a] += f.x;
     s_.fy[a] += f.y;

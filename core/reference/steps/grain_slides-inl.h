@@ -271,14 +271,18 @@ HWY_ATTR HWY_INLINE void ForEachStep(const SlidingGrains& s, double h,
   }
 }
 
-/// A slip in the middle of a step, where it was what was left `before` the last one. Half of a
-/// change is exact, so that one rounding gives the bits of two.
-HWY_ATTR HWY_INLINE double Ahead(double now, double before, double push) {
+/// a·b + c where the product is exact, so that one rounding gives the bits of two.
+HWY_ATTR HWY_INLINE double AddExact(double a, double b, double c) {
 #if HWY_NATIVE_FMA
-  return std::fma(0.5, now - before, now + push);
+  return std::fma(a, b, c);
 #else
-  return (now + push) + 0.5 * (now - before);
+  return c + a * b;
 #endif
+}
+
+/// A slip in the middle of a step, where it was what was left `before` the last one.
+HWY_ATTR HWY_INLINE double Ahead(double now, double before, double push) {
+  return AddExact(0.5, now - before, now + push);
 }
 
 /// One by one.
@@ -322,6 +326,12 @@ HWY_ATTR HWY_INLINE double PerRoot(double x) {
   return root;
 }
 
+/// What follows values that hardly differ, the last one first. Their difference has digits to spare
+/// for the product.
+HWY_ATTR HWY_INLINE double Next(double last, double second, double third) {
+  return AddExact(3, last - second, third);
+}
+
 /// How 1/|u| of a step is found: by itself, or from what its last three values let expect, which is
 /// less than 1e-3 or, as long as friction takes no fortieth of u, 1e-4 off.
 enum class Root { by_itself, near, nearer };
@@ -358,7 +368,7 @@ HWY_ATTR void SlideThrough(SlidingGrains& s, double h, std::span<const GrainPush
       if constexpr (kRoot == Root::by_itself)
         per_slip = PerRoot(expected2);
       else
-        per_slip = PerRootNear<kRoot>(expected2, 3 * (last[k] - before[k]) + root[k]);
+        per_slip = PerRootNear<kRoot>(expected2, Next(last[k], before[k], root[k]));
       const double lost = kAlike ? per_slip : s.slides_by.of[k] * per_slip;
       const double to_x = now_x[k] - lost * px, to_y = now_y[k] - lost * py;
       next_x[k] = to_x;
