@@ -95,6 +95,7 @@ class GrainDrive {
     const double load = kind.weight * kind.inverse_mass * step_;
     const double most = kind.static_friction * load;
     roll.share = kind.share;
+    roll.turn = kind.turn;
     roll.slides_by = kind.kinetic_friction * load / kind.share;
     roll.holds_by = most / kind.share;
     double pushed = 0, jumps = 0;  // the most in a step, and beside what the last two let expect

@@ -165,12 +165,12 @@ HWY_ATTR inline void GlideRolling(GrainArrays& grains, std::size_t first, std::s
 /// On a plane that carries them along. Those that fly stay.
 template <bool kOneKind, bool kLifts>
 HWY_ATTR void GlideDriven(GrainArrays& grains, std::size_t first, std::size_t last,
-                          const std::vector<GrainKind>& kinds, const GrainSteps& steps) {
+                          const GrainSteps& steps) {
   const GrainDriving& driving = *steps.driving;
   const double time = steps.step * static_cast<double>(steps.count);
   SlidingList through, other;
   const auto slide = [&](bool all_through, SlidingList& list, std::size_t count) HWY_ATTR {
-    GlideSliding(grains, all_through, list, count, kinds, driving.rolls, steps.step, driving.steps);
+    GlideSliding(grains, all_through, list, count, driving.rolls, steps.step, driving.steps);
   };
   SlipRows slips;
   for (std::size_t begin = first; begin < last; begin += kSliding) {
@@ -187,8 +187,8 @@ HWY_ATTR void GlideDriven(GrainArrays& grains, std::size_t first, std::size_t la
 }
 
 /// The last `left` of the steps of one that has come down.
-HWY_ATTR inline void GlideLanded(GrainArrays& g, std::size_t i, const std::vector<GrainKind>& kinds,
-                                 const GrainSteps& steps, std::size_t left) {
+HWY_ATTR inline void GlideLanded(GrainArrays& g, std::size_t i, const GrainSteps& steps,
+                                 std::size_t left) {
   const std::vector<GrainRoll>& rolls = steps.driving->rolls;
   const auto pushes = std::span(steps.driving->steps).last(left);
   SlipRows slip;
@@ -196,7 +196,7 @@ HWY_ATTR inline void GlideLanded(GrainArrays& g, std::size_t i, const std::vecto
   FindSliding<false, false>(g, i, i + 1, rolls, pushes.front(), slip);
   slip.maybe[0] = 1;
   alone.add(slip, slip.maybe, i, i + 1);
-  GlideSliding(g, false, alone, 1, kinds, rolls, steps.step, pushes);
+  GlideSliding(g, false, alone, 1, rolls, steps.step, pushes);
 }
 
 /// The next `count` steps of one that flies, or as many as it takes to come down. Returns their
@@ -282,7 +282,7 @@ HWY_ATTR void GlideFlying(const GrainFeatures& has, GrainArrays& g, std::size_t 
     }
     if (left == 0) continue;
     if constexpr (kDriven)
-      GlideLanded(g, i, kinds, steps, left);
+      GlideLanded(g, i, steps, left);
     else
       GlideOn(has, g, i, i + 1, kinds, steps.step, static_cast<double>(left));
   }
@@ -292,12 +292,12 @@ HWY_ATTR GrainSpeeds Glide(const GrainFeatures& features, GrainArrays& grains, s
                            std::size_t last, const std::vector<GrainKind>& kinds,
                            const GrainPlane& plane, const GrainSteps& steps) {
   if (features.driven && features.lifts) {
-    GlideDriven<false, true>(grains, first, last, kinds, steps);
+    GlideDriven<false, true>(grains, first, last, steps);
     GlideFlying<true>(features, grains, first, last, kinds, plane, steps);
   } else if (features.driven && kinds.size() == 1) {
-    GlideDriven<true, false>(grains, first, last, kinds, steps);
+    GlideDriven<true, false>(grains, first, last, steps);
   } else if (features.driven) {
-    GlideDriven<false, false>(grains, first, last, kinds, steps);
+    GlideDriven<false, false>(grains, first, last, steps);
   } else if (!features.on_plane) {
     GlideFreely(grains, first, last, steps.step * static_cast<double>(steps.count));
   } else {

@@ -67,7 +67,7 @@ struct GrainRoll {
   double dvx = 0, dvy = 0;            ///< of the velocity [m/s]
   double x = 0, y = 0;                ///< beside v t [m]
   double last_dvx = 0, last_dvy = 0;  ///< in the last step [m/s]
-  double share = 0;  ///< 1/(1+A): of what the slip loses that the velocity does [-]
+  double share = 0, turn = 0;         ///< see GrainKind
   /// What friction takes of the slip in a step at most, sliding and at rest [m/s].
   double slides_by = 0, holds_by = 0;
   /// The slip beyond which it would slide in each of them, and go on as it did [m/s].

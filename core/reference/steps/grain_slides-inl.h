@@ -101,6 +101,7 @@ struct SlidingGrains {
   SlidingRow slides_by;                      ///< what friction takes of u in a step at most
   SlidingRow slides2, holds2;                ///< squares of that, sliding and at rest
   SlidingRow share;                          ///< of what u loses that v does [-]
+  SlidingRow turn;                           ///< |ΔΩ| for each |Δv| by friction [1/m]
   SlidingRow sticks;
 };
 
@@ -149,6 +150,7 @@ class SlidingList {
       const double holds = roll.holds_by / s.unit;
       std::fill_n(s.holds2.of, some, holds * holds);
       std::fill_n(s.share.of, some, roll.share);
+      std::fill_n(s.turn.of, some, roll.turn);
     } else {
       const std::uint32_t* HWY_RESTRICT kind = g.kind.data();
       const GrainRoll* HWY_RESTRICT table = rolls.data();
@@ -158,6 +160,7 @@ class SlidingList {
         s.slides_by.of[k] = roll.slides_by;
         s.holds2.of[k] = roll.holds_by * roll.holds_by;
         s.share.of[k] = roll.share;
+        s.turn.of[k] = roll.turn;
       }
     }
     const double* HWY_RESTRICT sticks = g.sticks.data();
@@ -193,14 +196,27 @@ class SlidingList {
   double ux_[kRoom], uy_[kRoom], dx_[kRoom], dy_[kRoom];  // [m/s]
 };
 
-HWY_ATTR inline void PutSliding(const SlidingGrains& s, std::span<const std::uint64_t> grains,
-                                const std::vector<GrainKind>& kinds, double h,
+/// After the steps. Where slips were are what friction took from v then, where their sums were its
+/// part in the way, and where the last but one was what it took in the last step.
+HWY_ATTR inline void PutSliding(SlidingGrains& s, std::span<const std::uint64_t> grains,
+                                const std::vector<GrainRoll>& rolls, double h,
                                 std::span<const GrainPush> pushes, GrainArrays& g) {
   const GrainPush& last = pushes.back();
-  const double ax = h * last.slope_x, ay = h * last.slope_y;
   const auto count = static_cast<double>(pushes.size());
-  const double drift = 0.5 * count * (count + 1);
-  const std::size_t now = pushes.size() % 2, before = 1 - now;
+  const double ax = h * last.slope_x, ay = h * last.slope_y, time = h * count;
+  const double gain_x = count * ax, gain_y = count * ay, drift = 0.5 * time * (count + 1);
+  const SlidingRow &left_x = s.left_x[pushes.size() % 2], &left_y = s.left_y[pushes.size() % 2];
+  SlidingRow &lost_x = s.left_x[1 - pushes.size() % 2], &lost_y = s.left_y[1 - pushes.size() % 2];
+  SLIPCHECK_EACH_ALONE
+  for (std::size_t k = 0; k < s.padded; ++k) {
+    const double share = s.share.of[k] * s.unit, of_way = h * share;
+    s.sum_x.of[k] = drift * ax - of_way * (count * s.ux.of[k] - s.sum_x.of[k]);
+    s.sum_y.of[k] = drift * ay - of_way * (count * s.uy.of[k] - s.sum_y.of[k]);
+    s.ux.of[k] = share * (s.ux.of[k] - left_x.of[k]);
+    s.uy.of[k] = share * (s.uy.of[k] - left_y.of[k]);
+    lost_x.of[k] = share * (lost_x.of[k] - left_x.of[k]);
+    lost_y.of[k] = share * (lost_y.of[k] - left_y.of[k]);
+  }
   double* HWY_RESTRICT x = g.x.data();
   double* HWY_RESTRICT y = g.y.data();
   double* HWY_RESTRICT vx = g.vx.data();
@@ -213,35 +229,27 @@ HWY_ATTR inline void PutSliding(const SlidingGrains& s, std::span<const std::uin
   double* HWY_RESTRICT dwy = g.dwy.data();
   double* HWY_RESTRICT sticks = g.sticks.data();
   const std::uint32_t* HWY_RESTRICT kind = g.kind.data();
-  const GrainKind* HWY_RESTRICT table = kinds.data();
+  const GrainRoll* HWY_RESTRICT table = rolls.data();
   const std::uint64_t* HWY_RESTRICT grain = grains.data();
   SLIPCHECK_EACH_ALONE
   for (std::size_t k = 0; k < grains.size(); ++k) {
     const std::size_t i = grain[k];
-    const bool rolls = s.sticks.of[k] > 0;
-    const double turn = table[kind[i]].turn, R = table[kind[i]].radius;
-    const double share = s.share.of[k] * s.unit;
-    const double left_x = s.left_x[now].of[k], left_y = s.left_y[now].of[k];
-    const double sx = share * (s.ux.of[k] - left_x);  // what v has lost
-    const double sy = share * (s.uy.of[k] - left_y);
-    const double lost_x = share * (s.left_x[before].of[k] - left_x);  // in the last step
-    const double lost_y = share * (s.left_y[before].of[k] - left_y);
-    const double ex = vx[i] + (count * ax - sx), ey = vy[i] + (count * ay - sy);
-    const double turned_x = wx[i] - turn * sy, turned_y = wy[i] + turn * sx;
-    const double rolling_x = -(ey - last.plane_y) / R, rolling_y = (ex - last.plane_x) / R;
-    const double tx = share * (count * s.ux.of[k] - s.sum_x.of[k]);
-    const double ty = share * (count * s.uy.of[k] - s.sum_y.of[k]);
-    x[i] += h * (count * vx[i] + drift * ax - tx);
-    y[i] += h * (count * vy[i] + drift * ay - ty);
-    vx[i] = ex;
-    vy[i] = ey;
-    wx[i] = rolls ? rolling_x : turned_x;
-    wy[i] = rolls ? rolling_y : turned_y;
-    dvx[i] = ax - lost_x;
-    dvy[i] = ay - lost_y;
-    dwx[i] = -turn * lost_y;
-    dwy[i] = turn * lost_x;
+    const double turn = s.turn.of[k];
+    x[i] += time * vx[i] + s.sum_x.of[k];
+    y[i] += time * vy[i] + s.sum_y.of[k];
+    vx[i] += gain_x - s.ux.of[k];
+    vy[i] += gain_y - s.uy.of[k];
+    wx[i] -= turn * s.uy.of[k];
+    wy[i] += turn * s.ux.of[k];
+    dvx[i] = ax - lost_x.of[k];
+    dvy[i] = ay - lost_y.of[k];
+    dwx[i] = -turn * lost_y.of[k];
+    dwy[i] = turn * lost_x.of[k];
     sticks[i] = s.sticks.of[k];
+    if (!(sticks[i] > 0)) continue;
+    const double per_radius = table[kind[i]].per_radius;
+    wx[i] = -(vy[i] - last.plane_y) * per_radius;
+    wy[i] = (vx[i] - last.plane_x) * per_radius;
   }
 }
 
@@ -391,8 +399,7 @@ HWY_ATTR void SlideThrough(SlidingGrains& s, double h, std::span<const GrainPush
 /// On a plane that carries them along: no sum over the steps is known, so each is done. The last
 /// `count` of a list, at most kSliding.
 HWY_ATTR inline void GlideSliding(GrainArrays& g, bool through, SlidingList& list,
-                                  std::size_t count, const std::vector<GrainKind>& kinds,
-                                  const std::vector<GrainRoll>& rolls, double h,
+                                  std::size_t count, const std::vector<GrainRoll>& rolls, double h,
                                   std::span<const GrainPush> pushes) {
   SlidingGrains s;
   const auto grains = list.take(count, g, rolls, s);
@@ -400,7 +407,7 @@ HWY_ATTR inline void GlideSliding(GrainArrays& g, bool through, SlidingList& lis
   const auto slide = through ? (alike ? SlideThrough<true> : SlideThrough<false>)
                              : (alike ? SlideEach<true> : SlideEach<false>);
   slide(s, h, pushes);
-  PutSliding(s, grains, kinds, h, pushes, g);
+  PutSliding(s, grains, rolls, h, pushes, g);
 }
 
 }  // namespace HWY_NAMESPACE
