@@ -43,11 +43,10 @@ struct alignas(64) SlidingRow {
   double of[kSliding + 8];
 };
 
-/// Of grains in a row, at most kSliding.
+/// Of grains in a row, at most kSliding: slips u, and what the last step changed of them beside the
+/// plane's motion in the next [m/s].
 struct SlipRows {
-  SlidingRow ux, uy;  ///< slip u [m/s]
-  SlidingRow dx,
-      dy;  ///< what the last step changed of it beside the plane's motion in the next [m/s]
+  SlidingRow ux, uy, dx, dy;
   /// 1: it slides in all of the steps, and friction against the slip that the last one lets expect;
   /// it slides, but maybe not so. Else it rolls or flies.
   std::array<std::uint64_t, kSliding> through, maybe;
@@ -170,7 +169,7 @@ class SlidingList {
     for (SlidingRow* row : {&s.slides_by, &s.holds2, &s.share, &s.sticks})
       std::fill(row->of + some, row->of + s.padded, 0.0);
     for (std::size_t k = count_ + some; k < count_ + s.padded; ++k) {
-      ux_[k] = 1;  // a slip that has a direction
+      ux_[k] = 1e6 * s.unit;  // a slip that lasts
       uy_[k] = dx_[k] = dy_[k] = 0;
     }
     const double* HWY_RESTRICT ux = ux_ + count_;
@@ -196,8 +195,8 @@ class SlidingList {
   double ux_[kRoom], uy_[kRoom], dx_[kRoom], dy_[kRoom];  // [m/s]
 };
 
-/// After the steps. Where slips were are what friction took from v then, where their sums were its
-/// part in the way, and where the last but one was what it took in the last step.
+/// After the steps, which are read no more: what friction took from v takes the place of the first
+/// slips, that of the last step the place of the step before, and ways take that of the sums.
 HWY_ATTR inline void PutSliding(SlidingGrains& s, std::span<const std::uint64_t> grains,
                                 const std::vector<GrainRoll>& rolls, double h,
                                 std::span<const GrainPush> pushes, GrainArrays& g) {
