@@ -48,6 +48,17 @@ class GrainRuns {
     return all;
   }
 
+  /// Has those of grains first … last − 1, the share of thread `own`, of which something will be
+  /// given back roll until then: that costs least. On all threads at once.
+  void let_roll(std::size_t own, std::size_t first, std::size_t last, const ThreadTeam& team,
+                GrainArrays& grains) const {
+    for (const GrainIslandPart& part : islands_->parts()) {
+      if (part.stretch != own && part.stretch != team.size()) continue;
+      for (const std::uint32_t i : part.grains)
+        if (first <= i && i < last) grains.sticks[i] = 1;
+    }
+  }
+
   /// What came of grains first … last − 1, the share of thread `own`, and contacts of as large a
   /// share of the groups, for which these must have been renewed. On all threads at once.
   void give_back(std::size_t own, std::size_t first, std::size_t last, const ThreadTeam& team,

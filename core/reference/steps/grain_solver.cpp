@@ -276,6 +276,7 @@ class GrainSolver::Impl {
     const bool alone = (n_ == 0 && features().on_plane) || (features().driven && features().rolls);
     std::vector<GrainSpeeds> gliding(team_.size());
     team_.run_shares(grains_.size(), [&](std::size_t own, std::size_t first, std::size_t last) {
+      if (features().driven) runs_.let_roll(own, first, last, team_, grains_);
       gliding[own] = alone ? step_alone(first, last, length)
                            : kernels_.glide(grains_, first, last, steps_of(length));
       runs_.give_back(own, first, last, team_, grains_, contacts_);
