@@ -20,7 +20,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace slipcheck {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// What a plane that is not driven does in every step.
 inline constexpr GrainPush kNoPush;

@@ -34,6 +34,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace slipcheck {
 namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
 
 /// How many slide at once, in the nearest cache; a step reads and writes ten rows.
 inline constexpr std::size_t kSliding = 256;
@@ -49,7 +50,7 @@ struct SlipRows {
   SlidingRow ux, uy, dx, dy;
   /// 1: it slides in all of the steps, and friction against the slip that the last one lets expect;
   /// it slides, but maybe not so. Else it rolls or flies.
-  std::array<std::uint64_t, kSliding> through, maybe;
+  alignas(64) std::array<std::uint64_t, kSliding> through, maybe;
 };
 
 /// Of the grains first … last − 1 before steps of which `push` is the first.
@@ -87,6 +88,8 @@ HWY_ATTR inline void FindSliding(const GrainArrays& grains, std::size_t first, s
     slips.through[k] = (slides & through) ? 1 : 0;
     slips.maybe[k] = (slides & !through) ? 1 : 0;
   }
+  std::fill(slips.through.begin() + (last - first), slips.through.end(), 0);
+  std::fill(slips.maybe.begin() + (last - first), slips.maybe.end(), 0);
 }
 
 /// Those that slide, or come to roll, and what is known of them from step to step. Of the slip u
@@ -117,23 +120,28 @@ class SlidingList {
   /// Those of grains first … last − 1 that are `among` them.
   HWY_ATTR void add(const SlipRows& slips, const std::array<std::uint64_t, kSliding>& among,
                     std::size_t first, std::size_t last) {
-    std::size_t all = count_;
-    for (std::size_t i = first; i < last; ++i) {
-      grain_[all] = i;
-      all += among[i - first];
+    const hn::CappedTag<std::uint64_t, 8> d;
+    const std::size_t lanes = hn::Lanes(d);
+    std::size_t count = count_;
+    // Which are is written down without a branch for some, then read.
+    constexpr std::size_t kAtOnce = 64;
+    for (std::size_t k = 0; k < last - first; k += kAtOnce) {
+      std::uint64_t all = 0;
+      for (std::size_t at = 0; at < kAtOnce; at += lanes) {
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(d, hn::Ne(hn::Load(d, among.data() + k + at), hn::Zero(d)), bits);
+        all |= std::uint64_t{bits[0]} << at;
+      }
+      for (; all != 0; all &= all - 1, ++count) {
+        const std::size_t at = k + static_cast<std::size_t>(std::countr_zero(all));
+        grain_[count] = first + at;
+        ux_[count] = slips.ux.of[at];
+        uy_[count] = slips.uy.of[at];
+        dx_[count] = slips.dx.of[at];
+        dy_[count] = slips.dy.of[at];
+      }
     }
-    const double* HWY_RESTRICT ux = slips.ux.of;
-    const double* HWY_RESTRICT uy = slips.uy.of;
-    const double* HWY_RESTRICT dx = slips.dx.of;
-    const double* HWY_RESTRICT dy = slips.dy.of;
-    for (std::size_t k = count_; k < all; ++k) {
-      const std::size_t at = grain_[k] - first;
-      ux_[k] = ux[at];
-      uy_[k] = uy[at];
-      dx_[k] = dx[at];
-      dy_[k] = dy[at];
-    }
-    count_ = all;
+    count_ = count;
   }
   /// The last `some`, in no list any more then. Their indices stay until others are added.
   HWY_ATTR std::span<const std::uint64_t> take(std::size_t some, const GrainArrays& g,
