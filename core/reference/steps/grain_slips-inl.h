@@ -91,7 +91,7 @@ HWY_ATTR inline void FindSliding(const GrainArrays& grains, std::size_t first, s
 }
 
 /// Those that slide, or come to roll, and what is known of them from step to step. Of the slip u
-/// only what friction takes is kept for each: what pushes give is the same for all.
+/// only what friction leaves of it is kept for each: what pushes give is the same for all.
 struct SlidingGrains {
   std::size_t padded = 0;                    ///< so many, in vectors and nothing beside
   double unit = 1;                           ///< of velocities here [m/s]
