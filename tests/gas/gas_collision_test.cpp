@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 
+#include "../support/instruction_set.h"
 #include "gases.h"
 #include "physics/contact/collision.h"
 
@@ -144,16 +144,15 @@ TEST(GasCollision, ThreadsChangeNoBitAndSeedsDo) {
 TEST(GasCollision, InstructionSetsChangeNoBit) {
   GasLaw bridges = test::rough(1, 0.3, 0.2);
   bridges.hard.restitution = PowerLawRestitution{};
-  const std::int64_t all = hwy::SupportedTargets() | HWY_SCALAR;
   std::size_t sets = 0;
   for (const int D : {2, 3})
     for (const GasLaw& law : {test::smooth(0.9), test::rough(0.9, 0.5, 0.3), bridges}) {
       GasSetup setup = test::small_gas(D, 4096);
       setup.rotation = 1;
       std::vector<BodyState> first;
-      for (std::int64_t left = all; left != 0; left &= left - 1, ++sets) {
-        hwy::SetSupportedTargetsForTest(left & -left);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+      for (const std::int64_t target : test::InstructionSet::all()) {
+        const test::InstructionSet set(target);
+        ++sets;
         Gas gas(setup, law);
         for (int step = 0; step < 10; ++step) gas.advance();
         const std::vector<BodyState> now = particles(gas);
@@ -162,8 +161,6 @@ TEST(GasCollision, InstructionSetsChangeNoBit) {
       }
     }
   EXPECT_GE(sets, 2u * 6);
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 TEST(GasCollision, LargestAndSmallestNumbersOfParticlesAreTaken) {

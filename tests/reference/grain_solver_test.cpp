@@ -1,7 +1,6 @@
 #include "reference/steps/grain_solver.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "../support/extremes.h"
+#include "../support/instruction_set.h"
 #include "planar_scenes.h"
 #include "reference/steps/grain_blocks.h"
 #include "reference/steps/grain_scene.h"
@@ -726,20 +726,16 @@ TEST_P(GrainKernelsFor, SameBitsOnEveryInstructionSet) {
     scene.hard.downhill = {0.2, 0};
     scene.hard.motion = SubstrateMotion::oscillation({0.1, 0.2}, 1, 0);
   }
-  const std::int64_t all = hwy::SupportedTargets();
   std::vector<BodyState> first;
-  for (std::int64_t left = all; left != 0; left &= left - 1) {
-    hwy::SetSupportedTargetsForTest(left & -left);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  for (const std::int64_t target : test::InstructionSet::all()) {
+    const test::InstructionSet set(target);
     GrainSolver solver(scene, scene.hard.initial, 2e-4);
     solver.advance(1500);
     Frame frame;
     solver.show(frame);
     if (first.empty()) first = frame.bodies;
-    EXPECT_EQ(largest_difference(first, frame.bodies), 0) << hwy::TargetName(left & -left);
+    EXPECT_EQ(largest_difference(first, frame.bodies), 0) << hwy::TargetName(target);
   }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GrainKernelsFor,

@@ -1,7 +1,6 @@
 #include "reference/pair/pair_batch.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/instruction_set.h"
 #include "../support/refusal.h"
 #include "free_collision.h"
 #include "physics/contact/elastic_pair.h"
@@ -72,21 +72,6 @@ std::vector<Case> all_laws() {
                          {normal, end, tangential}});
   return cases;
 }
-
-/// As long as it lives, batches use this instruction set.
-class ForcedTarget {
- public:
-  explicit ForcedTarget(int64_t target) { set(target); }
-  ~ForcedTarget() { set(0); }
-  ForcedTarget(const ForcedTarget&) = delete;
-  ForcedTarget& operator=(const ForcedTarget&) = delete;
-
- private:
-  static void set(int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
 
 bool same_bits(const std::vector<PairCollision>& a, const std::vector<PairCollision>& b) {
   return a.size() == b.size() &&
@@ -285,14 +270,13 @@ TEST(PairBatch, AllInstructionSetsGiveTheSameBits) {
   for (int k = 0; k < 9; ++k) g_t.push_back(0.01 * std::pow(1.7, k));
   const Speeds speeds(g_n, g_t);
   std::set<std::string> targets;
-  for (const Case& test : all_laws()) {
-    const std::vector<PairCollision> best = speeds.collide(test.contact, 64);
-    for (const int64_t target : {HWY_SCALAR, HWY_SSE4, HWY_NEON, HWY_AVX2, HWY_AVX3}) {
-      if (target != HWY_SCALAR && (hwy::SupportedTargets() & target) == 0) continue;
-      const ForcedTarget forced(target);
+  for (const Case& each : all_laws()) {
+    const std::vector<PairCollision> best = speeds.collide(each.contact, 64);
+    for (const std::int64_t target : test::InstructionSet::all()) {
+      const test::InstructionSet set(target);
       targets.insert(batch_target());
-      EXPECT_TRUE(same_bits(speeds.collide(test.contact, 64), best))
-          << test.name << ", " << batch_target();
+      EXPECT_TRUE(same_bits(speeds.collide(each.contact, 64), best))
+          << each.name << ", " << batch_target();
     }
   }
 #ifdef SLIPCHECK_SANITIZE

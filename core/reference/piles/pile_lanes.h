@@ -92,8 +92,8 @@ class PileLaneContacts {
 
  private:
   static constexpr std::size_t kLanes = PileLanes::kCount;
-  /// Contacts that are taken on together: they and their bodies fit into the nearest cache.
-  static constexpr std::size_t kInGroup = 32;
+  /// Contacts that are taken on together: their forces lie in the nearest caches when they act.
+  static constexpr std::size_t kInGroup = 256;
   static bool bit(std::uint8_t bits, std::size_t k) { return bits >> k % kLanes & 1; }
   void put(const PileNear& near, const Contact& contact);
 
