@@ -45,7 +45,7 @@ class GrainContacts {
   /// next one.
   void find_hit(std::vector<std::uint32_t>& hit) const {
     hit = parted_;
-    for (const Contact& contact : touching_) hit.push_back(contact.a);
+    for (const Known& known : known_) hit.push_back(known.a);
   }
 
   /// The list has sorted the grains.
@@ -66,17 +66,14 @@ class GrainContacts {
     for_each(team, [&](Contact& contact) {
       contact.listed = list.place_of(contact.a, contact.b, contact.wall);
     });
-    remember(list, team);
+    remember(list);
   }
 
   /// Where the contact of a pair of the list is found; after exchange() with the list.
-  void remember(const GrainNeighbours& list, ThreadTeam& team) {
+  void remember(const GrainNeighbours& list) {
     contact_of_.resize(list.first().size());
-    team.run_shares(contact_of_.size(), [&](std::size_t, std::size_t first, std::size_t last) {
-      std::fill(contact_of_.begin() + static_cast<std::ptrdiff_t>(first),
-                contact_of_.begin() + static_cast<std::ptrdiff_t>(last), kNone);
-    });
-    for (std::uint32_t c = 0; c < touching_.size(); ++c) contact_of_[touching_[c].listed] = c;
+    known_.resize(touching_.size());
+    for (std::uint32_t c = 0; c < touching_.size(); ++c) name(touching_[c], c);
   }
 
   /// The batch becomes a group, with what its contacts remember; `in`, first: as in its hold(). On
@@ -97,9 +94,8 @@ class GrainContacts {
 
   /// Forgets all and makes room for so many.
   void renew(std::size_t count) {
-    for (const Contact& contact : touching_) contact_of_[contact.listed] = kNone;
-    touching_.clear();
     touching_.resize(count);
+    known_.resize(count);
     parted_.clear();
   }
 
@@ -120,7 +116,7 @@ class GrainContacts {
   void keep(std::span<const Contact> touching, std::size_t c) {
     for (const Contact& contact : touching) {
       touching_[c] = contact;
-      contact_of_[contact.listed] = static_cast<std::uint32_t>(c++);
+      name(contact, c++);
     }
   }
 
@@ -129,7 +125,20 @@ class GrainContacts {
   }
 
  private:
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  /// What a contact is known by.
+  struct Known {
+    std::uint32_t listed, a;
+  };
+
+  void name(const Contact& contact, std::size_t c) {
+    known_[c] = {contact.listed, contact.a};
+    contact_of_[contact.listed] = static_cast<std::uint32_t>(c);
+  }
+  /// Null: none.
+  const Contact* contact_of(std::uint32_t listed) const {
+    const std::uint32_t c = contact_of_[listed];
+    return c < known_.size() && known_[c].listed == listed ? &touching_[c] : nullptr;
+  }
 
   template <class Work>
   void for_each(ThreadTeam& team, Work&& work) {
@@ -142,11 +151,11 @@ class GrainContacts {
   void take(std::uint32_t listed, const GrainNeighbours& list, const GrainArrays& grains,
             GrainPair& pair) const {
     const GrainPlane& plane = kernels_->plane();
-    const std::uint32_t contact = contact_of_[listed];
-    pair.touching = contact != kNone;
-    if (pair.touching) {
-      pair.normal_force = touching_[contact].normal_force;
-      pair.force = touching_[contact].force;
+    const Contact* contact = contact_of(listed);
+    pair.touching = contact != nullptr;
+    if (contact) {
+      pair.normal_force = contact->normal_force;
+      pair.force = contact->force;
     }
     pair.parted_in = 0;
     const std::uint32_t i = list.first()[listed], j = list.second()[listed];
@@ -167,7 +176,10 @@ class GrainContacts {
   std::size_t materials_;
   std::vector<Contact> touching_;
   std::vector<std::uint32_t> parted_;      ///< a grain of each two that did in the last step
-  std::vector<std::uint32_t> contact_of_;  ///< of a pair of the list, in touching_ or kNone
+  std::vector<Known> known_;               ///< of touching_
+  /// Of a pair of the list, in touching_, if that is known by the pair: else it is left from a
+  /// contact that has ended, as clearing these would go through the caches of all threads.
+  std::vector<std::uint32_t> contact_of_;
 };
 
 }  // namespace slipcheck

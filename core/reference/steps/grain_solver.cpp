@@ -104,7 +104,7 @@ class GrainSolver::Impl {
   void exchange(StateArchive& archive) {
     archive(grains_, places_.cell_x, places_.cell_y, places_.body, n_, collisions_, blocks_,
             neighbours_, contacts_);
-    contacts_.remember(neighbours_, team_);
+    contacts_.remember(neighbours_);
   }
 
   double now() const { return static_cast<double>(n_) * step_; }
