@@ -175,8 +175,8 @@ class GrainContacts {
   const GrainKernels* kernels_;
   std::size_t materials_;
   std::vector<Contact> touching_;
-  std::vector<std::uint32_t> parted_;      ///< a grain of each two that did in the last step
-  std::vector<Known> known_;               ///< of touching_
+  std::vector<std::uint32_t> parted_;  ///< a grain of each two that did in the last step
+  std::vector<Known> known_;           ///< of touching_
   /// Of a pair of the list, in touching_, if that is known by the pair: else it is left from a
   /// contact that has ended, as clearing these would go through the caches of all threads.
   std::vector<std::uint32_t> contact_of_;

@@ -8,10 +8,12 @@ namespace {
 
 /// Grains of a group: with their pairs some 30 kB.
 constexpr std::size_t kGroup = 128;
-/// Where threads share them each begins at a multiple of kApart, so that no line of the cache has
-/// numbers of two. Up to kForThread for each thread are of equal size, as many for each, and
-/// kFewApart, in another page of memory: what the processor asks for ahead goes no further.
-constexpr std::size_t kForThread = 4, kApart = 16, kFewApart = 512;
+/// Where threads share them, up to so many for each are of equal size, as many for each.
+constexpr std::size_t kForThread = 4;
+/// And each begins at a multiple of kApart, so that no line of the cache has numbers of two. Those
+/// of kPaged grains or fewer do so in a page of memory of their own, beyond which no processor asks
+/// for ahead, and one line further each, as what lies pages apart shares places in its cache.
+constexpr std::size_t kApart = 16, kPaged = 8192, kPageApart = 520;
 
 }  // namespace
 
@@ -179,11 +181,11 @@ void GrainIslands::place(const GrainPairs& pairs, Share& share) {
 void GrainIslands::make_groups(std::size_t threads) {
   const std::size_t grains = grain_count();
   const bool are_few = threads > 1 && grains <= kForThread * threads * kGroup;
-  std::size_t most = kGroup, apart = threads > 1 ? kApart : 1;
+  std::size_t most = kGroup, apart = 1;
+  if (threads > 1) apart = grains <= kPaged ? kPageApart : kApart;
   if (are_few) {
     const std::size_t groups = threads * (grains / (threads * kGroup) + 1);
     most = (grains + groups - 1) / groups;
-    apart = kFewApart;
     reserve_joined(grains);
   }
   groups_.clear();
