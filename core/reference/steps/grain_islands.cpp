@@ -15,6 +15,10 @@ constexpr std::size_t kForThread = 4;
 /// for ahead, and one line further each, as what lies pages apart shares places in its cache.
 constexpr std::size_t kApart = 16, kPaged = 8192, kPageApart = 520;
 
+std::size_t next_multiple(std::size_t from, std::size_t factor) {
+  return (from + factor - 1) / factor * factor;
+}
+
 }  // namespace
 
 std::size_t GrainIslands::grain_count() const {
@@ -193,7 +197,7 @@ void GrainIslands::make_groups(std::size_t threads) {
   std::size_t before = 0, held = 0;  // grains before the next group, and of its pieces
   const auto close = [&] {
     if (held == 0) return;
-    before += -before % apart;
+    before = next_multiple(before, apart);
     pieces_.size() == 1 ? take(pieces_.front(), before) : join(pieces_, before);
     before += held + 1;
     held = 0;
@@ -213,7 +217,7 @@ void GrainIslands::make_groups(std::size_t threads) {
     if (!are_few) close();
   }
   close();
-  grain_places_ = before + -before % apart;  // what lies behind belongs to another thread
+  grain_places_ = next_multiple(before, apart);  // what lies behind belongs to another thread
 }
 
 /// A group of islands of one share, where they lie.
