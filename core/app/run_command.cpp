@@ -292,6 +292,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       "Go on from what --checkpoint has kept, with the same results of the reference; "
       "without any from the start");
   add_set_option(*command, arguments->settings);
+  add_ranks_option(*command, arguments->settings);
   add_general_option(*command, arguments->options.general);
   command->add_flag("--all", arguments->all,
                     "Show every observable, not only those with a tolerance");

@@ -28,6 +28,15 @@ void add_set_option(CLI::App& command, std::vector<std::string>& written) {
       ->allow_extra_args(false);
 }
 
+void add_ranks_option(CLI::App& command, std::vector<std::string>& written) {
+  command
+      .add_option_function<unsigned>(
+          "--ranks",
+          [&written](unsigned ranks) { written.push_back(fmt::format("ranks={}", ranks)); },
+          "Processes that share a scene, of engines that can (lammps): as --set ranks=N")
+      ->check(CLI::Range(1, 1000000));
+}
+
 Settings parse_settings(const std::vector<std::string>& written) {
   Settings settings;
   for (const std::string& each : written) {

@@ -11,6 +11,9 @@ namespace slipcheck {
 /// Adds `--set name=value`, which may be given several times.
 void add_set_option(CLI::App& command, std::vector<std::string>& written);
 
+/// Adds `--ranks N`, which is `--set ranks=N`.
+void add_ranks_option(CLI::App& command, std::vector<std::string>& written);
+
 /// {"erp=0.3", "split_impulse=false", "solver=nncg"} as settings: true, false, numbers, else words.
 /// Throws BadOption for what is not of this form and for names that are given twice.
 Settings parse_settings(const std::vector<std::string>& written);

@@ -168,8 +168,8 @@ class Whole(unittest.TestCase):
         code, said, wrong = self.run_it(*words)
         self.assertEqual(code, 2, said + wrong)
         self.assertIn("must not be there yet; --resume goes on from it", wrong)
-        code, said, wrong = self.run_it(*words, "--resume", "--set", "ranks=2" if "lammps" in words
-                                        else "erp2=0.3")
+        other = ("--ranks", "2") if "lammps" in words else ("--set", "erp2=0.3")
+        code, said, wrong = self.run_it(*words, "--resume", *other)
         self.assertEqual(code, 2, said + wrong)
         self.assertIn("settings of engines", wrong)
         code, said, wrong = self.run_it(*words, "--resume", "--json", "out.json")
