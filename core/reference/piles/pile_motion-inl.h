@@ -128,6 +128,9 @@ class PileMove {
   static constexpr std::size_t kMass = offsetof(PileBody, mass) / sizeof(double);
   static constexpr std::size_t kLoad = offsetof(PileBody, load) / sizeof(double);
   static constexpr std::size_t kRounded = offsetof(PileBody, rounded) / sizeof(double);
+  static_assert(kVelocity == kPosition + 3 && kChange == kVelocity + 6 && kForce == kChange + 6 &&
+                kMass == kForce + 6 && kRounded + 7 <= sizeof(PileBody) / sizeof(double) &&
+                offsetof(NearSphere, radius) == 3 * sizeof(double));
 
   Four h_, kick_, gravity_, drift_, keep_;
   bool drags_;
