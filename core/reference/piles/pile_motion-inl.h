@@ -79,11 +79,8 @@ class PileMove {
         kick_(Four::all(world.started ? world.step : 0.5 * world.step)),
         gravity_(Four::of_space(world.gravity)),
         drift_(Four::of_space(drift)),
-        keep_(Four::all(1)) {
-    const double drag = 0.5 * world.step * world.drag;
-    drags_ = drag > 0;
-    keep_ = Four::all((1 - drag) / (1 + drag));
-  }
+        keep_(Four::all((1 - dragged(world)) / (1 + dragged(world)))),
+        drags_(world.drag > 0) {}
 
   /// What is written over with the fourth number of a vector is the first of the next.
   HWY_INLINE void run(double* b, NearSphere& sphere, PileSpeed& fastest) const {
@@ -131,6 +128,9 @@ class PileMove {
   static_assert(kVelocity == kPosition + 3 && kChange == kVelocity + 6 && kForce == kChange + 6 &&
                 kMass == kForce + 6 && kRounded + 7 <= sizeof(PileBody) / sizeof(double) &&
                 offsetof(NearSphere, radius) == 3 * sizeof(double));
+
+  /// Half of what drag takes of a velocity in a step, as a part of it.
+  static double dragged(const PileWorld& world) { return 0.5 * world.step * world.drag; }
 
   Four h_, kick_, gravity_, drift_, keep_;
   bool drags_;
